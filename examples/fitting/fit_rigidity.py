@@ -92,7 +92,7 @@ def main() -> None:
     print(f"true     {true * 1e6:.3f} N·mm²")
     print(f"fitted   {found.rigidity * 1e6:.3f} ± {found.deviation * 1e6:.3f} N·mm²")
     points = 2 * (STATIONS - 2)
-    print(f"from {points} points with {noise * 1e3} mm of noise, {found.evaluations} trials")
+    print(f"from {points} points with {noise * 1e3} mm of noise")
 
 
 if __name__ == "__main__":

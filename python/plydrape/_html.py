@@ -308,6 +308,10 @@ def ply(ply: Ply) -> str:
     return card("flat", "Ply", picture.svg(), pairs(rows))
 
 
+# A curvature (1/m) of a fold: where the moment is a curve, the card says its value there.
+BENT = 20.0
+
+
 def material(material: Material) -> str:
     """The numbers of a material."""
     area = "²" if material.areal else ""
@@ -317,6 +321,11 @@ def material(material: Material) -> str:
     if material.bending_rigidity is not None:
         warp, weft = material.bending_rigidity
         rows["bending rigidity"] = f"{warp:.4g} N·m along warp, {weft:.4g} N·m along weft"
+        bent = material.moment([BENT])
+        if bent is not None and not np.allclose(bent[0], np.multiply(BENT, (warp, weft))):
+            rows["bending rigidity"] += ", at rest"
+            warp, weft = bent[0]
+            rows[f"moment at {BENT:g} 1/m"] = f"{warp:.4g} N along warp, {weft:.4g} N along weft"
     if material.locking_angle is not None:
         rows["locking angle"] = f"{np.rad2deg(material.locking_angle):.4g}°"
     rows["source"] = material.source

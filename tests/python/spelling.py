@@ -55,9 +55,13 @@ STEMS = {
     "cancelled": "canceled",
     "programme": "program",
     "aluminium": "aluminum",
+    "misspelt": "misspelled",
+    "signalled": "signaled",
+    "travelled": "traveled",
 }
 # words whose ending differs
 CENTRED = re.compile(r"\bcentred\b", re.I)
+PER_CENT = re.compile(r"\bper cent\b", re.I)
 BEFORE_ISE = (
     "organ|recogn|normal|optim|initial|minim|maxim|vector|linear|symmetr|discret|summar|serial|"
     "special|util|visual"
@@ -73,6 +77,7 @@ ANCHOR = re.compile(r"(?<=#)[^)]*(?=\)$)")
 
 def spelled(text: str) -> str:
     """The text in the spelling of the United States."""
+    text = PER_CENT.sub(lambda found: like(found[0], "percent"), text)
     text = ISE.sub(r"\1iz\2", CENTRED.sub(lambda found: like(found[0], "centered"), text))
     return WORD.sub(lambda found: stem(found[0]), text)
 

@@ -151,3 +151,34 @@ def test_every_public_name_of_the_package_is_on_its_page() -> None:
         assert f"### `plydrape.batch.{name}`" in page, name
     for name in plydrape.study.__all__:
         assert f"### `plydrape.study.{name}`" in page, name
+
+
+# How a program or a library that a test compares with stands in the table.
+PEERS = {
+    "calculix": "CalculiX",
+    "ezdxf": "ezdxf",
+    "meshio": "meshio",
+    "mujoco": "MuJoCo",
+    "pypdf": "pypdf",
+    "rosbags": "rosbags",
+    "scipy": "SciPy",
+    "toppra": "TOPP-RA",
+    "vtk": "VTK",
+    "yaml": "PyYAML",
+}
+IMPORT = re.compile(r"""(?:^\s*(?:import|from) |(?:importorskip|import_module)\(")(\w+)""", re.M)
+
+
+def test_every_program_that_tests_compare_with_is_in_the_table() -> None:
+    """Of a new peer the table of the validation has a row."""
+    files = [*(ROOT / "tests" / "python").glob("*.py"), *(ROOT / "benches" / "peers").glob("*.py")]
+    named = {name for file in files for name in IMPORT.findall(file.read_text(encoding="utf-8"))}
+    assert named & set(PEERS) > {"calculix", "scipy", "toppra"}
+    for name in named & set(PEERS):
+        assert PEERS[name] in VALIDATION, name
+
+
+def test_the_validation_says_that_no_drape_was_measured() -> None:
+    """As long as no row of the table is a measured drape; README says it too."""
+    assert "**No measured drape is among them.**" in VALIDATION
+    assert "**No measured drape is among the comparisons yet.**" in README

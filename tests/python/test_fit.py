@@ -146,6 +146,37 @@ def test_a_broken_table_is_refused_with_a_remedy(tmp_path: Path, text: str, mess
     assert "help:" in done.stderr
 
 
+PULL = [(4, 0.088), (8, 0.191), (12, 0.314), (16, 0.474), (20, 0.689), (24, 0.998), (28, 1.405)]
+
+
+def test_a_table_of_a_laboratory_says_what_a_plain_one_says(tmp_path: Path) -> None:
+    """German spreadsheets and testing machines: semicolons, decimal commas, text above, Latin-1."""
+    plain, german = tmp_path / "plain.csv", tmp_path / "german.csv"
+    rows = "".join(f"{x},{force}\n" for x, force in PULL)
+    plain.write_text(f"displacement (mm),force (N)\n{rows}")
+    rows = rows.replace(",", ";").replace(".", ",")
+    head = '"Prüfer: Müller"\r\n"Standardweg";"Standardkraft"\r\n"mm";"N"\r\n'
+    german.write_bytes((head + rows.replace("\n", "\r\n") + ";;\r\n").encode("latin-1"))
+    measures = ("--width", "100 mm", "--length", "250 mm")
+    found = [fit("bias", str(file), *measures)["shear"] for file in (plain, german)]
+    assert found[0] == found[1]
+
+
+def test_decimal_commas_between_commas_are_refused(tmp_path: Path) -> None:
+    """A row of them has more fields than the header: a number is not read from half of one."""
+    (tmp_path / "t.csv").write_text("displacement (mm),force (N)\n4,0,0,088\n8,0,0,191\n")
+    done = subprocess.run(
+        [program.binary(), "fit", "bias", str(tmp_path / "t.csv"), "--width", "100 mm"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    words = " ".join(done.stderr.replace("│", " ").split())
+    assert "this row has 4 fields and the header 2" in words
+    assert "separate the columns by semicolons" in words
+
+
 def test_the_table_of_materials_is_current() -> None:
     """`scripts/materials` makes it anew."""
     done = subprocess.run(

@@ -160,7 +160,7 @@ def test_a_strip_of_shells_is_a_span(strip: Drape, tmp_path: Path) -> None:
     """Held along whole lines a strip has no width to differ by: shells and span agree.
 
     This is at the end of its motion, so CalculiX followed the tables through both steps. The
-    small-sag span sags by a few tenths of a per cent more than the exact elastica.
+    small-sag span sags by a few tenths of a percent more than the exact elastica.
     """
     found = ccx(strip.deck.text, tmp_path)
     assert sag_of_sheet(strip, found, 0, 0) == pytest.approx(sag_of_model(strip, 0, 0), rel=0.015)

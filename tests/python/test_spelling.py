@@ -38,6 +38,7 @@ def test_words_are_changed_and_code_is_not() -> None:
     assert spelled("Fibres, coloured and centred, of millimetres") == (
         "Fibers, colored and centered, of millimeters"
     )
+    assert spelled("Two per cent of misspelt signs") == "Two percent of misspelled signs"
     assert spelled("a vectorised programme, programmed precisely") == (
         "a vectorized program, programmed precisely"
     )

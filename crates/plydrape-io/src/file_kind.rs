@@ -28,6 +28,12 @@ const HEAD: usize = 4096;
 impl FileKind {
     /// The kind of a file, if its bytes tell.
     pub fn of(bytes: &[u8]) -> Option<FileKind> {
+        Self::of_start(bytes, bytes.len() as u64)
+    }
+
+    /// The same from the beginning of a file of so many bytes.
+    pub fn of_start(bytes: &[u8], size: u64) -> Option<FileKind> {
+        let size = size - if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let binary = [
             (&b"\x89PNG"[..], FileKind::Picture),
@@ -44,12 +50,16 @@ impl FileKind {
         // 80 bytes of anything, the number of triangles, and 50 bytes of each
         if let Some(count) = bytes.get(80..84).and_then(|count| count.try_into().ok()) {
             let triangles = u64::from(u32::from_le_bytes(count));
-            if triangles > 0 && bytes.len() as u64 == 84 + 50 * triangles {
+            if triangles > 0 && size == 84 + 50 * triangles {
                 return Some(FileKind::Stl);
             }
         }
-        let head = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]);
-        Self::of_text(&head)
+        let head = &bytes[..bytes.len().min(HEAD)];
+        if head.contains(&0) {
+            // no text has a zero
+            return None;
+        }
+        Self::of_text(&String::from_utf8_lossy(head))
     }
 
     fn of_text(text: &str) -> Option<FileKind> {
@@ -58,6 +68,10 @@ impl FileKind {
         let said = lines().find(|line| !line.trim_start().starts_with('#')).unwrap_or(first);
         let start = first.trim_start().to_ascii_lowercase();
         let word = said.split_whitespace().next().unwrap_or_default();
+        // before a scene: its scripts and styles may have lines that look like keys
+        if start.starts_with("<!doctype html") || start.starts_with("<html") {
+            return Some(FileKind::Page);
+        }
         // a scene before all that a line of it may look like
         if lines().any(|line| is_key(line) || is_header(line)) {
             return Some(FileKind::Scene);
@@ -79,11 +93,9 @@ impl FileKind {
             let bare: String = text.chars().take(200).filter(|c| !c.is_whitespace()).collect();
             let ours = bare.starts_with(&format!("{{\"format\":\"{FORMAT}\""));
             Some(if ours { FileKind::Result } else { FileKind::Json })
-        } else if start.starts_with("<!doctype html") || start.starts_with("<html") {
-            Some(FileKind::Page)
         } else if start.starts_with("<svg") {
             Some(FileKind::Picture)
-        } else if is_row(said) {
+        } else if is_table(lines().filter(|line| !line.trim_start().starts_with('#'))) {
             Some(FileKind::Table)
         } else {
             None
@@ -145,9 +157,13 @@ fn is_key(line: &str) -> bool {
     })
 }
 
-/// Fields between separators, more than one.
-fn is_row(line: &str) -> bool {
-    [',', ';', '\t'].into_iter().any(|separator| line.split(separator).count() > 1)
+/// Rows of the same number of fields, more than one, between the same separators; of prose the commas differ from line to line.
+fn is_table<'a>(lines: impl Iterator<Item = &'a str>) -> bool {
+    let first: Vec<&str> = lines.take(3).collect();
+    [',', ';', '\t'].into_iter().any(|separator| {
+        let mut counts = first.iter().map(|line| line.split(separator).count());
+        counts.next().is_some_and(|count| count > 1 && counts.all(|other| other == count))
+    })
 }
 
 /// Letters that are put in, left out, changed or exchanged with their neighbors between two words, capitals apart.
@@ -186,7 +202,10 @@ mod tests {
     fn files_are_known_by_how_they_begin() {
         let mut stl = vec![0; 84 + 50];
         stl[80] = 1;
-        let cases: [(&[u8], Option<FileKind>); 15] = [
+        let cases: [(&[u8], Option<FileKind>); 18] = [
+            (b"<!doctype html>\n<style>\nwidth = 3\n", Some(FileKind::Page)),
+            (b"# A title\n\nProse, with a comma.\nA line without one.\n", None),
+            (b"\0\x01,\x02;\0", None),
             (&stl, Some(FileKind::Stl)),
             (b"solid x\n facet normal 0 0 1\n", Some(FileKind::Stl)),
             (b"# made by hand\nv 0 0 0\nv 1 0 0\n", Some(FileKind::Obj)),
@@ -206,6 +225,15 @@ mod tests {
         for (bytes, kind) in cases {
             assert_eq!(FileKind::of(bytes), kind, "{}", String::from_utf8_lossy(bytes));
         }
+    }
+
+    /// A large file is known by its first bytes and its size.
+    #[test]
+    fn a_mesh_is_known_by_its_beginning() {
+        let mut head = [0; 4096];
+        head[80] = 200;
+        assert_eq!(FileKind::of_start(&head, 84 + 50 * 200), Some(FileKind::Stl));
+        assert_eq!(FileKind::of_start(&head, 84 + 50 * 200 - 1), None);
     }
 
     #[test]

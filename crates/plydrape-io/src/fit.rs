@@ -156,7 +156,7 @@ pub fn fit(request: &Request) -> Result<Fitted, FitFault> {
             let test = ShearTest::Bias(BiasExtension { width, length });
             fitted.shear = Some(test.fit(&points(&tables))?);
             let [w, l] = [width, length].map(|x| short(1e3 * x));
-            fitted.test = format!("bias extension, {} specimens of {w} x {l} mm", tables.len());
+            fitted.test = format!("bias extension, {} of {w} x {l} mm", specimens(tables.len()));
         }
         Test::Frame { side, fabric } => {
             let [tables, _] = of(Reading::Pull)?;
@@ -165,7 +165,7 @@ pub fn fit(request: &Request) -> Result<Fitted, FitFault> {
             let test = ShearTest::Frame(PictureFrame { side, fabric });
             fitted.shear = Some(test.fit(&points(&tables))?);
             let side = short(1e3 * side);
-            fitted.test = format!("picture frame of {side} mm, {} specimens", tables.len());
+            fitted.test = format!("picture frame of {side} mm, {}", specimens(tables.len()));
         }
         Test::Overhang { mass, angle } => {
             let tables = of(Reading::Overhang)?;
@@ -219,6 +219,10 @@ pub fn fit(request: &Request) -> Result<Fitted, FitFault> {
         }
     }
     Ok(fitted)
+}
+
+fn specimens(count: usize) -> String {
+    if count == 1 { "one specimen".into() } else { format!("{count} specimens") }
 }
 
 fn name(path: &Path) -> String {

@@ -70,7 +70,7 @@ def label(key: str) -> str:
 
 
 def percent(x: float) -> str:
-    """A share in per cent, with a digit behind the point.
+    """A share in percent, with a digit behind the point.
 
     Examples
     --------

@@ -32,14 +32,14 @@ pub(super) fn of(mold: &Mold, report: Option<&MeshReport>) -> Vec<Line> {
             "sphere of radius {}, from {}, {}",
             mm(s.radius),
             side(s.face),
-            standing("centre", &s.pose)
+            standing("center", &s.pose)
         ),
         Mold::Torus(t) => format!(
             "torus, ring of {} and tube of {}, from {}, {}",
             mm(t.ring_radius),
             mm(t.tube_radius),
             side(t.face),
-            standing("centre", &t.pose)
+            standing("center", &t.pose)
         ),
         Mold::Graph(graph) => {
             let surface = match &graph.surface {

@@ -185,7 +185,7 @@ fn another_file_given_as_a_result_is_called_by_its_name() {
         ("text.stl", "is a mesh (STL), not a result of plydrape"),
         ("empty.json", "is empty, not a result of plydrape"),
         ("other.json", "is not a result of plydrape: it has no `format`"),
-        ("part", "it is a folder, not a file help: it holds no result.json"),
+        ("part", "`part` is a folder without a result.json help: give the result.json"),
     ] {
         for command in [&["export", file, "--to", "vtk"][..], &["report", file]] {
             let (code, printed, message) = run(desk.path(), command);

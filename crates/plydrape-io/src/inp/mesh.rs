@@ -6,7 +6,7 @@
 
 use plydrape::ply::{Grid, GripperId};
 
-/// Side of an element that is aimed at (m). Half of it changes the sag of the paper's ply by one per cent.
+/// Side of an element that is aimed at (m). Half of it changes the sag of the paper's ply by one percent.
 const SIDE: f64 = 0.010;
 /// Fewest elements on the side of a cell.
 const FEWEST: usize = 4;

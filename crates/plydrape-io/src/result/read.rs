@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file system refused.
-    #[error("`{}` cannot be read: {source}", path.display())]
+    #[error("`{}` {}", path.display(), unread(source))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -116,7 +116,7 @@ impl ReadError {
                     Some(near) => format!("did you mean `{}`?", name(&near)),
                     None => format!("give {GIVEN}"),
                 },
-                io::ErrorKind::IsADirectory => format!("it holds no result.json: give {GIVEN}"),
+                io::ErrorKind::IsADirectory => format!("give {GIVEN}"),
                 _ => "give the path of a result.json that you may read".into(),
             },
             ReadError::TooLarge { source, .. } => source.remedy().into(),
@@ -129,6 +129,15 @@ impl ReadError {
                 format!("put the file back as it was, or {}", again(path))
             }
         }
+    }
+}
+
+/// How a file is not read.
+fn unread(source: &io::Error) -> String {
+    match source.kind() {
+        io::ErrorKind::NotFound => "cannot be read: there is no such file".into(),
+        io::ErrorKind::IsADirectory => format!("is a folder without a {FILE}"),
+        _ => format!("cannot be read: {source}"),
     }
 }
 
@@ -220,6 +229,7 @@ fn read_from<R: BufRead + Seek>(
         |what: String| ReadError::Changed { path: path.clone(), reason: format!(": {what}") };
     let foreign = |reason| ReadError::Foreign { path: path.clone(), reason };
 
+    let size = file.size;
     // Whose it is, and of which version: keys that are unknown here say nothing yet.
     let head = serde_json::from_reader(file.all().map_err(unreadable)?);
     let head: Head = match head {
@@ -236,9 +246,10 @@ fn read_from<R: BufRead + Seek>(
                 Category::Data => {
                     foreign(format!("not a result of plydrape: it has no `format` \"{FORMAT}\""))
                 }
-                _ => foreign(
-                    other_file(file.all().map_err(unreadable)?, &error).map_err(unreadable)?,
-                ),
+                _ => {
+                    let all = file.all().map_err(unreadable)?;
+                    foreign(other_file(all, size, &error).map_err(unreadable)?)
+                }
             });
         }
     };
@@ -273,10 +284,10 @@ fn read_from<R: BufRead + Seek>(
 }
 
 /// What a file is that is no JSON.
-fn other_file(file: impl BufRead, error: &serde_json::Error) -> io::Result<String> {
+fn other_file(file: impl BufRead, size: u64, error: &serde_json::Error) -> io::Result<String> {
     let mut start = Vec::new();
     file.take(1 << 16).read_to_end(&mut start)?;
-    Ok(match FileKind::of(&start).filter(|kind| *kind != FileKind::Json) {
+    Ok(match FileKind::of_start(&start, size).filter(|kind| *kind != FileKind::Json) {
         _ if start.trim_ascii().is_empty() => "empty, not a result of plydrape".into(),
         Some(kind) => format!("{}, not a result of plydrape", kind.name()),
         None => format!("not a result of plydrape: it is not JSON, {}", reason(error)),

@@ -159,7 +159,7 @@ fn unit_size(
 }
 
 /// The bytes of every line that says something.
-fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
+pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
     let mut start = 0;
     text.split_inclusive('\n').filter_map(move |line| {
         let from = start;

@@ -63,11 +63,25 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Scene
         let before = document.text.get(..span.start).unwrap_or_default();
         let line = before.rsplit('\n').next().unwrap_or_default();
         // what stands in double quotes before the fault, up to its end
-        let is_escape = text.contains("escape") && line.contains('"');
+        // `\U` and `\x` begin escapes of digits, as the folder `Users` and a file `x.stl` do
+        let is_escape = ["escape", "unicode", "hexadecimal"].iter().any(|word| text.contains(word))
+            && line.contains('"');
         let is_decimal_comma =
             fault.starts_with(',') && before.ends_with(|c: char| c.is_ascii_digit());
         let remedy = if is_decimal_comma {
             "write a decimal point, as in 0.098"
+        } else if text.starts_with("string values must be quoted") {
+            let value = unquoted(document, &span);
+            return document.error(
+                span,
+                format!("{value} is no number, and a text stands in quotes"),
+                match value.contains(['\\', '"']) {
+                    true => {
+                        "write a path in single quotes, as in file = 'C:\\molds\\new.stl'".into()
+                    }
+                    false => format!("write \"{}\"", value.trim_matches('`')),
+                },
+            );
         } else if is_escape {
             return document.error(
                 span,
@@ -80,6 +94,14 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Scene
         (format!("this is not TOML: {}", text.replace('\n', ", ")), remedy.into())
     };
     document.error(span, message, help)
+}
+
+/// The value without its quotes at a span, in ticks: it ends with its line, its array or its table.
+fn unquoted(document: &Document, span: &Range<usize>) -> String {
+    let text = document.text.get(span.start..).unwrap_or_default();
+    let end = text.find(['\n', ',', ']', '}', '#']).unwrap_or(text.len());
+    let words = text.get(..end).unwrap_or_default();
+    format!("`{}`", excerpt(words.trim()))
 }
 
 /// What a value is, in TOML's terms, from its first character.

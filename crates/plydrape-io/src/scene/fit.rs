@@ -1,10 +1,10 @@
 //! Tables of tests of a material: the CSV files of `plydrape fit`.
 //!
-//! The columns are those of every other table here. Lines `# key = value` above them may state a measure of the specimen, as in
-//! `# width = 100 mm`.
+//! They are read as testing machines and spreadsheets write them. Lines `# key = value` above them may state a measure of the
+//! specimen, as in `# width = 100 mm`.
 
-use super::csv::{Column, Csv};
 use super::error::{Document, SceneError};
+use super::lab_table::{LabColumn, lab_table};
 use super::read;
 use super::units::{self, Dimension};
 use std::path::Path;
@@ -49,17 +49,42 @@ const STATED: [(&str, Dimension); 5] = [
 ];
 
 impl Reading {
-    fn columns(self) -> &'static [Column] {
-        const fn column(name: &'static str, dimension: Dimension) -> Column {
-            Column { name, dimension }
+    fn columns(self) -> &'static [LabColumn] {
+        const fn column(
+            names: &'static [&'static str],
+            dimension: Dimension,
+            unit: &'static str,
+        ) -> LabColumn {
+            LabColumn { names, dimension, unit }
         }
-        const PULL: [Column; 2] =
-            [column("displacement", Dimension::LENGTH), column("force", Dimension::FORCE)];
-        const OVERHANG: [Column; 1] = [column("overhang", Dimension::LENGTH)];
-        const POINTS: [Column; 2] =
-            [column("x", Dimension::LENGTH), column("z", Dimension::LENGTH)];
-        const MOMENT: [Column; 2] =
-            [column("curvature", Dimension::CURVATURE), column("moment", Dimension::FORCE)];
+        const DISPLACEMENT: &[&str] = &[
+            "displacement",
+            "extension",
+            "crosshead",
+            "stroke",
+            "travel",
+            "weg",
+            "standardweg",
+            "traversenweg",
+        ];
+        const FORCE: &[&str] = &["force", "load", "kraft", "standardkraft"];
+        const PULL: [LabColumn; 2] =
+            [column(DISPLACEMENT, Dimension::LENGTH, "mm"), column(FORCE, Dimension::FORCE, "N")];
+        const OVERHANG: [LabColumn; 1] = [column(
+            &["overhang", "overhang length", "überhang", "überhanglänge"],
+            Dimension::LENGTH,
+            "mm",
+        )];
+        const POINTS: [LabColumn; 2] =
+            [column(&["x"], Dimension::LENGTH, "mm"), column(&["z"], Dimension::LENGTH, "mm")];
+        const MOMENT: [LabColumn; 2] = [
+            column(&["curvature", "krümmung"], Dimension::CURVATURE, "1/m"),
+            column(
+                &["moment", "bending moment", "moment per width", "biegemoment"],
+                Dimension::FORCE,
+                "N",
+            ),
+        ];
         match self {
             Reading::Pull => &PULL,
             Reading::Overhang => &OVERHANG,
@@ -74,29 +99,30 @@ impl Reading {
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn read_fit(path: &Path, reading: Reading) -> Result<Table, SceneError> {
-    let document = read::text(path, &path.to_string_lossy(), read::LARGEST_CSV)?;
+    let document = read::lab_text(path, &path.to_string_lossy(), read::LARGEST_CSV)?;
     table(&document, reading)
 }
 
 fn table(document: &Document, reading: Reading) -> Result<Table, SceneError> {
     let stated = stated(document)?;
-    let columns = reading.columns();
-    let csv = Csv::new(document, columns)?;
-    let mut rows = Vec::new();
-    for row in csv.rows() {
-        let first = row.number(0)?;
-        if reading == Reading::Overhang && first <= 0.0 {
-            return Err(row.fault(
-                0,
+    let (numbers, header) = lab_table(document, reading.columns())?;
+    let mut rows = Vec::with_capacity(numbers.len());
+    for row in numbers {
+        let [(first, place), rest @ ..] = row.as_slice() else {
+            continue;
+        };
+        if reading == Reading::Overhang && *first <= 0.0 {
+            return Err(document.error(
+                place.clone(),
                 "an overhang is not above zero",
                 "give the length of the strip beyond the edge, as in 62 in a column `overhang (mm)`",
             ));
         }
-        rows.push([first, if columns.len() > 1 { row.number(1)? } else { 0.0 }]);
+        rows.push([*first, rest.first().map_or(0.0, |(value, _)| *value)]);
     }
     if rows.is_empty() {
         return Err(document.error(
-            csv.header.clone(),
+            header,
             format!("`{}` has no rows below its header", document.file),
             "give one row a point",
         ));

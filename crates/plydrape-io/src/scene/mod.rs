@@ -27,6 +27,7 @@ mod file;
 mod fit;
 mod heading;
 mod ideal;
+mod lab_table;
 mod layup;
 mod limits;
 mod located;
@@ -114,6 +115,8 @@ fn open(path: &Path) -> Result<(error::Document, &Path), SceneError> {
             let new = "`plydrape new NAME` writes a scene to start from";
             error.help = match error.help.is_empty() {
                 true => new.into(),
+                // what ends with a question mark ends a sentence
+                false if error.help.ends_with('?') => format!("{} {new}", error.help),
                 false => format!("{}; {new}", error.help),
             };
         } else if let Ok(bytes) = input::bytes(path, read::LARGEST_TOML)

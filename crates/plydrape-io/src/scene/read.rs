@@ -104,7 +104,24 @@ pub(super) const BACKSLASHES: &str =
 
 /// Reads a text file, named `name` in messages.
 pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
-    match String::from_utf8(bytes(path, name, largest)?) {
+    decoded(bytes(path, name, largest)?, name)
+}
+
+/// Reads a table of a laboratory: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.
+pub(super) fn lab_text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
+    let bytes = bytes(path, name, largest)?;
+    let is_table = matches!(FileKind::of(&bytes), None | Some(FileKind::Table));
+    let marked = [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| bytes.starts_with(*mark));
+    if std::str::from_utf8(&bytes).is_err() && is_table && !marked && !bytes.contains(&0) {
+        let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+        return Ok(Document::new(name, &text));
+    }
+    decoded(bytes, name)
+}
+
+/// A text from its bytes.
+fn decoded(bytes: Vec<u8>, name: &str) -> Result<Document, SceneError> {
+    match String::from_utf8(bytes) {
         // Spreadsheets and some editors put a byte order mark first.
         Ok(text) => Ok(Document::new(name, text.trim_start_matches('\u{feff}'))),
         Err(error) if [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| error.as_bytes().starts_with(*mark)) => {

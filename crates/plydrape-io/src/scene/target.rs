@@ -197,11 +197,33 @@ fn at_grippers(
             "the ply folds on its way there: move `origin` or `seed` towards the middle of the ply, or take a smaller ply",
         ),
     };
+    let help = match too_small(mold, ply) {
+        Some(sizes) if missing > 1 => format!("{sizes}; {help}"),
+        _ => help.into(),
+    };
     let count = ply.grippers();
     let have = if missing == 1 { "gripper has" } else { "grippers have" };
     Err(document.error(
         header(table, document),
         format!("{missing} of {count} {have} no place on the mold: gripper {id} {reason}"),
         help,
+    ))
+}
+
+/// Of a mesh that is smaller than the ply, the sizes of both: its unit may be wrong.
+fn too_small(mold: &Mold, ply: &Ply) -> Option<String> {
+    let Mold::Mesh(mesh) = mold else {
+        return None;
+    };
+    let ([low, high], [from, to]) = (mesh.bounds(), ply.bounds(0.0));
+    let [x, y, z] = [0, 1, 2].map(|n| high[n] - low[n]);
+    let [u, v] = [0, 1].map(|n| to[n] - from[n]);
+    if x.hypot(y) >= u.hypot(v) {
+        return None;
+    }
+    let millimeters = |side: f64| round(1e3 * side);
+    let [x, y, z, u, v] = [x, y, z, u, v].map(millimeters);
+    Some(format!(
+        "the mold measures {x} × {y} × {z} mm and the ply {u} × {v} mm: if the mold is larger, change its `unit`"
     ))
 }

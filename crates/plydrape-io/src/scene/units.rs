@@ -99,7 +99,7 @@ const POUND: f64 = 0.453_592_37;
 const FOOT: f64 = 0.3048;
 
 /// Symbols of units, their size in SI base units and their dimension.
-const UNITS: [(&str, f64, Dimension); 47] = [
+const UNITS: [(&str, f64, Dimension); 42] = [
     ("m", 1.0, Dimension::LENGTH),
     ("cm", 1e-2, Dimension::LENGTH),
     ("mm", 1e-3, Dimension::LENGTH),
@@ -137,11 +137,6 @@ const UNITS: [(&str, f64, Dimension); 47] = [
     ("gf", 1e-3 * STANDARD_GRAVITY, Dimension::FORCE),
     ("kgf", STANDARD_GRAVITY, Dimension::FORCE),
     ("lbf", POUND * STANDARD_GRAVITY, Dimension::FORCE),
-    ("Nm", 1.0, Dimension::MOMENT),
-    ("Nmm", 1e-3, Dimension::MOMENT),
-    ("mNm", 1e-3, Dimension::MOMENT),
-    ("µNm", 1e-6, Dimension::MOMENT),
-    ("μNm", 1e-6, Dimension::MOMENT),
     ("Pa", 1.0, Dimension::PRESSURE),
     ("kPa", 1e3, Dimension::PRESSURE),
     ("MPa", 1e6, Dimension::PRESSURE),
@@ -156,6 +151,8 @@ pub(super) enum UnitError {
     NoNumber,
     #[error("its number has a decimal comma")]
     DecimalComma,
+    #[error("its number has a power of ten written out")]
+    PowerOfTen,
     #[error("`{}` is no unit known here", excerpt(.0))]
     Unknown(String),
     #[error("`{}` is no whole power from -9 to 9", excerpt(.0))]
@@ -170,6 +167,7 @@ impl UnitError {
         match self {
             UnitError::NoNumber => "write a number and a unit, as in \"98 mm\"".into(),
             UnitError::DecimalComma => "write a decimal point, as in \"98.5 mm\"".into(),
+            UnitError::PowerOfTen => "write powers of ten by an e, as in \"9e-5 N m\"".into(),
             UnitError::Unknown(symbol) => match nearest_unit(symbol) {
                 Some(unit) => format!("did you mean `{unit}`?"),
                 None => known_units(),
@@ -182,10 +180,10 @@ impl UnitError {
     }
 }
 
-/// The symbols, each once: without those that are another way to type µ, or a product of two.
+/// The symbols, each once: without those that are another way to type µ.
 fn known_units() -> String {
     let symbols = UNITS.iter().map(|(symbol, ..)| *symbol);
-    let once = |symbol: &&str| !symbol.starts_with(['u', 'μ']) && !symbol.contains("Nm");
+    let once = |symbol: &&str| !symbol.starts_with(['u', 'μ']);
     let symbols: Vec<&str> = symbols.filter(once).collect();
     format!("the units known here, and their products, are {}", symbols.join(" "))
 }
@@ -211,12 +209,13 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
         "hr" | "hour" | "hours" => "h",
         "hertz" => "Hz",
         "newton" | "newtons" => "N",
-        "gram" | "grams" => "g",
+        "gram" | "grams" | "gramm" | "gr" | "gm" | "gms" => "g",
+        "qm" => "sqm",
         "percent" => "%",
         _ => "",
     };
     let same = |unit: &str| unit == long || unit.to_lowercase() == symbol.to_lowercase();
-    UNITS.iter().map(|(unit, ..)| *unit).find(|u| same(u))
+    UNITS.iter().map(|(unit, ..)| *unit).chain(["Nm", "Nmm"]).find(|u| same(u))
 }
 
 /// Reads a number with or without a unit: its value in SI base units, and its dimension.
@@ -228,6 +227,10 @@ pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), UnitError
     let value: f64 = number.parse().map_err(|_| UnitError::NoNumber)?;
     if rest.starts_with(',') {
         return Err(UnitError::DecimalComma);
+    }
+    if rest.trim_start().strip_prefix(TIMES).is_some_and(|tail| tail.trim_start().starts_with("10"))
+    {
+        return Err(UnitError::PowerOfTen);
     }
     if rest.trim().is_empty() {
         return Ok((value, None));
@@ -256,15 +259,17 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
                 None => UnitError::Unknown(character.to_string()),
             });
         }
-        let (_, size, dimension) = UNITS
-            .iter()
-            .find(|(known, ..)| *known == symbol)
-            .ok_or_else(|| UnitError::Unknown(symbol.to_string()))?;
+        let [before, last] =
+            joined(symbol).ok_or_else(|| UnitError::Unknown(symbol.to_string()))?;
         let (power, tail) = power(tail)?;
 
-        // Into the product, or under the slash before it.
-        total.0 *= size.powi(sign * power);
-        total.1 = total.1.times(*dimension, sign * power);
+        // Into the product, or under the slash before it. A power belongs to what stands beside it: Nm² is N·m².
+        for ((size, dimension), power) in
+            before.map(|unit| (unit, 1)).into_iter().chain(last.map(|unit| (unit, power)))
+        {
+            total.0 *= size.powi(sign * power);
+            total.1 = total.1.times(dimension, sign * power);
+        }
         rest = tail.trim_start();
         (sign, operator) = (1, None);
         if let Some(c) = rest.chars().next().filter(|c| OPERATORS.contains(*c)) {
@@ -279,6 +284,26 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
     }
 }
 
+/// A symbol, or two that are written without a space: a force or a weighed mass and the length it acts over, as in `Nm` and
+/// `mgcm`. Of the two the first comes first.
+fn joined(symbol: &str) -> Option<[Option<(f64, Dimension)>; 2]> {
+    let of = |symbol: &str| {
+        let found = UNITS.iter().find(|(known, ..)| *known == symbol);
+        found.map(|(_, size, dimension)| (*size, *dimension))
+    };
+    if let Some(unit) = of(symbol) {
+        return Some([None, Some(unit)]);
+    }
+    ["mm", "cm", "m"].into_iter().find_map(|length| {
+        let first = of(symbol.strip_suffix(length)?)?;
+        // `gm` is another way to write a gram
+        let weighs = first.1 == Dimension::MASS && length == "cm";
+        (first.1 == Dimension::FORCE || weighs).then_some([Some(first), of(length)])
+    })
+}
+
+/// What stands before a power of ten that is written out.
+const TIMES: [char; 7] = ['*', '·', '⋅', '∙', '×', 'x', 'X'];
 /// What stands between symbols: products, and the quotient.
 const OPERATORS: &str = "*·⋅∙×./";
 /// Digits of a power above the line, by value, and its sign.
@@ -394,6 +419,14 @@ mod tests {
             ("2e-4 Nm", 2e-4, Dimension::MOMENT),
             ("2e-4 N*m", 2e-4, Dimension::MOMENT),
             ("2e-4 N.m", 2e-4, Dimension::MOMENT),
+            ("2e-4 Nm2/m", 2e-4, Dimension::MOMENT),
+            ("0.2 Nmm", 2e-4, Dimension::MOMENT),
+            ("200 mNmm", 2e-4, Dimension::MOMENT),
+            ("2 cNcm", 2e-4, Dimension::MOMENT),
+            ("9e-6 Nm2", 9e-6, Dimension::FLEXURAL_RIGIDITY),
+            ("9e-6 Nm²", 9e-6, Dimension::FLEXURAL_RIGIDITY),
+            ("9 Nmm^2", 9e-6, Dimension::FLEXURAL_RIGIDITY),
+            ("2000 mgcm", 2e-5, Dimension::WEIGHED_MOMENT),
             ("200 µN·m", 2e-4, Dimension::MOMENT),
             ("200 µNm", 2e-4, Dimension::MOMENT),
             ("0.2 mNm", 2e-4, Dimension::MOMENT),
@@ -417,6 +450,12 @@ mod tests {
         assert_eq!(quantity("mm"), Err(UnitError::NoNumber));
         assert_eq!(quantity("98,5 mm"), Err(UnitError::DecimalComma));
         assert_eq!(quantity("9 MM"), Err(UnitError::Unknown("MM".into())));
+        for text in ["9×10^-5 N m", "9 x 10-5 N m", "9*10^-5 N m", "9·10⁻⁵ N m"] {
+            assert_eq!(quantity(text), Err(UnitError::PowerOfTen), "{text}");
+        }
+        assert_eq!(quantity("300 gm/m2"), Err(UnitError::Unknown("gm".into())));
+        assert!(UnitError::Unknown("gm".into()).help().contains("did you mean `g`?"));
+        assert!(UnitError::Unknown("NM".into()).help().contains("did you mean `Nm`?"));
         assert_eq!(quantity("9 kg/"), Err(UnitError::Dangling('/')));
         assert_eq!(quantity("9 kg//m"), Err(UnitError::Dangling('/')));
         assert_eq!(quantity("9 m^x"), Err(UnitError::Power("^x".into())));

@@ -49,7 +49,7 @@ pub(crate) struct Tuning {
     /// Least vertical part of the mold's normal with which a pad is led up or down to the mold.
     pub upright_pad: f64,
     /// Stretch of an edge, as a share of its length, beyond which a drape ends. 0.1: carbon fiber breaks at 1.5 to
-    /// 2 %, and the crimp of a woven ply adds some per cent.
+    /// 2 %, and the crimp of a woven ply adds some percent.
     pub breaking_stretch: f64,
     /// Landing error of the first contact, as a share of the ply's longer side, that explains such a stretch.
     pub large_landing_error: f64,

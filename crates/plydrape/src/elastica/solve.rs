@@ -32,6 +32,8 @@ struct Goal<'a> {
     scale: [f64; 2],
     /// Times as stiff as the strip.
     stiffer: f64,
+    /// Rigidity of a strip without a curve (N·m²), and how far the bending has come from it, 0 to 1, to its own.
+    blend: (f64, f64),
     /// θ at each end that is held (rad).
     held: [Option<f64>; 2],
     /// Run and rise; none where the second end hangs.
@@ -95,10 +97,20 @@ impl HeavyStrip {
             bending: &self.bending,
             scale,
             stiffer: softer.powf(1.0 - share),
+            blend: (rigidity, 1.0),
             held: [0, 1].map(|end| wanted[end].map(|angle| own[end] + share * (angle - own[end]))),
             ends: Some([run, rise]),
         };
-        let end = continued(start, goal)?;
+        let end = match continued(start.clone(), goal) {
+            // A curve has kinks, and along an all but flexible strip the bending at a free end runs through all of them: then a
+            // strip of one rigidity leads to the strip's stiffness, and its law is bent to the curve there.
+            Err(ElasticaError::NotFound { .. }) if matches!(self.bending, Bending::Curve(_)) => {
+                let straight = |share: f64| Goal { blend: (rigidity, 0.0), ..goal(share) };
+                let end = continued(start, straight)?;
+                continued(end, |share| Goal { blend: (rigidity, share), ..goal(1.0) })?
+            }
+            end => end?,
+        };
         Ok(Shape::new(panels, end.angle, end.force, &self.bending, scale))
     }
 }
@@ -134,6 +146,7 @@ impl Cantilever {
             bending: &self.bending,
             scale,
             stiffer: stiffer.powf(1.0 - share),
+            blend: (rigidity, 1.0),
             held: [Some(self.angle), None],
             ends: None,
         };
@@ -236,6 +249,14 @@ impl Goal<'_> {
         None
     }
 
+    /// Moment (N·m) and its slope (N·m²) at a curvature (1/m).
+    fn bend(&self, curvature: f64) -> [f64; 2] {
+        let (rigidity, share) = self.blend;
+        let [moment, slope] = self.bending.bend(curvature);
+        let mixed = |own: f64, straight: f64| share * own + (1.0 - share) * straight;
+        [mixed(moment, rigidity * curvature), mixed(slope, rigidity)]
+    }
+
     /// The matrix, minus the residual (first column), the derivatives of the residual by the two forces, and what the ends
     /// miss of their places.
     fn assemble(
@@ -263,7 +284,7 @@ impl Goal<'_> {
                 let vertical = vertical_end - (1.0 - from - width * RULE.place[q]);
 
                 // moment and its slope at the curvature of the strip
-                let [moment, slope] = self.bending.bend(sum(&basis.slope) / width / length);
+                let [moment, slope] = self.bend(sum(&basis.slope) / width / length);
                 let moment = self.stiffer * moment / moments;
                 let slope = self.stiffer * slope / (moments * length);
 

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector, Dyn, Owned, Vector2};
 pub fn rigidity_of_overhang(overhang: f64, weight: f64, angle: f64) -> Result<f64, FitError> {
     if !(ANGLES[0]..=ANGLES[1]).contains(&angle) {
         let (what, range) = ("the angle of the chord", "from 1 to 89 degrees");
-        return Err(FitError::Range { what, value: angle, range });
+        return Err(FitError::Range { what, value: angle, unit: "rad", range });
     }
     let chord = |factor: f64| {
         let bending = Bending::Rigidity(factor);
@@ -62,9 +62,9 @@ impl Overhang {
     /// # Errors
     /// If there is none, or one is not positive.
     pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, FitError> {
-        positive("the weight per area", self.weight)?;
+        positive("the weight per area", self.weight, "N/m^2")?;
         for overhang in overhangs {
-            positive("an overhang", *overhang)?;
+            positive("an overhang", *overhang, "m")?;
         }
         if overhangs.is_empty() {
             return Err(FitError::Few { what: "the test".into(), found: 0, wanted: 1 });
@@ -166,8 +166,8 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
 
 /// Rigidity per width (N·m) and the angle at the edge (rad) of one strip, with standard errors from the residuals.
 fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], FitError> {
-    positive("the length of the overhang", hang.length)?;
-    positive("the weight per area", hang.weight)?;
+    positive("the length of the overhang", hang.length, "m")?;
+    positive("the weight per area", hang.weight, "N/m^2")?;
     let few = |found| FitError::Few { what: name.to_string(), found, wanted: FEWEST };
     // points at the edge say nothing: every strip goes through it
     let far = hang.points.iter().filter(|[x, z]| x.hypot(*z) > 0.02 * hang.length).count();

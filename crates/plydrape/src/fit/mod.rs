@@ -28,12 +28,14 @@ pub enum FitError {
         wanted: usize,
     },
     /// A number that makes no sense.
-    #[error("{what} is {value}; it must be {range}")]
+    #[error("{what} is {value} {unit}; it must be {range}")]
     Range {
         /// What it is.
         what: &'static str,
         /// Its value (SI).
         value: f64,
+        /// The unit of the value.
+        unit: &'static str,
         /// What it may be.
         range: &'static str,
     },
@@ -47,9 +49,9 @@ pub enum FitError {
     },
 }
 
-fn positive(what: &'static str, value: f64) -> Result<(), FitError> {
+fn positive(what: &'static str, value: f64, unit: &'static str) -> Result<(), FitError> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(FitError::Range { what, value, range: "positive" })
+    Err(FitError::Range { what, value, unit, range: "positive" })
 }

@@ -73,8 +73,8 @@ impl ShearTest {
     pub fn check(&self) -> Result<(), FitError> {
         match self {
             ShearTest::Bias(BiasExtension { width, length }) => {
-                positive("the width", *width)?;
-                positive("the length", *length)?;
+                positive("the width", *width, "m")?;
+                positive("the length", *length, "m")?;
                 if *length >= 2.0 * width {
                     return Ok(());
                 }
@@ -82,16 +82,16 @@ impl ShearTest {
                     "the length",
                     "two widths or more: shorter strips have no middle that shears alone",
                 );
-                Err(FitError::Range { what, value: *length, range })
+                Err(FitError::Range { what, value: *length, unit: "m", range })
             }
             ShearTest::Frame(PictureFrame { side, fabric }) => {
-                positive("the side", *side)?;
-                positive("the side of the fabric", *fabric)?;
+                positive("the side", *side, "m")?;
+                positive("the side of the fabric", *fabric, "m")?;
                 if fabric <= side {
                     return Ok(());
                 }
                 let (what, range) = ("the side of the fabric", "at most that of the frame");
-                Err(FitError::Range { what, value: *fabric, range })
+                Err(FitError::Range { what, value: *fabric, unit: "m", range })
             }
         }
     }

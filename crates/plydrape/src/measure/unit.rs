@@ -28,7 +28,7 @@ impl Unit {
     pub const DEGREE: Unit = Unit { recorded: "deg", shown: "°", factor: 1.0 };
     /// Degrees a second.
     pub const DEGREE_PER_SECOND: Unit = Unit { recorded: "deg/s", shown: "°/s", factor: 1.0 };
-    /// Shares of a whole, shown in per cent.
+    /// Shares of a whole, shown in percent.
     pub const SHARE: Unit = Unit { recorded: "1", shown: "%", factor: 1e2 };
 
     /// A unit that is shown as it is recorded.

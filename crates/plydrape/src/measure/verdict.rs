@@ -210,7 +210,7 @@ mod tests {
         Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
     }
 
-    /// Shares are shown in per cent; a share of 95 % has used up half of the way from 100 % to a least share of 90 %.
+    /// Shares are shown in percent; a share of 95 % has used up half of the way from 100 % to a least share of 90 %.
     #[test]
     fn a_ratio_says_how_much_of_a_limit_is_used_up() {
         let share = verdict(Name::ContactShare, 0.95, 0.9);

@@ -3,7 +3,7 @@
 /// Constants of the cost model that decides which supernodes are merged.
 ///
 /// The unit of cost is one multiply-add on a tile of 12 × 4 numbers, about six cycles. The defaults are the best of a
-/// trial on woven grids of 133 to 2 576 nodes. Half of any of them changes the time by some per cent, twice of
+/// trial on woven grids of 133 to 2 576 nodes. Half of any of them changes the time by some percent, twice of
 /// `tile_cost` by 10 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
