@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from plydrape import Plan, PlanError, Scene, SceneError, plan, simulate
 
 DOME = Path(__file__).resolve().parents[2] / "examples" / "04_dome" / "scene.toml"
-OFFSET: dict[str, float | str] = {"x": "3 mm", "y": -0.0015, "yaw": "0.8 deg"}
+OFFSET: dict[str, float | str | Sequence[float | str]] = {"x": "3 mm", "y": -0.0015, "yaw": "0.8 deg"}
 
 
 @pytest.fixture(scope="module")
