@@ -10,7 +10,11 @@ import pytest
 from plydrape import Plan, PlanError, Scene, SceneError, plan, simulate
 
 DOME = Path(__file__).resolve().parents[2] / "examples" / "04_dome" / "scene.toml"
-OFFSET: dict[str, float | str | Sequence[float | str]] = {"x": "3 mm", "y": -0.0015, "yaw": "0.8 deg"}
+OFFSET: dict[str, float | str | Sequence[float | str]] = {
+    "x": "3 mm",
+    "y": -0.0015,
+    "yaw": "0.8 deg",
+}
 
 
 @pytest.fixture(scope="module")
