@@ -56,6 +56,7 @@
 //! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
 //! can be written by serde.
 
+pub mod bodies;
 pub mod catenary;
 pub mod clearance;
 pub mod draping;
@@ -63,25 +64,31 @@ pub mod elastica;
 pub mod equilibrium;
 pub mod errors;
 pub mod fit;
+pub mod geometry;
+pub mod layup;
 pub mod material;
 pub mod measure;
 pub mod mold;
 pub mod motion;
 pub mod net;
+pub mod outcome;
 pub mod pick_up;
 pub mod planner;
 pub mod ply;
-pub mod preset;
 pub mod scene;
 pub mod sheet;
+pub mod state;
 mod stopwatch;
 pub mod tool;
 
-pub use draping::{Drape, simulate};
 pub use equilibrium::Solver;
 pub use errors::Errors;
+pub use layup::{Layup, Settings, Target};
 pub use material::Material;
+pub use measure::Limits;
 pub use mold::Mold;
+pub use motion::Motion;
+pub use outcome::{ModelError, Outcome, simulate};
 pub use planner::{Planned, plan};
 pub use ply::Ply;
-pub use scene::{Limits, Motion, Plan, Scene, Settings, Target};
+pub use scene::{Plan, Scene};

@@ -3,11 +3,12 @@
 use super::standing::Ground;
 use super::{Drape, Draping, simulate};
 use crate::equilibrium::{Continuation, MountedSolver, Solver, Status};
+use crate::layup::{Layup, Model, PadSettings, Settings};
 use crate::material::{Material, Section};
 use crate::measure::Name;
 use crate::mold::{Mold, Plane};
+use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
-use crate::scene::{Model, Motion, PadSettings, Scene, Settings};
 use std::ops::ControlFlow;
 
 fn plane() -> Mold {
@@ -43,8 +44,8 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
     Scene { mold: Some(plane()), ..Scene::new(ply, settings, motion) }
 }
 
-fn draped(scene: &Scene) -> Drape {
-    let drape = simulate(scene, |_| ControlFlow::Continue(()));
+fn draped(layup: &Layup) -> Drape {
+    let drape = simulate(layup, |_| ControlFlow::Continue(()));
     for step in &drape.steps {
         assert!(step.solver.found(), "step {}: {:?}", step.step, step.solver);
     }
@@ -104,12 +105,12 @@ fn pads_in_the_air_hang_by_their_load_over_the_stiffness() {
 #[test]
 fn a_pad_sticks_where_it_touched_and_is_lifted_off_where_the_mold_would_pull() {
     let grid = Grid { nu: 2, nv: 1 };
-    let scene = scene(grid, mounts(Some(2e3), Some(5e3)), &[0.05], [0.098, 0.098]);
-    let mut solver = Solver::new(&scene.ply, &scene.settings);
-    let mut mounts = MountedSolver::new(&scene.ply, &scene.settings).unwrap();
+    let layup = scene(grid, mounts(Some(2e3), Some(5e3)), &[0.05], [0.098, 0.098]);
+    let mut solver = Solver::new(&layup.ply, &layup.settings);
+    let mut mounts = MountedSolver::new(&layup.ply, &layup.settings).unwrap();
     let contacts = vec![None];
     let mold = plane();
-    let lines = scene.ply.lines();
+    let lines = layup.ply.lines();
     let ground = Ground { mold: &mold, tolerance: 2e-4, lines, contacts: &contacts };
     // the ply itself is let through the mold here: only the pads are on it
     let mut at = |mounts: &mut MountedSolver, x: f64, z: f64| {
@@ -157,8 +158,8 @@ fn a_drape_on_stiff_mounts_is_that_of_rigid_grippers() {
 fn a_drape_reports_where_the_fabric_slid_and_how_far() {
     let pad = PadSettings { slip_force: Some(2.0), ..mounts(Some(2e3), None) };
     let spacings = [0.098, 0.103];
-    let scene = scene(Grid { nu: 3, nv: 1 }, pad, &[0.05; 11], spacings);
-    let drape = draped(&scene);
+    let layup = scene(Grid { nu: 3, nv: 1 }, pad, &[0.05; 11], spacings);
+    let drape = draped(&layup);
     let value = |step: usize, name: Name| drape.steps[step].measures.value(name).unwrap();
     assert!(value(0, Name::Slip) < 1.0 && value(0, Name::SlipLength) == 0.0);
     assert!((value(10, Name::Slip) - 2.0).abs() < 1e-9);
@@ -175,13 +176,13 @@ fn a_drape_reports_where_the_fabric_slid_and_how_far() {
 #[test]
 fn a_cloned_drape_goes_on_alike() {
     let pad = PadSettings { slip_force: Some(2.0), ..mounts(Some(2e3), Some(5e3)) };
-    let scene = scene(Grid { nu: 3, nv: 2 }, pad, &down(0.0, 12), [0.098, 0.1]);
-    let mut first = Draping::new(&scene);
-    for positions in &scene.motion.positions[..6] {
+    let layup = scene(Grid { nu: 3, nv: 2 }, pad, &down(0.0, 12), [0.098, 0.1]);
+    let mut first = Draping::new(&layup);
+    for positions in &layup.motion.positions[..6] {
         first.move_to(positions);
     }
     let mut second = first.clone();
-    for positions in &scene.motion.positions[6..] {
+    for positions in &layup.motion.positions[6..] {
         first.move_to(positions);
         second.move_to(positions);
         assert_eq!(first.pads(), second.pads());

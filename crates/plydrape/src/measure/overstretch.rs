@@ -1,7 +1,7 @@
 //! Overstretch: the way of a free or lying segment of an edge beyond its fabric, as a share of the whole edge.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit};
-use crate::scene::Scene;
+use super::{Description, Found, Measure, Observation, Unit, UsualLimit};
+use crate::layup::Layup;
 
 /// Overstretch; see the head of this file.
 pub struct Overstretch;
@@ -11,15 +11,11 @@ impl Measure for Overstretch {
         Description::new("overstretch", "overstretch", "overstretch", Unit::SHARE)
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(scene.limits.overstretch)
+    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
+        UsualLimit::new(0.001, "our choice, of a whole edge; no source gives it")
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mut most = Most::default();
-        for m in state.edge_misfits() {
-            most.meet(m.overstretch() / m.whole, Site::Catenary(m.catenary), m.place);
-        }
-        most.found()
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_edges(|line| line.overstretch() / line.whole).found()
     }
 }

@@ -6,8 +6,8 @@
 //! rises.
 
 use super::fabric::Bend;
-use super::matrix3::{Matrix3, outer, plus, scaled};
 use super::system::{Pair, System, add};
+use crate::geometry::matrix3::{Matrix3, outer, plus, scaled};
 use crate::material::MomentCurve;
 
 /// Bending of all lines.
@@ -126,7 +126,7 @@ impl Element {
             }
             return;
         };
-        let whole = plus(more, stiffness, &super::matrix3::IDENTITY);
+        let whole = plus(more, stiffness, &crate::geometry::matrix3::IDENTITY);
         for (node, weight) in self.nodes.into_iter().zip(self.weights) {
             system.stiffen(node, &scaled(weight * weight, &whole));
         }

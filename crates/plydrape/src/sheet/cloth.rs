@@ -9,13 +9,13 @@ use super::Sheet;
 use super::bending::Bending;
 use super::contact::Contact;
 use super::gripper::{Gripper, Pad};
-use super::matrix3::{Matrix3, outer, plus, scaled, times, transposed};
 use super::shear::Shear;
 use super::stretch::{Stretch, direction};
 use super::system::{Carrier, System, add};
 use super::tuning::Tuning;
-use crate::mold::vector::{along, cross, dot, norm, sub};
-use crate::scene::Friction;
+use crate::geometry::matrix3::{Matrix3, outer, plus, scaled, times, transposed};
+use crate::geometry::vector::{along, cross, dot, norm, sub};
+use crate::layup::Friction;
 
 /// What moves: positions, speeds and pads.
 #[derive(Debug, Clone, PartialEq)]

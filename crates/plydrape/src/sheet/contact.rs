@@ -4,11 +4,11 @@
 //! spring along the mold pulls it back there. The force of the spring is at most (τ₀ + μ · pressure) · area, beyond which
 //! the anchor follows; stick is no such bound. A node that is clear of the mold again has no anchor.
 
-use super::matrix3::{Matrix3, outer};
 use super::system::{System, add};
+use crate::geometry::matrix3::{Matrix3, outer};
+use crate::geometry::vector::{along, distance, dot, norm, sub};
+use crate::layup::Friction;
 use crate::mold::Mold;
-use crate::mold::vector::{along, distance, dot, norm, sub};
-use crate::scene::Friction;
 
 /// Where a node touched the mold.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,22 +2,21 @@
 //!
 //! The motion is stretched in time until the speed of the grippers is of no matter (or taken as it is), and followed in
 //! shares of its steps: a share that is not solved is halved, one that is solved easily is followed by a longer one. Pads
-//! let go on the way or after it, as the scene says.
+//! let go on the way or after it, as the layup says.
 
 use super::cloth::Cloth;
 use super::gripper::Pad;
-use super::measure::{Effort, Extremes, Summary};
 use super::model::{Sheet, SheetError};
 use super::release::Releases;
+use super::report::{Drape, Report};
 use super::shear::angle;
 use super::state::State;
 use super::tuning::Tuning;
-use crate::mold::vector::{between, distance};
+use crate::geometry::vector::{between, distance};
+use crate::layup::{Layup, SheetTime};
 use crate::ply::flat_axes;
-use crate::scene::{Scene, SheetTime};
 use crate::stopwatch::Stopwatch;
 use std::ops::ControlFlow;
-use std::time::Duration;
 
 /// How a drape of the sheet ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,39 +33,23 @@ pub enum Status {
     Interrupted,
 }
 
-/// A finished drape of the sheet.
-#[derive(Debug, Clone)]
-pub struct Drape {
-    /// The sheet that was draped.
-    pub sheet: Sheet,
-    /// What was measured, and the verdict.
-    pub summary: Summary,
-    /// The step of the motion in which each node came to the mold and stayed; none of one that did not.
-    pub landing_step: Vec<Option<usize>>,
-    /// Shear angle of each cell (rad) in the step in which the last of its nodes came to the mold; none of others.
-    pub landing_shear: Vec<Option<f64>>,
-    /// The last state.
-    pub last: State,
-    /// Time that it took.
-    pub duration: Duration,
-}
-
-/// Drapes the sheet of a scene along its motion, as its tool makes it. `see` is called with the state of each step and may end the drape, and so
-/// may `stop`, which is asked before each time step.
+/// Drapes the sheet of a layup along its motion; the motion is that of the grippers, so a tool has made it ([`Layup::carried`]).
+///
+/// `see` is called with the sheet, the state of each step and whether it is the last one, and may end the drape; so may `stop`, which is
+/// asked before each time step. Nodes up to `low` (m) over the mold lie, as far as the release of pads asks for that.
 ///
 /// # Errors
-/// If the scene has no sheet.
+/// If the layup has no sheet.
 pub fn drape(
-    scene: &Scene,
+    layup: &Layup,
     tuning: Tuning,
+    low: f64,
     stop: &dyn Fn() -> bool,
-    mut see: impl FnMut(&State) -> ControlFlow<()>,
+    mut see: impl FnMut(&Sheet, &State, bool) -> ControlFlow<()>,
 ) -> Result<Drape, SheetError> {
     let watch = Stopwatch::start();
-    let (carried, _) = scene.carried();
-    let scene = &*carried;
-    let sheet = Sheet::new(scene)?;
-    let steps = &scene.motion.positions;
+    let sheet = Sheet::new(layup)?;
+    let steps = &layup.motion.positions;
     let grippers = sheet.grippers.len();
     let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
         return Err(SheetError::NoMotion { grippers });
@@ -75,31 +58,30 @@ pub fn drape(
     let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();
     let cloth = Cloth::new(&sheet, tuning, flat, pads);
     let mut run = Run {
-        scene,
+        layup,
         sheet: &sheet,
         tuning,
         cloth,
-        releases: Releases::of(scene, &sheet),
+        releases: Releases::of(layup, &sheet, low),
         stop,
         targets: placed.clone(),
         share: 1.0,
         time_steps: 0,
         smallest_step: 1.0,
-        extremes: Extremes::default(),
+        report: Report::default(),
         landing_step: vec![None; sheet.fabric.places.len()],
         landing_shear: vec![None; sheet.fabric.cells.len()],
     };
+    let mut see = |state: &State, last: bool| see(&sheet, state, last);
     let (status, last) = run.run(&placed, &mut see);
-    let effort = Effort {
-        time_steps: run.time_steps,
-        solves: run.cloth.solves,
-        smallest_step: run.smallest_step,
-    };
-    let clear = tuning.release * sheet.pitch;
-    let mut summary = Summary::new(scene, &sheet, clear, &run.extremes, &last, status, effort);
-    let Run { landing_step, landing_shear, releases, .. } = run;
-    summary.events = releases.map(Releases::events).unwrap_or_default();
-    Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: watch.elapsed() })
+    let Run { cloth, landing_step, landing_shear, releases, mut report, .. } = run;
+    report.end(&sheet, tuning.release * sheet.pitch, &last);
+    (report.time_steps, report.smallest_step) = (run.time_steps, run.smallest_step);
+    report.solves = cloth.solves;
+    let events = releases.map(Releases::events).unwrap_or_default();
+    let (steps, duration) = (last.step, watch.elapsed());
+    drop(cloth);
+    Ok(Drape { sheet, status, steps, report, events, landing_step, landing_shear, last, duration })
 }
 
 /// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with
@@ -118,7 +100,7 @@ pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {
 
 /// A drape under way.
 struct Run<'a> {
-    scene: &'a Scene,
+    layup: &'a Layup,
     sheet: &'a Sheet,
     tuning: Tuning,
     cloth: Cloth<'a>,
@@ -131,7 +113,7 @@ struct Run<'a> {
     share: f64,
     time_steps: usize,
     smallest_step: f64,
-    extremes: Extremes,
+    report: Report,
     landing_step: Vec<Option<usize>>,
     landing_shear: Vec<Option<f64>>,
 }
@@ -150,9 +132,9 @@ impl Run<'_> {
     fn run(
         &mut self,
         placed: &[[f64; 3]],
-        see: &mut impl FnMut(&State) -> ControlFlow<()>,
+        see: &mut impl FnMut(&State, bool) -> ControlFlow<()>,
     ) -> (Status, State) {
-        let motion = &self.scene.motion;
+        let motion = &self.layup.motion;
         let contact = self.cloth.contact.take();
         let hung = self.follow(placed, &motion.positions[0], None);
         self.cloth.contact = contact;
@@ -162,7 +144,7 @@ impl Run<'_> {
         let mut resting = self.rest(&motion.positions[0], false);
         let mut state = self.see(1, motion.times[0]);
         for step in 2..=motion.positions.len() {
-            if see(&state).is_break() {
+            if see(&state, false).is_break() {
                 return (Status::Interrupted, state);
             }
             let [from, to] = [step - 2, step - 1].map(|n| &motion.positions[n]);
@@ -177,7 +159,7 @@ impl Run<'_> {
         }
         let steps = motion.positions.len();
         if let Some(releases) = &mut self.releases {
-            if see(&state).is_break() || (self.stop)() {
+            if see(&state, false).is_break() || (self.stop)() {
                 return (Status::Interrupted, state);
             }
             let (all, time) = releases.end();
@@ -185,7 +167,7 @@ impl Run<'_> {
             resting = self.rest(&motion.positions[steps - 1], true);
             state = self.see(steps, time);
         }
-        match see(&state) {
+        match see(&state, true) {
             ControlFlow::Break(()) => (Status::Interrupted, state),
             ControlFlow::Continue(()) if resting => (Status::Converged, state),
             ControlFlow::Continue(()) if (self.stop)() => (Status::Interrupted, state),
@@ -196,8 +178,8 @@ impl Run<'_> {
     /// Evaluates the state of a step at a time (s).
     fn see(&mut self, step: usize, time: f64) -> State {
         let state = self.state(step, time);
-        let touching = self.scene.settings.contact.tolerance;
-        self.extremes.see(self.sheet, &self.cloth.gripped, &state, touching);
+        let touching = self.layup.settings.contact.tolerance;
+        self.report.see(self.sheet, &self.cloth.gripped, &state, touching);
         for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
             *landed = touches.then(|| landed.unwrap_or(step));
         }
@@ -219,7 +201,7 @@ impl Run<'_> {
         let way = from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
         let stretched = self.stretched(way);
         let takes = times.map(|[begin, end]| end - begin);
-        let (duration, longest) = match (self.scene.settings.sheet.time, takes) {
+        let (duration, longest) = match (self.layup.settings.sheet.time, takes) {
             (SheetTime::Real, Some(takes)) => {
                 (takes, self.tuning.real_step * (self.sheet.pitch / self.sheet.gravity).sqrt())
             }

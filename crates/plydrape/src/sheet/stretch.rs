@@ -6,10 +6,10 @@
 //! the whole matrix would not be positive definite with it.
 
 use super::fabric::Segment;
-use super::matrix3::{Matrix3, outer};
 use super::system::{Pair, System, add};
+use crate::geometry::matrix3::{Matrix3, outer};
+use crate::geometry::vector::{dot, sub};
 use crate::material::TensionLaw;
-use crate::mold::vector::{dot, sub};
 
 /// The stretch of all segments.
 #[derive(Debug)]

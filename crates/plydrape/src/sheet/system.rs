@@ -5,10 +5,10 @@
 //! its own.
 
 use super::cholesky::{BlockMatrix, Cholesky, NotPositiveDefinite, Slot};
-use super::matrix3::{
+use crate::geometry::matrix3::{
     Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
 };
-use crate::mold::vector::{along, cross, dot};
+use crate::geometry::vector::{along, cross, dot};
 
 /// What carries a node.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,13 +3,16 @@
 use super::*;
 use crate::clearance::{self, Bodies, Body, Mount, Obstacle, Poses, Shape};
 use crate::draping::simulate;
+use crate::geometry::vector::{distance, norm, sub};
+use crate::layup::{Model, Settings, SheetSettings, Target};
 use crate::material::{Section, ShearCurve, TensionLaw};
+use crate::measure::Limits;
 use crate::measure::{Name, Verdict};
-use crate::mold::vector::{distance, norm, sub};
 use crate::mold::{Face, Mold, Pose, Sphere};
+use crate::motion::Motion;
 use crate::planner::evaluation::clearance_verdict;
 use crate::ply::{Grid, cloth};
-use crate::scene::{Limits, Model, Motion, PlanMethod, Settings, SheetSettings, Target};
+use crate::scene::PlanMethod;
 use crate::sheet;
 use crate::tool::{Axis, Tool};
 use std::f64::consts::FRAC_PI_6;
@@ -95,11 +98,11 @@ fn carried(path: Steps, bodies: Bodies, tool: Option<Tool>) -> Found {
         release: None,
     };
     scene.limits.workspace = Some([[-1.5, 1.5]; 3]);
-    let motion = TimedMotion::new(&path, &Bounds::from(&scene.limits)).unwrap();
+    let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
     let record = PlanRecord::of(PlanMethod::Path, 1, 100.0, path, &motion, Vec::new());
-    scene.motion = motion.steps();
+    scene.layup.motion = motion.steps();
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));
-    assert_eq!(drape.summary.steps, scene.motion.times.len(), "{:?}", drape.summary.stopped);
+    assert_eq!(drape.summary.steps, scene.layup.motion.times.len(), "{:?}", drape.summary.stopped);
     Found { scene, record, drape }
 }
 
@@ -124,7 +127,7 @@ fn seen() -> Offset {
 fn the_motion_starts_where_the_ply_lies() {
     let found = dome();
     let replanned = found.replanner().replan(&seen(), None).unwrap();
-    let start = &found.scene.motion.positions[0];
+    let start = &found.scene.layup.motion.positions[0];
     let turned = Pose::new([-0.5 + SEEN[0], SEEN[1], 0.0], [0.0, 0.0, SEEN[2].to_radians()]);
     for (p, q) in start.iter().zip(&replanned.motion.positions()[0]) {
         let expected = turned.place([p[0] + 0.5, p[1], p[2]]);
@@ -251,9 +254,9 @@ fn a_sheet_along_the_corrected_motion_lands_alike() {
     let settings = Settings {
         model: Model::Sheet,
         sheet: SheetSettings { mesh: Some(0.034), ..SheetSettings::default() },
-        ..found.scene.settings
+        ..found.scene.layup.settings
     };
-    let mut ply = found.scene.ply.clone();
+    let mut ply = found.scene.layup.ply.clone();
     ply.material.section = Section::Areal { mass: 0.3, warp_rigidity: 1e-4, weft_rigidity: 1e-4 };
     ply.material.tension = Some(TensionLaw::Linear { stiffness: 1e5 });
     ply.material.shear_curve = Some(ShearCurve::Polynomial { coefficients: vec![5.0] });
@@ -262,7 +265,7 @@ fn a_sheet_along_the_corrected_motion_lands_alike() {
         let go_on = |_: &sheet::State| ControlFlow::Continue(());
         sheet::drape(&scene, sheet::Tuning::default(), &|| false, go_on).unwrap().summary
     };
-    let planned = drape(found.scene.motion.clone());
+    let planned = drape(found.scene.layup.motion.clone());
     let moved = drape(replanned.motion.steps());
     assert_eq!(planned.status, moved.status);
     assert_eq!(planned.first_contact_step, moved.first_contact_step);
@@ -305,7 +308,8 @@ fn a_corrected_motion_keeps_its_limits_at_fine_samples() {
         }
         // this ply is laid down faster than its joints should tilt, and no faster than in the plan
         let rate = |summary: &Summary| summary.worst.value(Name::TiltRate).unwrap();
-        let most = rate(&found.drape.summary).max(found.scene.limits.tilt_rate.to_degrees());
+        let most =
+            rate(&found.drape.summary).max(found.scene.limits.most(Name::TiltRate).to_degrees());
         assert!(rate(&replanned.summary) <= most * (1.0 + 1e-9));
     }
 }
@@ -391,7 +395,8 @@ fn the_offset_is_whole_as_long_as_the_ply_may_lie_on_its_table() {
     let whole = replanner.weights().iter().filter(|w| **w == 1.0).count();
     // its top is at −60 mm: 5 mm above it the lowest point of the ply is clear
     let lowest = |step: &Step| {
-        let curves = crate::draping::free_curves(&found.scene.ply, &found.scene.settings, step);
+        let curves =
+            crate::draping::free_curves(&found.scene.layup.ply, &found.scene.layup.settings, step);
         curves.iter().flat_map(|(_, points)| points).map(|p| p[2]).fold(f64::INFINITY, f64::min)
     };
     let clear = found.drape.steps.iter().position(|step| lowest(step) >= -0.055).unwrap();
@@ -473,10 +478,10 @@ fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
         let least = alone.fold(f64::INFINITY, f64::min);
         assert!(clearance.value <= least + 1e-4 * least.abs().max(1.0), "{clearance:?} {least}");
         // between samples it changes by half of what goes on in one: a way, and as much again for the turn
-        let most = 1e3 * scene.limits.speed / scene.plan.rate;
+        let most = 1e3 * scene.limits.most(Name::Speed) / scene.plan.rate;
         assert!(clearance.value >= least - most, "{clearance:?} {least}");
 
-        let tool = scene.tool.as_ref().unwrap();
+        let tool = scene.layup.tool.as_ref().unwrap();
         let peaks = tool.peaks(motion, scene.plan.rate).unwrap();
         let rates = [
             (Name::ToolTurnRate, peaks.turn_rate.value.to_degrees()),

@@ -3,11 +3,13 @@
 use super::front::Front;
 use super::step::Step;
 use crate::draping::Draping;
+use crate::layup::{Model, Settings, Target};
 use crate::material::{Material, Section};
 use crate::mold::{Face, Mold, Pose, Sphere};
+use crate::motion::Motion;
 use crate::planner::sensitivity::Sensitivity;
 use crate::ply::{Grid, Ply};
-use crate::scene::{Model, Motion, Scene, Settings, Target};
+use crate::scene::Scene;
 
 /// The paper's ply with `count` × `count` grippers, 2 % slack, above a flat dome.
 pub fn scene(count: usize) -> Scene {
@@ -42,15 +44,15 @@ pub fn scene(count: usize) -> Scene {
     let target = Some(target);
     let motion = Motion { times: vec![0.0], positions };
     let mut scene = Scene { mold: Some(mold), target, ..Scene::new(ply, settings, motion) };
-    scene.limits.force = Some(1e3);
+    scene.limits.most(Name::Force) = Some(1e3);
     scene
 }
 
 /// Numbers that the program of the first step holds.
 fn size(count: usize) -> usize {
     let scene = scene(count);
-    let positions = &scene.motion.positions[0];
-    let targets = &scene.target.as_ref().expect("a target").grippers;
+    let positions = &scene.layup.motion.positions[0];
+    let targets = &scene.layup.target.as_ref().expect("a target").grippers;
     let mut draping = Draping::new(&scene);
     let shape = draping.move_to(positions);
     let contacts = draping.contacts.clone();

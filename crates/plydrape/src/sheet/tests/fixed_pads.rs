@@ -1,9 +1,9 @@
 //! Pads without joints, which turn with the frame of their tool alone.
 
-use super::release::{GRID, draped, scene};
+use super::release::{GRID, draped, layup};
 use super::*;
-use crate::mold::vector::{distance, norm, sub, turned};
-use crate::scene::Scene;
+use crate::geometry::vector::{distance, norm, sub, turned};
+use crate::layup::Layup;
 use crate::tool::Tool;
 
 /// A tool without axes whose pads have no joints.
@@ -62,13 +62,13 @@ fn turning(angle: f64, yaw: f64, joints: bool) -> Scene {
         [x + yaw, y - yaw, z + 0.3]
     };
     let steps = (0..=4).map(|k| (0..8).map(|n| place(n, f64::from(k) / 4.0)).collect());
-    let mut scene = scene(steps.collect(), None);
-    scene.settings.pad.radius = 0.01;
-    scene.settings.sheet.overhang = 0.01;
-    let start = &scene.motion.positions[0];
-    let fixed_pads = (!joints).then(|| scene.ply.flat_axes(start));
-    scene.tool = Some(Tool { fixed_pads, ..Tool::new(start, vec![]) });
-    scene
+    let mut layup = scene(steps.collect(), None);
+    layup.settings.pad.radius = 0.01;
+    layup.settings.sheet.overhang = 0.01;
+    let start = &layup.motion.positions[0];
+    let fixed_pads = (!joints).then(|| layup.ply.flat_axes(start));
+    layup.tool = Some(Tool { fixed_pads, ..Tool::new(start, vec![]) });
+    layup
 }
 
 /// A frame that turns takes pads without joints with it, and the fabric that they hold; on mounts that give too, which then carry the
@@ -77,9 +77,9 @@ fn turning(angle: f64, yaw: f64, joints: bool) -> Scene {
 fn a_tilted_frame_tilts_pads_without_joints() {
     let angle = 0.3_f64;
     for stiffness in [None, Some(2e3)] {
-        let mut scene = turning(angle, 0.0, false);
-        scene.settings.pad.lateral_stiffness = stiffness;
-        let (drape, states) = draped(&scene);
+        let mut layup = turning(angle, 0.0, false);
+        layup.settings.pad.lateral_stiffness = stiffness;
+        let (drape, states) = draped(&layup);
         assert_eq!(drape.summary.tilt_max_deg, 0.0);
         for state in &states {
             let turn = [0.0, angle * (state.step - 1) as f64 / 4.0, 0.0];
@@ -115,8 +115,8 @@ fn a_ply_in_pads_without_joints_does_not_know_where_it_is() {
 /// A pad without a joint that holds one point has nothing to hold it by.
 #[test]
 fn points_without_joints_are_refused() {
-    let mut scene = turning(0.0, 0.0, false);
-    scene.settings.pad.radius = 0.0;
-    let refused = Sheet::new(&scene).unwrap_err().to_string();
+    let mut layup = turning(0.0, 0.0, false);
+    layup.settings.pad.radius = 0.0;
+    let refused = Sheet::new(&layup).unwrap_err().to_string();
     assert!(refused.contains("the pad of gripper g0_0 holds one point"), "{refused}");
 }

@@ -1,10 +1,11 @@
 //! Random sheets: whatever is asked of it, a sheet answers with numbers and an honest status.
 
 use super::*;
+use crate::layup::{Layup, Model, PadSettings, Release, ReleaseOrder, Settings, SheetTime};
 use crate::material::{Material, Section};
 use crate::mold::{Cylinder, Face, Pose, Sphere};
+use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
-use crate::scene::{Model, Motion, PadSettings, Release, ReleaseOrder, Scene, Settings, SheetTime};
 use crate::sheet::{SheetError, Status, drape};
 use crate::tool::Tool;
 use std::ops::ControlFlow;
@@ -31,10 +32,10 @@ impl Random {
     }
 }
 
-/// A seed of a scene that is not refused.
+/// A seed of a layup that is not refused.
 const WHOLE: u64 = 186;
 
-/// A scene of a few grippers that is as wild as a user can make it.
+/// A layup of a few grippers that is as wild as a user can make it.
 fn scene(seed: u64) -> Scene {
     let mut r = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
     let grid = Grid { nu: 2 + r.below(2), nv: 1 + r.below(3) };
@@ -116,8 +117,8 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
     let tuning = Tuning { iterations: 12, ..Tuning::default() };
     let (mut solved, mut refused) = (0, 0);
     for seed in 0..200 {
-        let mut scene = scene(seed);
-        scene.release = match seed % 3 {
+        let mut layup = scene(seed);
+        layup.release = match seed % 3 {
             0 => None,
             1 => Some(Release::new(ReleaseOrder::End, 0.0)),
             _ => Some(Release::new(ReleaseOrder::Landed, 0.05)),
@@ -127,14 +128,14 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
             left.set(left.get() - 1);
             left.get() < 0
         };
-        let drape = match drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
+        let drape = match drape(&layup, tuning, &stop, |_| ControlFlow::Continue(())) {
             Ok(drape) => drape,
             Err(
                 SheetError::Coarse { .. }
                 | SheetError::Overlap { .. }
                 | SheetError::Overhang { .. },
             ) => {
-                assert!(scene.settings.pad.radius > 0.0);
+                assert!(layup.settings.pad.radius > 0.0);
                 refused += 1;
                 continue;
             }
@@ -152,7 +153,7 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         assert!(converged || !summary.accepted, "{seed}");
         if converged {
             solved += 1;
-            assert_eq!(summary.steps, scene.motion.positions.len());
+            assert_eq!(summary.steps, layup.motion.positions.len());
         }
     }
     // what grippers fling apart cannot be solved; the others are
@@ -162,14 +163,14 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
 /// A mesh as wide as half of the fabric between two pads has a line of nodes there; a wider one is refused with that width.
 #[test]
 fn a_mesh_is_refused_from_half_of_the_free_fabric_between_pads_on() {
-    let mut scene = scene(WHOLE);
-    let [a, b] = scene.ply.cell;
-    let pitch = if scene.ply.grid.nv > 1 { a.min(b) } else { a };
-    scene.settings.pad.radius = 0.2 * pitch;
-    scene.settings.sheet.overhang = 0.2 * pitch;
+    let mut layup = scene(WHOLE);
+    let [a, b] = layup.ply.cell;
+    let pitch = if layup.ply.grid.nv > 1 { a.min(b) } else { a };
+    layup.settings.pad.radius = 0.2 * pitch;
+    layup.settings.sheet.overhang = 0.2 * pitch;
     let mut with_mesh = |mesh: f64| {
-        scene.settings.sheet.mesh = Some(mesh);
-        Sheet::new(&scene)
+        layup.settings.sheet.mesh = Some(mesh);
+        Sheet::new(&layup)
     };
     assert!(with_mesh(0.3 * pitch).is_ok());
     let Err(SheetError::Coarse { most_mm, .. }) = with_mesh(0.31 * pitch) else {
@@ -178,12 +179,12 @@ fn a_mesh_is_refused_from_half_of_the_free_fabric_between_pads_on() {
     assert!((most_mm - 300.0 * pitch).abs() < 1e-9, "{most_mm}");
 }
 
-/// The same scene gives the same bytes, whatever else ran before or beside it.
+/// The same layup gives the same bytes, whatever else ran before or beside it.
 #[test]
 fn the_same_scene_gives_the_same_bytes() {
     let run = || {
-        let scene = scene(WHOLE);
-        drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(())).expect("a sheet")
+        let layup = scene(WHOLE);
+        drape(&layup, Tuning::default(), &|| false, |_| ControlFlow::Continue(())).expect("a sheet")
     };
     let first = run();
     let beside: Vec<_> = std::thread::scope(|scope| {
@@ -199,10 +200,10 @@ fn the_same_scene_gives_the_same_bytes() {
 /// A drape that is told to stop says so, and is not accepted.
 #[test]
 fn a_stopped_drape_is_interrupted() {
-    let scene = scene(WHOLE);
-    let stopped = drape(&scene, Tuning::default(), &|| true, |_| ControlFlow::Continue(()));
+    let layup = scene(WHOLE);
+    let stopped = drape(&layup, Tuning::default(), &|| true, |_| ControlFlow::Continue(()));
     assert_eq!(stopped.expect("a sheet").summary.status, Status::Interrupted);
-    let broken = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Break(()));
+    let broken = drape(&layup, Tuning::default(), &|| false, |_| ControlFlow::Break(()));
     let broken = broken.expect("a sheet");
     assert_eq!(broken.summary.status, Status::Interrupted);
     assert!(!broken.summary.accepted);

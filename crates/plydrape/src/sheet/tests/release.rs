@@ -2,10 +2,11 @@
 
 use super::hanging::cantilever;
 use super::*;
+use crate::layup::{Layup, Model, Release, ReleaseOrder, Settings};
 use crate::material::{Material, Section};
 use crate::mold::distance;
+use crate::motion::Motion;
 use crate::ply::{Grid, GripperId, Ply};
-use crate::scene::{Model, Motion, Release, ReleaseOrder, Scene, Settings};
 use crate::sheet::event::{at_these_times, holds};
 use crate::sheet::{Drape, EventKind, State, Status, drape};
 use std::ops::ControlFlow;
@@ -49,14 +50,14 @@ fn release(order: ReleaseOrder, dwell: f64) -> Option<Release> {
     Some(Release::new(order, dwell))
 }
 
-/// The drape of a scene and all of its states.
-pub(super) fn draped(scene: &Scene) -> (Drape, Vec<State>) {
+/// The drape of a layup and all of its states.
+pub(super) fn draped(layup: &Layup) -> (Drape, Vec<State>) {
     let mut states = Vec::new();
     let keep = |state: &State| {
         states.push(state.clone());
         ControlFlow::Continue(())
     };
-    let drape = drape(scene, Tuning::default(), &|| false, keep).expect("a sheet");
+    let drape = drape(layup, Tuning::default(), &|| false, keep).expect("a sheet");
     (drape, states)
 }
 
@@ -70,7 +71,7 @@ fn released(drape: &Drape) -> Vec<(GripperId, f64)> {
 /// states before are those of a drape without a release, to the last bit.
 #[test]
 fn a_ply_that_sticks_stays_where_it_was_laid() {
-    let scene = |release| scene(rolled(), release);
+    let layup = |release| scene(rolled(), release);
     let (held, before) = draped(&scene(None));
     assert!(held.summary.events.is_empty() && held.summary.status == Status::Converged);
     let (drape, states) = draped(&scene(release(ReleaseOrder::End, 2.0)));
@@ -109,9 +110,9 @@ fn a_dwell_delays_the_release_by_itself() {
     }
 
     let first = |dwell: f64| {
-        let mut scene = scene(rolled(), release(ReleaseOrder::Landed, dwell));
-        scene.settings.contact.friction = Friction::Coulomb(0.3);
-        released(&draped(&scene).0)[0]
+        let mut layup = scene(rolled(), release(ReleaseOrder::Landed, dwell));
+        layup.settings.contact.friction = Friction::Coulomb(0.3);
+        released(&draped(&layup).0)[0]
     };
     let ((gripper, time), (same, later)) = (first(0.0), first(0.75));
     assert!(time < 30.0, "{time}");
@@ -123,10 +124,10 @@ fn a_dwell_delays_the_release_by_itself() {
 #[test]
 fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
     let dwell = 1.5;
-    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, dwell));
+    let mut layup = scene(rolled(), release(ReleaseOrder::Landed, dwell));
     // what friction holds as it slides lies flat
-    scene.settings.contact.friction = Friction::Coulomb(0.3);
-    let (drape, states) = draped(&scene);
+    layup.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, states) = draped(&layup);
     assert_eq!(drape.summary.status, Status::Converged);
     let released = released(&drape);
     let mut all: Vec<GripperId> = released.iter().map(|(id, _)| *id).collect();
@@ -141,7 +142,7 @@ fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
         let near: Vec<usize> = (0..places.len())
             .filter(|n| (places[*n][0] - u).hypot(places[*n][1] - v) < 0.1 + 1e-9)
             .collect();
-        let lies = |state: &State| near.iter().all(|n| state.heights[*n] <= scene.limits.height);
+        let lies = |state: &State| near.iter().all(|n| state.heights[*n] <= layup.limits.height);
         if time > end {
             assert_eq!(time, end + dwell);
             continue;
@@ -164,16 +165,16 @@ fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
 /// let go at these times, and with the same motion the ply ends as it did.
 #[test]
 fn a_cell_with_errors_lets_go_at_the_times_of_the_program() {
-    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, 0.5));
-    scene.settings.contact.friction = Friction::Coulomb(0.3);
-    let (drape, _) = draped(&scene);
+    let mut layup = scene(rolled(), release(ReleaseOrder::Landed, 0.5));
+    layup.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, _) = draped(&layup);
     let events = &drape.summary.events;
-    let same = draped(&at_these_times(&scene, events)).0;
+    let same = draped(&at_these_times(&layup, events)).0;
     // time steps may end elsewhere, where a pad began to press and did not go on
     for (a, b) in same.last.positions.iter().zip(&drape.last.positions) {
-        assert!(distance(*a, *b) < scene.settings.contact.tolerance, "{a:?} {b:?}");
+        assert!(distance(*a, *b) < layup.settings.contact.tolerance, "{a:?} {b:?}");
     }
-    let mut higher = at_these_times(&scene, events);
+    let mut higher = at_these_times(&layup, events);
     for p in higher.motion.positions.iter_mut().flatten() {
         p[2] += 5e-3;
     }
@@ -186,15 +187,15 @@ fn a_cell_with_errors_lets_go_at_the_times_of_the_program() {
 /// the ply that the pads held.
 #[test]
 fn a_ply_that_slides_after_the_release_is_seen_to() {
-    let mut scene = scene(rolled(), release(ReleaseOrder::End, 0.0));
-    scene.mold = Some(plane(0.2));
-    for p in scene.motion.positions.iter_mut().flatten() {
+    let mut layup = scene(rolled(), release(ReleaseOrder::End, 0.0));
+    layup.mold = Some(plane(0.2));
+    for p in layup.motion.positions.iter_mut().flatten() {
         let [x, y, z] = *p;
         let (c, s) = (0.2_f64.cos(), 0.2_f64.sin());
         *p = [c * x - s * z, y, s * x + c * z];
     }
-    scene.settings.contact.friction = Friction::Coulomb(0.05);
-    let (drape, states) = draped(&scene);
+    layup.settings.contact.friction = Friction::Coulomb(0.05);
+    let (drape, states) = draped(&layup);
     assert!(drape.summary.status != Status::Converged && !drape.summary.accepted);
     let [held, free] = [states.len() - 2, states.len() - 1].map(|n| states[n].positions[0]);
     assert!(distance(held, free) > 0.05, "it slides down the incline: {held:?} {free:?}");
@@ -297,12 +298,12 @@ fn turned(angle: f64) -> [[f64; 3]; 3] {
 /// Loads count only while a pad holds: after it has let go, neither force nor tilt of its gripper are measured.
 #[test]
 fn a_pad_that_is_gone_has_no_loads() {
-    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, 0.0));
-    scene.settings.contact.friction = Friction::Coulomb(0.3);
-    let (drape, states) = draped(&scene);
+    let mut layup = scene(rolled(), release(ReleaseOrder::Landed, 0.0));
+    layup.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, states) = draped(&layup);
     let gone = states.iter().flat_map(|state| state.holds.iter().zip(&state.forces));
     let (gone, held): (Vec<_>, Vec<_>) = gone.partition(|(holds, _)| !**holds);
     assert!(gone.len() > 20 && gone.iter().all(|(_, force)| **force == [0.0; 3]));
-    let most = held.iter().map(|(_, f)| crate::mold::vector::norm(**f)).fold(0.0, f64::max);
+    let most = held.iter().map(|(_, f)| crate::geometry::vector::norm(**f)).fold(0.0, f64::max);
     assert_eq!(drape.summary.gripper_force_max_n, most);
 }
