@@ -32,12 +32,6 @@ impl Misfit {
         self.length - self.path
     }
 
-    /// Fabric length beyond the path (m), not negative.
-    #[must_use]
-    pub fn slack(&self) -> f64 {
-        excess(self.excess(), self.whole)
-    }
-
     /// Path beyond the fabric length (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {

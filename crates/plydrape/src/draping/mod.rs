@@ -23,6 +23,8 @@ pub(crate) mod misfit;
 #[cfg(test)]
 mod mount_tests;
 mod ply_state;
+#[cfg(test)]
+mod ply_state_tests;
 pub mod record;
 mod recording;
 #[doc(hidden)]

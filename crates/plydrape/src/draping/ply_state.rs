@@ -203,7 +203,7 @@ fn points(step: &SolvedStep, detail: Detail) -> Vec<FabricPoint> {
 fn above(span: &FreeSpan, mold: &Mold) -> impl Iterator<Item = (Point, f64)> {
     let stations = hanging(span).into_iter().map(|place| (place, mold.signed_distance(place)));
     // a distance that is no number stays
-    stations.filter(|(_, height)| !(*height < 0.0))
+    stations.filter(|(_, height)| *height >= 0.0 || height.is_nan())
 }
 
 fn cells(step: &SolvedStep, detail: Detail) -> Vec<CellState> {

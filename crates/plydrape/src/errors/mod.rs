@@ -18,7 +18,7 @@ mod apply;
 mod draw;
 mod term;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use draw::{Draw, GripperError, MaterialError, MoldError, PickUpError, RigidError};
 pub use term::Term;

@@ -1,7 +1,6 @@
 //! Acceleration: the largest of a gripper along a motion in time.
 
-use super::{Description, Found, Measure, Scope, Unit, UsualLimit, WholeMotion, Worth};
-use crate::layup::Layup;
+use super::{Bound, Description, Found, Measure, Practice, Scope, Unit, WholeMotion, Worth};
 
 /// Acceleration; see the head of this file.
 pub struct Acceleration;
@@ -13,10 +12,14 @@ impl Measure for Acceleration {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
-            1.0,
-            "our assumption of a robot that carries a light tool, from no data sheet",
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within("Acceleration of a gripper", [1e-6, 1e4], "a gripper")
+                .found(Practice::ACCELERATION)
+                .usually(
+                    1.0,
+                    "our assumption of a robot that carries a light tool, from no data sheet",
+                ),
         )
     }
 

@@ -13,10 +13,6 @@ impl Measure for AxisSpeed {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn is_settable(&self) -> bool {
-        false
-    }
-
     fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         layup.tool.as_ref().map(|_| 1.0)
     }

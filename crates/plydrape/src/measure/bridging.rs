@@ -3,7 +3,7 @@
 //! A diagonal is no fiber: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
 //! the fabric lies in. Its gaps stand in its record.
 
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::layup::Layup;
 
 /// Bridging; see the head of this file.
@@ -11,12 +11,13 @@ pub struct Bridging;
 
 impl Measure for Bridging {
     fn description(&self) -> Description {
-        let own = Description::new("bridging", "bridging_mm", "bridging", Unit::MILLIMETRE);
+        let own =
+            Description::of_catenaries("bridging", "bridging_mm", "bridging", Unit::MILLIMETRE);
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(1e-3, "our choice; no source gives it")
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::gap("Bridging gap").usually(1e-3, "our choice; no source gives it"))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

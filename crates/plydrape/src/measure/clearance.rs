@@ -4,8 +4,7 @@
 //! count as negative distances.
 
 use super::{
-    Description, Found, Limits, Measure, Name, Observation, Sense, Unit, UsualLimit, WholeMotion,
-    Worth,
+    Bound, Description, Found, Limits, Measure, Name, Observation, Sense, Unit, WholeMotion, Worth,
 };
 use crate::clearance::{self, Nearest};
 use crate::layup::Layup;
@@ -24,12 +23,13 @@ impl Measure for Clearance {
         true
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
+    fn bound(&self) -> Option<Bound> {
+        let about = "Smallest distance of the `bodies` of grippers and robot from mold, obstacles and each other";
+        Some(Bound::distance(about).usually(
             5e-3,
             "our assumption: a fixture that is placed by hand within 2 mm, hoses and heads of screws of 2 mm, and an error of the robot of less \
              than 1 mm",
-        )
+        ))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

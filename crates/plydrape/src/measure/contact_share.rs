@@ -1,6 +1,6 @@
 //! Contact share: the length of the edges that lies on the mold, of the length of all edges.
 
-use super::{Description, Found, Measure, Observation, Scope, Sense, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Observation, Scope, Sense, Unit};
 use crate::layup::Layup;
 use crate::state::Site;
 
@@ -9,12 +9,20 @@ pub struct ContactShare;
 
 impl Measure for ContactShare {
     fn description(&self) -> Description {
-        let own = Description::new("contact_share", "contact_share", "contact share", Unit::SHARE);
+        let own = Description::of_catenaries(
+            "contact_share",
+            "contact_share",
+            "contact share",
+            Unit::SHARE,
+        );
         Description { sense: Sense::AtLeast, scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(0.95, "our choice: the rest may hang beside the grippers")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::share("Share of the ply's edges on the mold at the end")
+                .usually(0.95, "our choice: the rest may hang beside the grippers"),
+        )
     }
 
     fn applies(&self, layup: &Layup) -> bool {

@@ -10,7 +10,7 @@ pub struct DiagonalSlack;
 
 impl Measure for DiagonalSlack {
     fn description(&self) -> Description {
-        Description::new(
+        Description::of_catenaries(
             "diagonal_slack",
             "diagonal_slack_mm",
             "slack of diagonals",

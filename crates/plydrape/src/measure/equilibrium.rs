@@ -10,8 +10,4 @@ impl Measure for Equilibrium {
         let own = Description::new("equilibrium", "equilibrium", "equilibrium", Unit::SLOPE);
         Description { scope: Scope::Whole, ..own }
     }
-
-    fn is_settable(&self) -> bool {
-        false
-    }
 }

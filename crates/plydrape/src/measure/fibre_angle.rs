@@ -2,7 +2,7 @@
 //! line it is that from end to end of what has landed of it, of a cell that of its two mid-lines.
 
 use super::out_of_plane::parts;
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::geometry::vector::{cross, dot, norm, unit};
 use crate::layup::Layup;
 
@@ -15,8 +15,11 @@ impl Measure for FibreAngle {
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(3_f64.to_radians(), "a usual tolerance of ply angles, ±3°")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::angle("Angle along the mold between landed fibers and those of the ideal drape")
+                .usually(3.0 * DEGREE, "a usual tolerance of ply angles, ±3°"),
+        )
     }
 
     fn applies(&self, layup: &Layup) -> bool {
@@ -47,5 +50,50 @@ impl Measure for FibreAngle {
             }
         }
         most.found()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Limits, Name, sample};
+    use super::*;
+    use crate::net::{self, EdgeRule, Generators, Net};
+    use std::sync::Arc;
+
+    /// The ideal drape on a flat mold runs along x turned by 10°: a cell along x is off by 10°, however steep it stands, and one
+    /// that is turned by 14° by 4°. A landed line counts with the angle that the model gives it.
+    #[test]
+    fn fibers_are_compared_along_the_mold() {
+        let mut layup = sample::layup();
+        let net = net::Layup {
+            nodes: [11; 2],
+            mesh: [0.01; 2],
+            origin: [0.0; 2],
+            seed: [0; 2],
+            place: [0.0; 3],
+            heading: 10_f64.to_radians(),
+            shear: 0.0,
+            generators: Generators::Geodesic,
+            edges: EdgeRule::Along,
+        };
+        let net = Net::drape(layup.mold.as_ref().unwrap(), net).unwrap();
+        layup.target.as_mut().unwrap().drape = Some(Arc::new(net));
+        let limits = Limits::of(&layup);
+        let mut state = sample::state(&layup);
+        let turned = |heading: f64, rise: f64| {
+            let (s, c) = heading.to_radians().sin_cos();
+            let (up, flat) = rise.to_radians().sin_cos();
+            Some(([[c * flat, s * flat, up], [-s, c, 0.0]], [0.03, 0.04]))
+        };
+        let mut angle = |heading: f64, rise: f64, line: Option<f64>| {
+            state.cells[0].directions = turned(heading, rise);
+            state.lines[0].fiber_angle = line.map(f64::to_radians);
+            let seen = Observation { layup: &layup, limits: &limits, state: &state, past: None };
+            Name::FibreAngle.measure().evaluate(&seen).unwrap().value
+        };
+        assert!((angle(0.0, 0.0, None) - 10.0).abs() < 1e-9);
+        assert!((angle(0.0, 30.0, None) - 10.0).abs() < 1e-9);
+        assert!((angle(14.0, 0.0, None) - 4.0).abs() < 1e-9);
+        assert!((angle(14.0, 0.0, Some(6.0)) - 6.0).abs() < 1e-9);
     }
 }

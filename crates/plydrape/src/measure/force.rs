@@ -3,15 +3,19 @@
 //! Segments that the mold holds are left out: their force is that of the axial stiffness, and so are diagonals, which
 //! are no fibers.
 
-use super::{Description, Found, Measure, Most, Observation, Unit, Worth};
+use super::{Bound, Description, Found, Measure, Most, Observation, Unit, Worth};
 
 /// Force; see the head of this file.
 pub struct Force;
 
 impl Measure for Force {
     fn description(&self) -> Description {
-        let own = Description::new("force", "force_n", "horizontal force", Unit::NEWTON);
+        let own = Description::of_catenaries("force", "force_n", "horizontal force", Unit::NEWTON);
         Description { worth: Worth::Kept, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::force("Horizontal force of a span").such_as(20.0))
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -1,6 +1,6 @@
 //! Gripper distance: the smallest distance of any two grippers.
 
-use super::{Description, Found, Measure, Observation, Sense, Unit, UsualLimit, Worth};
+use super::{Bound, Description, Found, Measure, Observation, Sense, Unit, UsualLimit, Worth};
 use crate::geometry::vector::between;
 use crate::geometry::{Point, distance};
 use crate::layup::Layup;
@@ -18,6 +18,13 @@ impl Measure for GripperDistance {
             Unit::MILLIMETRE,
         );
         Description { sense: Sense::AtLeast, worth: Worth::Kept, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::distance("Smallest distance between any two grippers")
+                .follows("half of the shorter side of a cell", 0.08),
+        )
     }
 
     fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {

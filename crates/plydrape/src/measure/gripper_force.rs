@@ -1,6 +1,6 @@
 //! Gripper force: the force of the ply on one gripper, in whatever direction.
 
-use super::{Description, Found, Measure, Observation, Unit, Worth};
+use super::{Bound, Description, Found, Measure, Observation, Unit, Worth};
 use crate::geometry::vector::norm;
 
 /// Gripper force; see the head of this file.
@@ -11,6 +11,10 @@ impl Measure for GripperForce {
         let own =
             Description::new("gripper_force", "gripper_force_n", "gripper force", Unit::NEWTON);
         Description { worth: Worth::Kept, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::force("Force of the ply on one gripper").such_as(15.0))
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

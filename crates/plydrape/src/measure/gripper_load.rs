@@ -1,7 +1,6 @@
 //! Load: what a gripper holds of the ply against gravity; where the ply pushes it up, how hard.
 
-use super::{Description, Found, Measure, Observation, Unit, UsualLimit, Worth};
-use crate::layup::Layup;
+use super::{Bound, Description, Found, Measure, Observation, Unit, Worth};
 
 /// Load; see the head of this file.
 pub struct GripperLoad;
@@ -12,8 +11,11 @@ impl Measure for GripperLoad {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(10.0, "a vacuum cup of 30 mm holds 14 to 28 N across a porous ply")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::force("Vertical load that one gripper holds")
+                .usually(10.0, "a vacuum cup of 30 mm holds 14 to 28 N across a porous ply"),
+        )
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -1,7 +1,7 @@
 //! Height of the ply over the mold at the end, as the sheet has it. Catenaries know the ply along lines alone: for their lines
 //! `bridging.rs` and `wrinkle.rs` take its place.
 
-use super::{Description, Found, Measure, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Observation, Scope, Unit};
 use crate::layup::{Layup, Model};
 
 /// Height of the ply over the mold at the end; see the head of this file.
@@ -9,14 +9,17 @@ pub struct Height;
 
 impl Measure for Height {
     fn description(&self) -> Description {
-        let own = Description::new("height", "height_mm", "height over the mold", Unit::MILLIMETRE);
+        let own =
+            Description::of_sheet("height", "height_mm", "height over the mold", Unit::MILLIMETRE);
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
-            5e-4,
-            "our choice of what no longer counts as a wrinkle; no source gives it",
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::gap("Height of the ply over the mold at the end").usually(
+                5e-4,
+                "our choice of what no longer counts as a wrinkle; no source gives it",
+            ),
         )
     }
 

@@ -15,10 +15,6 @@ impl Measure for Holding {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn is_settable(&self) -> bool {
-        false
-    }
-
     fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
         layup.settings.pad.holding_force.map(|force| force / limits.grip_safety)
     }

@@ -1,7 +1,6 @@
 //! Jerk: the largest of a gripper along a motion in time.
 
-use super::{Description, Found, Measure, Scope, Unit, UsualLimit, WholeMotion, Worth};
-use crate::layup::Layup;
+use super::{Bound, Description, Found, Measure, Practice, Scope, Unit, WholeMotion, Worth};
 
 /// Jerk; see the head of this file.
 pub struct Jerk;
@@ -12,10 +11,18 @@ impl Measure for Jerk {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
-            10.0,
-            "our assumption: the largest acceleration is reached within a tenth of a second",
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within(
+                "Jerk of a gripper",
+                [1e-6, 1e7],
+                "a gripper",
+            )
+            .found(Practice::JERK)
+            .usually(
+                10.0,
+                "our assumption: the largest acceleration is reached within a tenth of a second",
+            ),
         )
     }
 

@@ -3,7 +3,7 @@
 //! It is a limit of rigid grippers alone. Those on mounts are commanded beyond their places on purpose, and the position of
 //! the ply says where they have brought it.
 
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::geometry::distance;
 use crate::layup::Layup;
 use crate::state::Site;
@@ -22,11 +22,11 @@ impl Measure for LandingGripper {
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::gap("Distance of a rigid gripper from its ideal place at the end").usually(
             5e-4,
             "our choice: it lets a plan remove slack at the landing, which takes hundredths of a millimeter",
-        )
+        ))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

@@ -4,7 +4,7 @@
 //! A diagonal is no fiber: a cell that lands with a shear other than its last one is in the wrong shape, whichever of its diagonals
 //! that leaves too long or too short. Only catenaries follow diagonals.
 
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::layup::Layup;
 
 /// Landing shear error |γ_end − γ_l|; see the head of this file.
@@ -12,7 +12,7 @@ pub struct LandingShear;
 
 impl Measure for LandingShear {
     fn description(&self) -> Description {
-        let own = Description::new(
+        let own = Description::of_catenaries(
             "landing_shear",
             "landing_shear_deg",
             "landing shear error",
@@ -21,11 +21,12 @@ impl Measure for LandingShear {
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
-            3_f64.to_radians(),
+    fn bound(&self) -> Option<Bound> {
+        let about = "Difference between a cell's shear at the end and when its diagonal landed";
+        Some(Bound::angle(about).usually(
+            3.0 * DEGREE,
             "our choice: the tolerance of ply angles, for the angle between the fibers of a cell",
-        )
+        ))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

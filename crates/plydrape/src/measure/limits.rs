@@ -168,7 +168,7 @@ mod tests {
         let mut limits = Limits::of(&sample::layup()).with_preset(Preset::PlyAngle);
         limits.workspace = Some([[-1.0, 1.0], [0.0, 2.0], [0.1, 0.7]]);
         for (n, name) in Name::ALL.iter().enumerate().filter(|(n, _)| n % 3 > 0) {
-            if name.measure().is_settable() {
+            if name.measure().bound().is_some() {
                 limits.set(*name, Some(0.1 * n as f64));
             }
         }

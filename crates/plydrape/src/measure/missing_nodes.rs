@@ -10,8 +10,4 @@ impl Measure for MissingNodes {
         let own = Description::new("missing_nodes", "missing_nodes", "missing nodes", Unit::COUNT);
         Description { scope: Scope::Whole, ..own }
     }
-
-    fn is_settable(&self) -> bool {
-        false
-    }
 }

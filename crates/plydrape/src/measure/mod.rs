@@ -13,6 +13,7 @@
 
 mod acceleration;
 mod axis_speed;
+mod bound;
 mod bridging;
 mod clearance;
 mod contact_share;
@@ -75,6 +76,7 @@ mod workspace;
 mod wrinkle;
 mod wrinkle_angle;
 
+pub use bound::{Bound, Practice, Range, Refusal, Usual};
 pub(crate) use clearance::found as clearance_found;
 pub use found::Found;
 pub(crate) use found::Most;
@@ -87,14 +89,14 @@ pub use preset::{Figure, Preset};
 pub use record::{ByName, Measures, Numbers, Worst};
 pub use slack_angle::{angle_of_slack, slack_of_angle};
 pub use strength::{Loss, Plane, Published};
-pub(crate) use tilt_rate::fastest as fastest_tilt;
 use tuning::TUNING;
+use unit::DEGREE;
 pub use unit::Unit;
 pub use verdict::Verdict;
 pub use whole::WholeMotion;
 pub(crate) use workspace::outside_workspace;
 
-use crate::layup::Layup;
+use crate::layup::{Layup, Model};
 
 /// Which way a limit bounds a measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,13 +159,35 @@ pub struct Description {
     pub scope: Scope,
     /// What it is worth to stay below its limit.
     pub worth: Worth,
+    /// The only model that can evaluate it; `None` if both can.
+    pub model: Option<Model>,
 }
 
 impl Description {
     /// Of a measure that is bounded from above in every step, and of which less is better.
     const fn new(name: &'static str, key: &'static str, label: &'static str, unit: Unit) -> Self {
         let (sense, scope, worth) = (Sense::AtMost, Scope::EveryStep, Worth::Less);
-        Description { name, key, label, unit, sense, scope, worth }
+        Description { name, key, label, unit, sense, scope, worth, model: None }
+    }
+
+    /// As [`Description::new`], of what catenaries alone follow.
+    const fn of_catenaries(
+        name: &'static str,
+        key: &'static str,
+        label: &'static str,
+        unit: Unit,
+    ) -> Self {
+        Description { model: Some(Model::Catenaries), ..Self::new(name, key, label, unit) }
+    }
+
+    /// As [`Description::new`], of what the sheet alone follows.
+    const fn of_sheet(
+        name: &'static str,
+        key: &'static str,
+        label: &'static str,
+        unit: Unit,
+    ) -> Self {
+        Description { model: Some(Model::Sheet), ..Self::new(name, key, label, unit) }
     }
 }
 
@@ -212,14 +236,23 @@ pub trait Measure: Sync {
         false
     }
 
-    /// The limit unless a scene sets another; `None` if there is no limit unless a scene sets one.
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
+    /// How a scene may bound it; `None` if it may not, because the limit follows from pads, tool or workspace, or is that there is no such
+    /// case, or because the measure only describes.
+    fn bound(&self) -> Option<Bound> {
         None
     }
 
-    /// Whether a scene may set a limit of it; not where the limit follows from pads, tool or workspace, or is that there is no such case.
-    fn is_settable(&self) -> bool {
-        true
+    /// The limit in a layup unless a scene sets another; `None` if there is no limit unless a scene sets one.
+    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
+        match self.bound()?.usual {
+            Usual::Always(limit) => Some(limit),
+            Usual::OfLayup(_) | Usual::Never => None,
+        }
+    }
+
+    /// Why no scene of this layup may bound it; `None` if it may.
+    fn refusal(&self, _layup: &Layup) -> Option<Refusal> {
+        None
     }
 
     /// Whether the measure is judged in a layup, if it has a limit.
@@ -324,6 +357,11 @@ measures! {
 }
 
 impl Name {
+    /// The measures that a scene may bound, and how.
+    pub fn bounded() -> impl Iterator<Item = (Name, Bound)> {
+        Name::ALL.iter().filter_map(|name| Some((*name, name.measure().bound()?)))
+    }
+
     /// Its name as tables have it, `landing shear`: that of files in words, in their spelling.
     #[must_use]
     pub fn title(self) -> String {
@@ -334,7 +372,6 @@ impl Name {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layup::Model;
     use crate::state::PlyState;
 
     /// A file is read by these names: no two measures share one.
@@ -413,37 +450,25 @@ mod tests {
         }
     }
 
-    /// A sheet follows no lines between grippers: what is measured of those has no value there, and so no verdict. The height is of the
-    /// sheet alone.
+    /// A sheet follows no lines between grippers, and catenaries no surface: what is measured of those has no value there, and so no
+    /// verdict.
     #[test]
     fn a_model_is_not_judged_by_what_it_does_not_follow() {
         let layup = sample::layup();
-        let mut state = sample::state(&layup);
-        let height = |state: &PlyState| value(&values(&layup, state, state), Name::Height);
-        assert_eq!(height(&state), None);
-        state.model = Model::Sheet;
-        assert_eq!(height(&state), Some(20.0));
-        state.lines.iter_mut().for_each(|line| line.catenary = None);
-        let found = values(&layup, &state, &state);
-        for name in [
-            Name::Overstretch,
-            Name::OverstretchLength,
-            Name::Force,
-            Name::Slack,
-            Name::SlackRatio,
-            Name::SlackAngle,
-            Name::Wrinkle,
-            Name::WrinkleAngle,
-            Name::DiagonalSlack,
-            Name::Bridging,
-            Name::LandingShear,
-            Name::SagRatio,
-            Name::Slope,
-            Name::ContactShare,
-        ] {
-            assert_eq!(value(&found, name), None, "{name:?}");
+        let catenaries = sample::state(&layup);
+        let mut sheet = PlyState { model: Model::Sheet, ..catenaries.clone() };
+        sheet.lines.iter_mut().for_each(|line| line.catenary = None);
+        for state in [&catenaries, &sheet] {
+            let found = values(&layup, state, state);
+            for name in Name::ALL {
+                if name.measure().description().model == Some(state.model.other()) {
+                    assert_eq!(value(&found, *name), None, "{name:?}");
+                }
+            }
+            assert!(value(&found, Name::Strain).is_some());
         }
-        assert!(value(&found, Name::Strain).is_some());
+        assert_eq!(value(&values(&layup, &sheet, &sheet), Name::Height), Some(20.0));
+        assert!(value(&values(&layup, &catenaries, &catenaries), Name::SlackRatio).is_some());
     }
 
     /// Nothing is asked of a pad that has let go, but where it is.

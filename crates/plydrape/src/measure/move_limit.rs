@@ -10,8 +10,4 @@ impl Measure for MoveLimit {
         let own = Description::new("move_limit", "move_limit", "move limit", Unit::MILLIMETRE);
         Description { scope: Scope::Whole, ..own }
     }
-
-    fn is_settable(&self) -> bool {
-        false
-    }
 }

@@ -10,8 +10,4 @@ impl Measure for OffMold {
         let own = Description::new("off_mold", "off_mold", "off the mold", Unit::MILLIMETRE);
         Description { scope: Scope::Whole, ..own }
     }
-
-    fn is_settable(&self) -> bool {
-        false
-    }
 }

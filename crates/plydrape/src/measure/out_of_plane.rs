@@ -1,6 +1,6 @@
 //! Fiber angle out of plane: the largest angle at the end between a fiber of the ply and the tangent plane of the mold under it.
 
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::geometry::Point;
 use crate::geometry::vector::{along, dot, norm};
 use crate::layup::Layup;
@@ -12,7 +12,7 @@ pub struct OutOfPlane;
 
 impl Measure for OutOfPlane {
     fn description(&self) -> Description {
-        let own = Description::new(
+        let own = Description::of_sheet(
             "out_of_plane",
             "out_of_plane_deg",
             "fiber angle out of plane",
@@ -21,11 +21,11 @@ impl Measure for OutOfPlane {
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
-            3_f64.to_radians(),
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::angle("Angle between the fibers of the ply and the mold at the end").usually(
+            3.0 * DEGREE,
             "our choice: the usual tolerance of ply angles, taken out of the plane too",
-        )
+        ))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

@@ -1,18 +1,20 @@
 //! Overstretch: the way of a free or lying segment of an edge beyond its fabric, as a share of the whole edge.
 
-use super::{Description, Found, Measure, Observation, Unit, UsualLimit};
-use crate::layup::Layup;
+use super::{Bound, Description, Found, Measure, Observation, Unit};
 
 /// Overstretch; see the head of this file.
 pub struct Overstretch;
 
 impl Measure for Overstretch {
     fn description(&self) -> Description {
-        Description::new("overstretch", "overstretch", "overstretch", Unit::SHARE)
+        Description::of_catenaries("overstretch", "overstretch", "overstretch", Unit::SHARE)
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(0.001, "our choice, of a whole edge; no source gives it")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::share("Chord beyond the free length as a share of the edge")
+                .usually(0.001, "our choice, of a whole edge; no source gives it"),
+        )
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -8,7 +8,7 @@ pub struct OverstretchLength;
 
 impl Measure for OverstretchLength {
     fn description(&self) -> Description {
-        Description::new(
+        Description::of_catenaries(
             "overstretch_length",
             "overstretch_mm",
             "overstretch length",

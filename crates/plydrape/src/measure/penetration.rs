@@ -3,7 +3,7 @@
 //! Grippers of catenaries are followed along their straight paths from the step before: the distance from the mold changes by no more
 //! than the length of the path, so halving the path finds the deepest point. In the sheet they are points of the ply.
 
-use super::{Description, Found, Measure, Most, Observation, TUNING, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Most, Observation, TUNING, Unit, UsualLimit};
 use crate::geometry::vector::between;
 use crate::geometry::{Point, distance};
 use crate::layup::{Layup, Model};
@@ -16,6 +16,13 @@ pub struct Penetration;
 impl Measure for Penetration {
     fn description(&self) -> Description {
         Description::new("penetration", "penetration_mm", "penetration", Unit::MILLIMETRE)
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::depth("Depth of ply and grippers below the mold")
+                .follows("the contact's `tolerance`", 5e-4),
+        )
     }
 
     fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {

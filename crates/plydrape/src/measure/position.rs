@@ -3,7 +3,7 @@
 //! A diagonal of catenaries is no fiber: where its points land follows from the shear that its cell lands with, which is judged by itself
 //! (`landing_shear.rs`), so they have no error here.
 
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::layup::Layup;
 
 /// Position; see the head of this file.
@@ -20,8 +20,11 @@ impl Measure for Position {
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(2e-3, "the tolerance of positions that the project DrapeBot gives, ±2 mm")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::gap("Distance of landed points of the ply from their ideal places at the end")
+                .usually(2e-3, "the tolerance of positions that the project DrapeBot gives, ±2 mm"),
+        )
     }
 
     fn applies(&self, layup: &Layup) -> bool {

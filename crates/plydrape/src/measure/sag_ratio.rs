@@ -9,7 +9,7 @@ pub struct SagRatio;
 
 impl Measure for SagRatio {
     fn description(&self) -> Description {
-        Description::new("sag_ratio", "sag_ratio", "sag over run", Unit::SHARE)
+        Description::of_catenaries("sag_ratio", "sag_ratio", "sag over run", Unit::SHARE)
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

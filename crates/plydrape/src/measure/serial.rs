@@ -85,7 +85,7 @@ impl<'de> Deserialize<'de> for Limits {
             bounds: BTreeMap<Name, f64>,
         }
         let Written { preset, workspace, grip_safety, bounds } = Written::deserialize(from)?;
-        if let Some(name) = bounds.keys().find(|name| !name.measure().is_settable()) {
+        if let Some(name) = bounds.keys().find(|name| name.measure().bound().is_none()) {
             let name = name.measure().name();
             return Err(D::Error::custom(format!(
                 "the limit `{name}` follows from other settings"

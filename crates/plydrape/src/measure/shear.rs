@@ -1,6 +1,8 @@
 //! Shear: the largest shear angle of a cell, (6) of `docs/theory`.
 
-use super::{Description, Found, Measure, Most, Observation, Unit, UsualLimit, Worth};
+use super::{
+    Bound, DEGREE, Description, Found, Measure, Most, Observation, Unit, UsualLimit, Worth,
+};
 use crate::layup::Layup;
 
 /// Shear; see the head of this file.
@@ -10,6 +12,13 @@ impl Measure for Shear {
     fn description(&self) -> Description {
         let own = Description::new("shear", "shear_deg", "shear", Unit::DEGREE);
         Description { worth: Worth::Kept, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::angle("Shear angle")
+                .follows("the material's locking angle or else 45 deg", 40.0 * DEGREE),
+        )
     }
 
     fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {

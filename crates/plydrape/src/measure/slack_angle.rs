@@ -5,7 +5,7 @@
 //! ruck it is steeper ([`super::Name::WrinkleAngle`]).
 
 use super::slack_ratio::loosest_edge;
-use super::{Description, Found, Measure, Observation, Scope, Unit};
+use super::{Bound, DEGREE, Description, Found, Measure, Observation, Scope, Unit};
 use crate::layup::Layup;
 
 /// Slack angle; see the head of this file.
@@ -13,13 +13,18 @@ pub struct SlackAngle;
 
 impl Measure for SlackAngle {
     fn description(&self) -> Description {
-        let own = Description::new(
+        let own = Description::of_catenaries(
             "slack_angle",
             "slack_angle_deg",
             "slack as fiber angle",
             Unit::DEGREE,
         );
         Description { scope: Scope::End, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        let about = "Slack as a fiber angle, 2√ε of the share ε; it sets `slack_ratio` where that is not given";
+        Some(Bound::angle(about).such_as(2.6 * DEGREE))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

@@ -2,7 +2,7 @@
 //!
 //! Its place is that of the largest slack in the edge.
 
-use super::{Description, Found, Measure, Most, Observation, Scope, Unit, UsualLimit};
+use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::layup::Layup;
 use crate::state::Site;
 use std::collections::BTreeMap;
@@ -12,12 +12,16 @@ pub struct SlackRatio;
 
 impl Measure for SlackRatio {
     fn description(&self) -> Description {
-        let own = Description::new("slack_ratio", "slack_ratio", "slack ratio", Unit::SHARE);
+        let own =
+            Description::of_catenaries("slack_ratio", "slack_ratio", "slack ratio", Unit::SHARE);
         Description { scope: Scope::End, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(0.0005, "our choice: spread over an edge, a fiber angle of 2.6°")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::share("Slack of a catenary, all its segments, as a share of its length")
+                .usually(0.0005, "our choice: spread over an edge, a fiber angle of 2.6°"),
+        )
     }
 
     fn applies(&self, layup: &Layup) -> bool {

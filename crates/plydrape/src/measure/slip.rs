@@ -13,10 +13,6 @@ impl Measure for Slip {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn is_settable(&self) -> bool {
-        false
-    }
-
     fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
         layup.settings.pad.slip_force.map(|force| force / limits.grip_safety)
     }

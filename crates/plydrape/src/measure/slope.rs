@@ -9,7 +9,7 @@ pub struct Slope;
 
 impl Measure for Slope {
     fn description(&self) -> Description {
-        Description::new("slope", "slope", "slope against the chord", Unit::NUMBER)
+        Description::of_catenaries("slope", "slope", "slope against the chord", Unit::NUMBER)
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

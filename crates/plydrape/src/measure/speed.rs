@@ -1,7 +1,6 @@
 //! Speed: the largest of a gripper along a motion in time.
 
-use super::{Description, Found, Measure, Scope, Unit, UsualLimit, WholeMotion, Worth};
-use crate::layup::Layup;
+use super::{Bound, Description, Found, Measure, Practice, Scope, Unit, WholeMotion, Worth};
 
 /// Speed; see the head of this file.
 pub struct Speed;
@@ -12,10 +11,14 @@ impl Measure for Speed {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(
-            0.25,
-            "our assumption: the speed to which robots are reduced where people are near",
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within("Speed of a gripper", [1e-6, 1e2], "a gripper")
+                .found(Practice::SPEED)
+                .usually(
+                    0.25,
+                    "our assumption: the speed to which robots are reduced where people are near",
+                ),
         )
     }
 

@@ -10,8 +10,4 @@ impl Measure for Steps {
         let own = Description::new("steps", "steps", "steps", Unit::MILLIMETRE);
         Description { scope: Scope::Whole, ..own }
     }
-
-    fn is_settable(&self) -> bool {
-        false
-    }
 }

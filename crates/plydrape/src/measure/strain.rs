@@ -3,8 +3,7 @@
 //! The contact tolerance ε lets a point of the ply be ε off its place, and so changes a path of length s by up to ε²/2s. In a segment of ten
 //! tolerances that alone is 0.5 % of strain: for a shorter segment, ten tolerances take the place of its length.
 
-use super::{Description, Found, Measure, Most, Observation, TUNING, Unit, UsualLimit};
-use crate::layup::Layup;
+use super::{Bound, Description, Found, Measure, Most, Observation, TUNING, Unit};
 
 /// Local strain; see the head of this file.
 pub struct Strain;
@@ -14,8 +13,11 @@ impl Measure for Strain {
         Description::new("strain", "strain", "local strain", Unit::SHARE)
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        UsualLimit::new(0.005, "our choice: carbon fibers break at some three times that")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::share("Strain of a line along a fiber or of a segment of it")
+                .usually(0.005, "our choice: carbon fibers break at some three times that"),
+        )
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -3,7 +3,7 @@
 //! A pad without a joint does not tilt, and a model that does not clamp the ply at it says by the tilt how far the ply is from the
 //! direction of the pad.
 
-use super::{Description, Found, Measure, Observation, Unit, UsualLimit, Worth};
+use super::{Bound, DEGREE, Description, Found, Measure, Observation, Unit, UsualLimit, Worth};
 use crate::layup::Layup;
 
 /// Tilt; see the head of this file.
@@ -13,6 +13,10 @@ impl Measure for Tilt {
     fn description(&self) -> Description {
         let own = Description::new("tilt", "tilt_deg", "tilt", Unit::DEGREE);
         Description { worth: Worth::Kept, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::angle("Gripper tilt").follows("the grippers' `max_tilt`", 35.0 * DEGREE))
     }
 
     fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {

@@ -6,7 +6,8 @@
 
 use super::observation::rate_window;
 use super::{
-    Description, Found, Measure, Most, Observation, Scope, TUNING, Unit, UsualLimit, Worth,
+    Bound, DEGREE, Description, Found, Measure, Most, Observation, Practice, Scope, TUNING, Unit,
+    Worth,
 };
 use crate::geometry::rotation::normal;
 use crate::geometry::vector::{cross, dot, norm};
@@ -23,9 +24,16 @@ impl Measure for TiltRate {
         Description { scope: Scope::Time, worth: Worth::Kept, ..own }
     }
 
-    fn usual_limit(&self, _layup: &Layup) -> Option<UsualLimit> {
-        let limit = 90_f64.to_radians();
-        UsualLimit::new(limit, "our assumption of a passive joint, from no data sheet")
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within(
+                "Angular rate of a gripper's ball joint",
+                [1e-6, 1e4],
+                "a gripper's joint",
+            )
+            .found(Practice::TURN)
+            .usually(90.0 * DEGREE, "our assumption of a passive joint, from no data sheet"),
+        )
     }
 
     fn applies(&self, layup: &Layup) -> bool {

@@ -17,10 +17,6 @@ impl Measure for ToolResidual {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn is_settable(&self) -> bool {
-        false
-    }
-
     fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         Some(1e3 * layup.tool.as_ref()?.residual?)
     }

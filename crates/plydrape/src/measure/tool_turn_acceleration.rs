@@ -17,10 +17,6 @@ impl Measure for ToolTurnAcceleration {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn is_settable(&self) -> bool {
-        false
-    }
-
     fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         layup.tool.as_ref().map(|tool| tool.turn_acceleration.to_degrees())
     }

@@ -1,7 +1,7 @@
 //! Units of measures: as they are recorded, and as limits show them.
 
 /// One degree (rad).
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
+pub(super) const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// A unit, and the one that limits are shown in.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -58,3 +58,42 @@ impl WholeMotion<'_> {
         (times.partition_point(|t| *t < time) + 1).min(times.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+    use crate::motion::Bounds;
+
+    /// Down by 50 mm from rest to rest, with the jerk at its limit: the motion is judged by what bounds it, and not by tools or bodies that are
+    /// not there.
+    #[test]
+    fn a_motion_is_judged_by_its_speed_acceleration_and_jerk() {
+        let layup = sample::layup();
+        let limits = Limits::of(&layup);
+        let [speed, acceleration, jerk] =
+            [Name::Speed, Name::Acceleration, Name::Jerk].map(|name| limits.most(name));
+        let bounds = Bounds { speed, acceleration, jerk };
+        let motion = &TimedMotion::new(&layup.motion.positions, &bounds).unwrap();
+        let whole = WholeMotion {
+            layup: &layup,
+            limits: &limits,
+            motion,
+            attitudes: None,
+            peaks: motion.peaks(),
+            tool: None,
+            rate: 100.0,
+        };
+        let verdicts = whole.verdicts();
+        let names: Vec<Name> = verdicts.iter().map(|verdict| verdict.name).collect();
+        assert_eq!(names, [Name::Speed, Name::Acceleration, Name::Jerk]);
+        for verdict in &verdicts {
+            assert!(
+                verdict.ok && verdict.step == Some(2) && verdict.place.is_some(),
+                "{verdict:?}"
+            );
+        }
+        // its time has a margin of a ten-thousandth, of which the jerk has the third power
+        assert!((verdicts[2].value - jerk).abs() < 1e-3 * jerk, "{:?}", verdicts[2]);
+    }
+}

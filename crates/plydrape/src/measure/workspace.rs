@@ -15,10 +15,6 @@ impl Measure for Workspace {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn is_settable(&self) -> bool {
-        false
-    }
-
     fn limit(&self, _layup: &Layup, limits: &Limits) -> Option<f64> {
         limits.workspace.map(|_| 0.0)
     }

@@ -8,7 +8,12 @@ pub struct WrinkleAngle;
 
 impl Measure for WrinkleAngle {
     fn description(&self) -> Description {
-        Description::new("wrinkle_angle", "wrinkle_angle_deg", "wrinkle angle", Unit::DEGREE)
+        Description::of_catenaries(
+            "wrinkle_angle",
+            "wrinkle_angle_deg",
+            "wrinkle angle",
+            Unit::DEGREE,
+        )
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -1,10 +1,10 @@
 //! What samples and the errors that a motion stands must agree with: counts, the plain drape, a closed form.
 
-use super::tests::scene;
 use super::*;
-use crate::draping::{Judged, judge, simulate};
-use crate::layup::Model;
-use crate::measure::Verdict;
+use crate::errors::tests::layup;
+use crate::errors::{Draw, Errors, Term};
+use crate::layup::Layup;
+use crate::measure::{Name, Verdict};
 use crate::mold::{Mold, Plane};
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -13,10 +13,11 @@ const NEVER: Watch<'static> = Watch { stop: &|| false, done: &|_, _| {} };
 
 /// Four grippers by the catenaries that hold a ply in the air, without errors.
 fn lines() -> Scene {
-    Scene { errors: None, target: None, ..scene(2, 2) }
+    let Layup { ply, settings, motion, .. } = layup(2, 2);
+    Scene::new(ply, settings, motion)
 }
 
-/// The same as a coarse sheet that comes down on a plane.
+/// A coarse sheet in place of these catenaries, which comes down on a plane.
 fn sheet() -> Scene {
     let mut scene = lines();
     scene.layup.settings.model = Model::Sheet;
@@ -33,8 +34,14 @@ fn of_grippers(samples: usize, bound: f64) -> Errors {
     errors
 }
 
+/// The scene of one cell.
+fn cell(scene: &Scene, draw: Draw) -> Scene {
+    Scene { layup: draw.apply(&scene.layup), ..scene.clone() }
+}
+
+/// The verdicts of a scene without errors.
 fn plain(scene: &Scene) -> Judged {
-    judge(scene, usize::MAX, |_| ControlFlow::Continue(()))
+    judge(&scene.layup, &scene.limits, usize::MAX, &|| false).expect("a model")
 }
 
 /// 95 % of 64 are 60.8; of 20 they are 19, though 0.95 × 20 may be rounded up; of none it is none, of few at least one.
@@ -71,11 +78,11 @@ fn a_sample_does_not_depend_on_threads() {
 fn without_errors_every_cell_is_the_plain_drape() {
     let kept = lines();
     let mut broken = lines();
-    broken.limits.most(Name::Tilt) = 1e-6;
+    broken.limits.set(Name::Tilt, Some(1e-6));
     for (scene, accepted) in [(kept, 3), (broken, 0)] {
         let sample = Errors { samples: 3, ..Errors::default() }.judge(&scene, &NEVER).unwrap();
         let judged = plain(&scene);
-        assert_eq!(judged.accepted, accepted == 3, "{:?}", judged.limits);
+        assert_eq!(judged.accepted(), accepted == 3, "{:?}", judged.limits);
         assert_eq!((sample.accepted(), sample.ok), (accepted, accepted == 3));
         assert_eq!(sample.limits, judged.limits);
         let ratio = judged.limits.iter().map(Verdict::ratio).fold(0.0, f64::max);
@@ -89,9 +96,9 @@ fn without_errors_every_cell_is_the_plain_drape() {
 fn the_value_of_a_limit_is_kept_by_the_share() {
     let (scene, errors) = (lines(), Errors { share: 0.7, ..of_grippers(10, 1e-3) });
     let sample = errors.judge(&scene, &NEVER).unwrap();
-    let grippers = scene.layup.ply.grid.grippers();
+    let grippers = scene.layup.ply.grippers();
     let cells: Vec<Judged> =
-        (0..10).map(|n| plain(&errors.draw(n, grippers).apply(&scene))).collect();
+        (0..10).map(|n| plain(&cell(&scene, errors.draw(n, grippers)))).collect();
     assert!(!sample.limits.is_empty());
     for limit in &sample.limits {
         let ratio = |cell: &Judged| {
@@ -135,7 +142,7 @@ fn what_a_motion_stands_is_the_margin_over_the_largest_shift() {
     let right = places.map(|place| place[0]).fold(f64::MIN, f64::max);
     for margin in [0.1e-3, 0.7e-3, 1.9e-3, 9e-3] {
         scene.limits.workspace = Some([[-1.0, right + margin], [-1.0, 1.0], [-1.0, 1.0]]);
-        assert!(plain(&scene).accepted, "{:?}", plain(&scene).limits);
+        assert!(plain(&scene).accepted(), "{:?}", plain(&scene).limits);
         let exact = margin / largest;
         let found = errors.stands(&scene, &NEVER).unwrap();
         let step = 2_f64.powf(0.125) * (1.0 + 1e-9);
@@ -145,7 +152,7 @@ fn what_a_motion_stands_is_the_margin_over_the_largest_shift() {
         );
         assert!(!found.at_least && found.tried == 8 && found.position.is_zero());
         let holds = |factor: f64| {
-            (0..8).all(|n| plain(&errors.draw(n, 4).scaled(factor).apply(&scene)).accepted)
+            (0..8).all(|n| plain(&cell(&scene, errors.draw(n, 4).scaled(factor))).accepted())
         };
         assert!(holds(found.factor) && !holds(found.factor * step));
     }
@@ -164,22 +171,21 @@ fn what_a_motion_stands_is_the_margin_over_the_largest_shift() {
 fn nothing_is_accepted_that_was_not_draped() {
     let mut scene = lines();
     let go = |_: usize| ControlFlow::Continue(());
-    let drape = simulate(&scene, go);
-    assert!(drape.summary.accepted, "{:?}", drape.summary.limits);
+    let mut summary = simulate(&scene, go).expect("catenaries").drape.summary;
+    assert!(summary.accepted(), "{:?}", summary.limits);
 
-    let mut summary = drape.summary.clone();
     let plain = Robustness::of_simulated(&scene);
     assert!(plain.judge_sample(&mut summary, &NEVER) && plain.judge_stands(&mut summary, &NEVER));
-    assert!(summary.accepted && summary.sample.is_none() && summary.stands.is_none());
+    assert!(summary.accepted() && summary.sample.is_none() && summary.stands.is_none());
 
     scene.errors = Some(of_grippers(4, 1e-5));
     let with_errors = Robustness::of_simulated(&scene);
     assert!(with_errors.judge_sample(&mut summary, &NEVER));
-    assert!(summary.accepted && summary.sample.as_ref().is_some_and(|sample| sample.ok));
+    assert!(summary.accepted() && summary.sample.as_ref().is_some_and(|sample| sample.ok));
     let stop = Watch { stop: &|| true, done: &|_, _| {} };
-    assert!(!with_errors.judge_stands(&mut summary, &stop) && summary.accepted);
+    assert!(!with_errors.judge_stands(&mut summary, &stop) && summary.accepted());
     assert!(!with_errors.judge_sample(&mut summary, &stop));
-    assert!(!summary.accepted && summary.sample.is_none() && summary.accepted_without_errors());
+    assert!(!summary.accepted() && summary.sample.is_none() && summary.accepted_without_errors());
 
     scene.errors = Some(of_grippers(0, 1e-5));
     let off = Robustness::of_planned(&scene, scene.layup.motion.clone());
@@ -190,8 +196,8 @@ fn nothing_is_accepted_that_was_not_draped() {
     assert!(planned.sampled().is_none());
     assert!(planned.judge_stands(&mut summary, &NEVER));
     assert!(summary.stands.is_some_and(|stands| stands.position != Term::NONE));
-    scene.limits.most(Name::Tilt) = 1e-6;
-    let mut refused = simulate(&scene, go).summary;
+    scene.limits.set(Name::Tilt, Some(1e-6));
+    let mut refused = simulate(&scene, go).expect("catenaries").drape.summary;
     assert!(planned.judge_stands(&mut refused, &stop));
     assert_eq!(refused.stands.map(|stands| (stands.factor, stands.tried)), Some((0.0, 0)));
 }

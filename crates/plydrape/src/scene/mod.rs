@@ -2,8 +2,10 @@
 //!
 //! What reads a scene from a file, and refuses it with the place of a fault, is the crate `plydrape-io`.
 
+mod above;
 mod plan;
 
+pub use above::AboveError;
 pub use plan::{Plan, PlanMethod};
 
 use crate::errors::Errors;

@@ -5,6 +5,7 @@ use super::step::Step;
 use crate::draping::Draping;
 use crate::layup::{Model, Settings, Target};
 use crate::material::{Material, Section};
+use crate::measure::Name;
 use crate::mold::{Face, Mold, Pose, Sphere};
 use crate::motion::Motion;
 use crate::planner::sensitivity::Sensitivity;
@@ -41,10 +42,10 @@ pub fn scene(count: usize) -> Scene {
     };
     let positions = vec![(0..grid.grippers()).map(start).collect()];
     let target = Target { grippers: (0..grid.grippers()).map(end).collect(), drape: None };
-    let target = Some(target);
     let motion = Motion { times: vec![0.0], positions };
-    let mut scene = Scene { mold: Some(mold), target, ..Scene::new(ply, settings, motion) };
-    scene.limits.most(Name::Force) = Some(1e3);
+    let mut scene = Scene::new(ply, settings, motion);
+    (scene.layup.mold, scene.layup.target) = (Some(mold), Some(target));
+    scene.limits.set(Name::Force, Some(1e3));
     scene
 }
 
@@ -53,7 +54,7 @@ fn size(count: usize) -> usize {
     let scene = scene(count);
     let positions = &scene.layup.motion.positions[0];
     let targets = &scene.layup.target.as_ref().expect("a target").grippers;
-    let mut draping = Draping::new(&scene);
+    let mut draping = Draping::new(&scene.layup);
     let shape = draping.move_to(positions);
     let contacts = draping.contacts.clone();
     let sensitivity = Sensitivity::new(&scene, &mut draping.solver, &shape, positions, &contacts);
