@@ -49,7 +49,6 @@ RANGES = {
     "limits.gripper_pull": "> 0",
     "limits.height": "≥ 0",
     "limits.jerk": "> 0",
-    "limits.landing_contact": "≥ 0",
     "limits.landing_gripper": "≥ 0",
     "limits.landing_shear": "> 0, < 90 deg",
     "limits.out_of_plane": "> 0, < 90 deg",

@@ -55,16 +55,8 @@ HALF, ABOVE, BELOW = (400, 276), 58, 44
 ROUNDING = 1e-6
 FOLDING = 0.005
 
-# what is kept of a sheet
-SHEET = (
-    "accepted",
-    "height_max_mm",
-    "height_share_above_half_mm",
-    "ridge_max_mm",
-    "bridge_max_mm",
-    "shear_max_deg",
-    "first_contact_step",
-)
+# what is kept of what a sheet says beside its measures
+SHEET = ("ridge_max_mm", "bridge_max_mm", "first_contact_step")
 
 
 def folders(results: Path, name: str) -> dict[str, Path]:
@@ -76,19 +68,36 @@ def folders(results: Path, name: str) -> dict[str, Path]:
 
 
 def numbers(folder: Path) -> dict[str, object]:
-    """The outcome of a drape, six digits of each number; of a sheet also what catenaries say."""
-    summary = json.loads((folder / "result.json").read_text())["summary"]
-    if summary.get("sheet") is not None:
+    """The outcome of a drape: of a sheet four digits of the height and what belongs to it, and where
+    the catenaries were draped beside it whether they keep the limits; of catenaries six digits of
+    each measure.
+    """
+    content = json.loads((folder / "result.json").read_text())
+    summary = content["summary"]
+    if summary["model"] == "sheet":
+        sheet = summary["sheet"]
+        found = {
+            "accepted": summary["accepted"],
+            "height_mm": summary["final"]["height_mm"],
+            "height_share": summary["height_share"],
+            "shear_deg": summary["worst"]["shear_deg"],
+            **{key: sheet[key] for key in SHEET},
+        }
         kept: dict[str, object] = {
             key: float(f"{value:.4g}") if isinstance(value, float) else value
-            for key, value in summary["sheet"].items()
-            if key in SHEET
+            for key, value in found.items()
         }
-        kept["catenaries_accepted"] = all(limit["ok"] for limit in summary["limits"])
-        kept["catenaries_first_contact_step"] = summary["first_contact_step"]
+        if "also" in content:
+            beside = content["also"]["summary"]
+            kept["catenaries_accepted"] = beside["accepted"]
+            kept["catenaries_first_contact_step"] = beside["catenaries"]["first_contact_step"]
         return kept
+    hanging = summary["catenaries"]
     out: dict[str, object] = {
-        key: summary[key] for key in ("accepted", "steps", "first_contact_step", "first_shear_step")
+        "accepted": summary["accepted"],
+        "steps": summary["steps"],
+        "first_contact_step": hanging["first_contact_step"],
+        "first_shear_step": hanging["first_shear_step"],
     }
     for key in ("worst", "final"):
         for name, value in summary[key].items():
@@ -194,7 +203,7 @@ def moving(results: Path, picture: Path) -> None:
 
     of = folders(results, MOVING)
     halves = [plydrape.Result.read(of[key] / "result.json") for key in ("straight", "planned")]
-    ends = [numbers(of[key])["height_max_mm"] for key in ("straight", "planned")]
+    ends = [numbers(of[key])["height_mm"] for key in ("straight", "planned")]
     heads = (
         ("straight down", f"touches too early: folds up to {ends[0]:.1f} mm high stay"),
         ("planned by plydrape", f"rolled on from the middle: {ends[1]:.1f} mm at most"),

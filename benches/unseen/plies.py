@@ -130,7 +130,6 @@ def scaled(scale: float) -> dict[str, dict[str, str]]:
         "contact": {"tolerance": length(0.0002 * scale)},
         "limits": {
             "bridging": length(0.001 * scale),
-            "landing_contact": length(0.002 * scale),
             "landing_gripper": length(0.0005 * scale),
             "height": length(0.0005 * scale),
             "position": length(0.002 * scale),

@@ -78,19 +78,10 @@ def excess(limit: dict[str, Any]) -> float:
 
 
 def worst(printed: dict[str, Any]) -> dict[str, Any]:
-    """The limit that is exceeded most, of the sheet first; the closest one of an accepted plan.
-
-    An accepted plan may exceed limits of the catenaries, which do not decide.
-    """
-    sheet = (printed.get("sheet") or {}).get("limits") or []
-    if printed.get("accepted"):
-        known = [limit for limit in sheet if limit["value"] is not None]
-        return max(known, key=excess, default={})
-    for limits in (sheet, printed.get("limits") or []):
-        exceeded = [limit for limit in limits if not limit["ok"]]
-        if exceeded:
-            return max(exceeded, key=excess)
-    return {}
+    """The limit that is exceeded most; the closest one of an accepted plan."""
+    limits = [limit for limit in printed.get("limits") or [] if limit["value"] is not None]
+    exceeded = [limit for limit in limits if not limit["ok"]]
+    return max(exceeded or limits, key=excess, default={})
 
 
 def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
@@ -110,7 +101,7 @@ def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
         result = "failed"
     else:
         result = "accepted" if printed["accepted"] and done.exit == 0 else "not accepted"
-    sheet, limit = printed.get("sheet") or {}, worst(printed)
+    end, limit = printed.get("final") or {}, worst(printed)
 
     def number(value: object, digits: int) -> str:
         return f"{value:.{digits}f}" if isinstance(value, int | float) else ""
@@ -120,8 +111,8 @@ def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
         "result": result,
         "time (s)": number(done.seconds, 2),
         "drapes": number(printed.get("evaluations"), 0),
-        "height (mm)": number(sheet.get("height_max_mm"), 3),
-        "position (mm)": number(sheet.get("position_max_mm"), 3),
+        "height (mm)": number(end.get("height_mm"), 3),
+        "position (mm)": number(end.get("position_mm"), 3),
         "limit": limit.get("name", ""),
         "value": number(limit.get("value"), 3),
         "allowed": number(limit.get("limit"), 3),

@@ -1,7 +1,8 @@
 """How an array of grippers must move to lay a carbon-fiber ply on a curved mold without wrinkles.
 
-The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
-Jakobsen and Sherwood 2018. z is up; arrays are NumPy's.
+One model of the ply drapes and decides: the whole ply as a sheet of cloth, or the net of catenaries
+with bending stiffness between the grippers of Krogh, Jakobsen and Sherwood 2018. z is up; arrays
+are NumPy's.
 
 Plain numbers are in SI units, angles in radians, both in arguments and in arrays. A str carries
 its unit, as "100 mm" or "20 deg", wherever a single quantity is asked for. Names that end in a
@@ -12,14 +13,15 @@ Examples
 >>> import plydrape
 >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
 >>> result = plydrape.simulate(scene)
->>> result.summary["first_contact_step"]
-26
+>>> result.model, result.first_contact_step, result.accepted
+('sheet', 22, False)
 
 """
 
 from plydrape import _html, _values, batch, study
 from plydrape._plydrape import (
     ClosestPoints,
+    Drape,
     Equilibrium,
     Jacobian,
     Material,
@@ -63,6 +65,7 @@ _html.give()
 __all__ = [
     "CadError",
     "ClosestPoints",
+    "Drape",
     "Equilibrium",
     "ExtraError",
     "Jacobian",

@@ -198,13 +198,12 @@ def count(ply: Ply) -> str:
 def result(result: Result, kind: str = "result", more: dict[str, str] | None = None) -> str:
     """The ply at the end, and the limits that decide."""
     steps = len(result.times)
-    decides = "catenaries" if (found := result.sheet) is None else "sheet"
-    rows = {"steps": str(steps), "decided by": decides, **(more or {})}
+    rows = {"steps": str(steps), "model": result.model, **(more or {})}
     if (stands := result.stands_mm) is not None:
         rows["stands"] = f"errors of {stands:.2g} mm"
     if (sample := result.sample) is not None:
         rows["cells"] = f"{sample.accepted} of {len(sample)} accepted, {sample.needed} needed"
-    picture = drape(result, found) if steps else ""
+    picture = drape(result) if steps else ""
     return card(
         kind,
         result.title,
@@ -215,28 +214,26 @@ def result(result: Result, kind: str = "result", more: dict[str, str] | None = N
     )
 
 
-def drape(result: Result, sheet: Sheet | None) -> str:
-    """The ply at the end, and red dots where the sheet is too high."""
+def drape(result: Result) -> str:
+    """The ply at the end by the model that decides, and red dots where a sheet is too high."""
     grippers = result.positions[-1]
     side = flat(grippers)
     picture = Picture(SIDE if side is SIDE else EYE, "the ply at the end")
-    lines = result.lines(-1)
-    edges = _shapes.edges(result.grid) or len(lines)
-    if lines:
-        picture.lines(lines[:edges], QUIET, 1.2)
-    if sheet is not None:
-        high(picture, sheet, wires=not lines)
+    if result.model == "catenaries":
+        lines = result.lines(-1)
+        picture.lines(lines[: _shapes.edges(result.grid) or len(lines)], QUIET, 1.2)
+    elif (sheet := result.sheet) is not None:
+        wires(picture, sheet)
+        if (limit := result.limits.get("height")) is not None:
+            heights = np.nan_to_num(sheet.heights[-1]) * 1e3
+            picture.dots(sheet.positions[-1][heights > limit.limit], RED, 1.6)
     return picture.dots(grippers, "currentColor", 3.5).svg()
 
 
-def high(picture: Picture, sheet: Sheet, *, wires: bool) -> None:
-    """Nodes of the last state above the limit of their height, and the wires of the sheet."""
-    points, heights = sheet.positions[-1], sheet.heights[-1]
-    if wires:
-        picture.lines([points[list(pair)] for pair in sheet.segments], QUIET, 0.6)
-    limit = sheet.limits.get("height")
-    if limit is not None:
-        picture.dots(points[np.nan_to_num(heights) * 1e3 > limit.limit], RED, 1.6)
+def wires(picture: Picture, sheet: Sheet) -> None:
+    """The sheet in its last state."""
+    points = sheet.positions[-1]
+    picture.lines([points[list(pair)] for pair in sheet.segments], QUIET, 0.6)
 
 
 def plan(plan: Plan) -> str:
@@ -248,17 +245,10 @@ def plan(plan: Plan) -> str:
 def sheet(sheet: Sheet) -> str:
     """The sheet at its last state."""
     picture = Picture(EYE, "the sheet at the end")
-    high(picture, sheet, wires=True)
+    wires(picture, sheet)
     picture.dots(sheet.grippers[-1], "currentColor", 3.5)
     rows = {"nodes": str(len(sheet.places)), "states": str(len(sheet.steps))}
-    return card(
-        "the whole ply",
-        "Sheet",
-        picture.svg(),
-        verdict(sheet.accepted),
-        pairs(rows),
-        limits(sheet.limits),
-    )
+    return card("the whole ply", "Sheet", picture.svg(), pairs(rows))
 
 
 def span(span: Span) -> str:

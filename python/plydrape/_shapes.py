@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from plydrape import Result, Sheet
+    from plydrape import Drape, Result, Sheet
 
 GRIPPER = 0.12
 """Radius of a gripper as a share of the shorter side of a cell; it is drawn, not modeled."""
@@ -28,8 +28,34 @@ class Ply(NamedTuple):
     """Shear angle of the cell that each triangle is in (T,) in deg."""
 
 
+def hanging(result: Result) -> Result | Drape | None:
+    """Which drape of a result is that of the catenaries; None where these were not draped."""
+    drapes = (result, result.also)
+    return next((drape for drape in drapes if drape and drape.model == "catenaries"), None)
+
+
 def ply(result: Result, step: int, intervals: int) -> Ply | None:
-    """The ply of a step (from 1); None for a strip, which has no surface."""
+    """The ply of a step (from 1) by the model that decides; None for a strip without a surface."""
+    if result.model == "catenaries":
+        return between(result, step, intervals)
+    sheet = result.sheet
+    assert sheet is not None
+    cells = np.asarray(sheet.cells, np.int64)
+    if len(cells) == 0:
+        return None
+    at = state(sheet, step)
+    triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
+    shear = np.tile(np.rad2deg(sheet.shear[at]), 2)
+    return Ply(sheet.positions[at], triangles, np.asarray(sheet.heights[at], float), shear)
+
+
+def lines(result: Result, step: int) -> list[NDArray[np.float64]]:
+    """The catenaries of a step where these decide; none of the sheet."""
+    return result.lines(step) if result.model == "catenaries" else []
+
+
+def between(result: Result, step: int, intervals: int) -> Ply | None:
+    """The ply between the catenaries of a step (from 1); None for a strip."""
     nu, nv = result.grid
     if nu < 2 or nv < 2:
         return None

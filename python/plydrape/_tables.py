@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import plydrape
+from plydrape import _shapes
 from plydrape._extra import load
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from plydrape import Ply, Result, Sheet
+    from plydrape import Drape, Ply, Result, Sheet
 
 TABLES = ("measures", "grippers", "catenaries", "limits")
 MEASURES = {measure.key: measure for measure in plydrape.measures()}
@@ -35,7 +36,7 @@ def result_frame(result: Result, table: str) -> pandas.DataFrame:
     return frame
 
 
-def _steps(result: Result, each: int = 1) -> dict[str, Any]:
+def _steps(result: Result | Drape, each: int = 1) -> dict[str, Any]:
     """Number and time of each step, for so many rows a step."""
     steps = np.arange(1, len(result.times) + 1)
     return {"step": np.repeat(steps, each), "time": np.repeat(result.times, each)}
@@ -56,14 +57,17 @@ def _grippers(result: Result) -> dict[str, Any]:
     columns |= zip("xyz", result.positions.reshape(-1, 3).T, strict=True)
     columns |= zip(("qx", "qy", "qz", "qw"), result.quaternions.reshape(-1, 4).T, strict=True)
     columns["tilt_deg"] = result.tilts_deg.ravel()
+    columns |= zip(("load_x", "load_y", "load_z"), result.loads.reshape(-1, 3).T, strict=True)
     return columns
 
 
 def _catenaries(result: Result) -> dict[str, Any]:
-    ends, steps = result.ply.catenaries, len(result.times)
+    ends, steps = result.ply.catenaries, len(result.forces)
     known = np.array(names(result.ply), dtype=object)
+    drape = _shapes.hanging(result)
+    assert drape is not None
     return {
-        **_steps(result, len(ends)),
+        **_steps(drape, len(ends)),
         "catenary": np.tile(np.arange(len(ends)), steps),
         "from": np.tile(known[ends[:, 0]], steps),
         "to": np.tile(known[ends[:, 1]], steps),
@@ -110,20 +114,12 @@ def result_dataset(result: Result) -> xarray.Dataset:
         ),
         "tilts_deg": (
             *grippers(result.tilts_deg),
-            _said("degree", "angle between the normal of the ply and the vertical"),
+            _said("degree", "angle between the normal of the ply and the stem of the gripper"),
         ),
+        "loads": (*grippers(result.loads, "xyz"), _said("N", "force of the ply on the grippers")),
     }
-    lines = ["step", "catenary"]
-    variables["forces"] = (lines, result.forces, _said("N", "horizontal force of the catenary"))
-    variables["slack_mm"] = (lines, result.slack_mm, _said("mm", "slack of the catenary"))
-    variables["contact"] = (lines, result.contact, _said("m", "length in contact with the mold"))
-    shear = result.shear_deg
-    cells = ["cell_u", "cell_v"] if shear.ndim == 3 else ["cell"]
-    variables["shear_deg"] = (
-        ["step", *cells],
-        shear.swapaxes(1, 2) if shear.ndim == 3 else shear,
-        _said("degree", "shear angle of the cell"),
-    )
+    if _shapes.hanging(result) is not None:
+        variables |= _of_catenaries(result)
     for key, values in result.measures.items():
         measure = MEASURES[key]
         unit = "degree" if measure.unit == "deg" else measure.unit or "1"
@@ -141,15 +137,39 @@ def result_dataset(result: Result) -> xarray.Dataset:
         coordinates["v"] = (["v"], v[0], _said("m", "fabric coordinate of the grippers along v"))
     else:
         coordinates["gripper"] = names(ply)
-    known = np.array(names(ply), dtype=str)
-    ends = ply.catenaries
-    coordinates["from"] = (["catenary"], known[ends[:, 0]] if len(ends) else [])
-    coordinates["to"] = (["catenary"], known[ends[:, 1]] if len(ends) else [])
-    attributes = {"title": result.title, "program": result.program}
+    if _shapes.hanging(result) is not None:
+        ends = np.array(names(ply), dtype=str)[ply.catenaries]
+        coordinates["from"] = (["catenary"], ends[:, 0])
+        coordinates["to"] = (["catenary"], ends[:, 1])
+    attributes = {"title": result.title, "program": result.program, "model": result.model}
     made: xarray.Dataset = xr.Dataset(
         variables, coordinates, {**attributes, "accepted": int(result.accepted)}
     )
     return made
+
+
+def _of_catenaries(result: Result) -> dict[str, Any]:
+    """What catenaries alone have; of a drape that ended before that which decides, nan follows."""
+    steps = len(result.times)
+
+    def filled(values: Any) -> Any:
+        values = np.asarray(values, float)[:steps]
+        rest = np.full((steps - len(values), *values.shape[1:]), np.nan)
+        return np.concatenate([values, rest])
+
+    shear = filled(result.shear_deg)
+    cells = ["cell_u", "cell_v"] if shear.ndim == 3 else ["cell"]
+    lines = ["step", "catenary"]
+    return {
+        "forces": (lines, filled(result.forces), _said("N", "horizontal force of the catenary")),
+        "slack_mm": (lines, filled(result.slack_mm), _said("mm", "slack of the catenary")),
+        "contact": (lines, filled(result.contact), _said("m", "length in contact with the mold")),
+        "shear_deg": (
+            ["step", *cells],
+            shear.swapaxes(1, 2) if shear.ndim == 3 else shear,
+            _said("degree", "shear angle of the cell"),
+        ),
+    }
 
 
 def sheet_dataset(sheet: Sheet) -> xarray.Dataset:

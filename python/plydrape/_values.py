@@ -12,6 +12,7 @@ from plydrape import _plydrape
 
 VALUES = (
     _plydrape.ClosestPoints,
+    _plydrape.Drape,
     _plydrape.Equilibria,
     _plydrape.Material,
     _plydrape.Measure,

@@ -135,7 +135,7 @@ class Limits(Mapping[str, Limit]):
         --------
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
         >>> result = plydrape.simulate(scene)
-        >>> plydrape.Limits.of(result.summary["limits"]) == result.catenary_limits
+        >>> plydrape.Limits.of(result.summary["limits"]) == result.limits
         True
 
         """

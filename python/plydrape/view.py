@@ -53,11 +53,12 @@ def scene3d(
     intervals: int = 8,
     plotter: pyvista.Plotter | None = None,
 ) -> pyvista.Plotter:
-    """Mold, ply, catenaries, touching parts and grippers of a step, in m.
+    """Mold, ply and grippers of a step by the model that decides, in m.
 
-    Each is an actor of the plotter by its name: "mold", "ply", "edges", "diagonals", "touching",
-    "target", "grippers". Lines are tubes and grippers plates, only to be seen well. The ply holds
-    "gap_mm" and "height_mm" at its points and "shear_deg" in its triangles.
+    Each is an actor of the plotter by its name: "mold", "target", "ply", "grippers", and of
+    catenaries "edges", "diagonals" and "touching". Lines are tubes and grippers plates, only to be
+    seen well. The ply holds "gap_mm" and "height_mm" at its points and "shear_deg" in its
+    triangles.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ def scene3d(
     ImportError
         PyVista is not installed.
     ValueError
-        No such step, or a color that the result cannot have.
+        No such step, none of a sheet that was not kept, or a color that the result cannot have.
 
     Examples
     --------
@@ -100,7 +101,7 @@ def scene3d(
     >>> result = plydrape.simulate(scene)
     >>> plotter = plydrape.view.scene3d(result, 26, color="height")
     >>> plotter.actors["ply"].mapper.dataset.n_points
-    225
+    341
     >>> plotter.close()
 
     """
@@ -124,13 +125,14 @@ def scene3d(
     ply = _shapes.ply(result, chosen, intervals)
     if ply is not None:
         _ply(pv, out, ply, kind, limits)
-    lines = result.lines(chosen)
+    lines = _shapes.lines(result, chosen)
     edges = _shapes.edges(result.grid)
     radius = _shapes.radius(result)
     _lines(pv, out, lines[:edges], "edges", RED, 0.07 * radius)
     if diagonals:
         _lines(pv, out, lines[edges:], "diagonals", RED, 0.04 * radius)
-    _lines(pv, out, result.contact_lines(chosen), "touching", RED, 0.13 * radius)
+    if lines:
+        _lines(pv, out, result.contact_lines(chosen), "touching", RED, 0.13 * radius)
     discs = _prisms(pv, _shapes.discs(result, chosen, radius), 0.28 * radius)
     out.add_mesh(discs, color=BLACK, name="grippers")
     if new:
@@ -202,7 +204,9 @@ def sheet3d(
     pv = load("pyvista", package="pyvista", name="PyVista")
     sheet = result.sheet
     if sheet is None:
-        raise ValueError('the result has no sheet; drape its scene with model="sheet"')
+        raise ValueError(
+            'the result has no sheet; drape its scene with model="sheet" or also="sheet"'
+        )
     state = _shapes.state(sheet, step)
     chosen = int(sheet.steps[state])
     kind = color or ("shear" if result.mold is None else "height")
@@ -253,11 +257,12 @@ def sheet3d(
 
 
 def meshes(result: Result, step: int = -1, *, intervals: int = 8) -> pyvista.MultiBlock:
-    """Mold, ply, catenaries and grippers of a step as meshes with their numbers, in m.
+    """Mold, grippers and ply of a step as meshes with their numbers, in m.
 
-    "ply" has "gap_mm" and "height_mm" at its points and "shear_deg" in its triangles; "catenaries"
-    has "force_n" and "slack_mm" of each line; "grippers" are points with "tilt_deg" and the
-    "normal" of the ply; "sheet" is that of `sheet_mesh`. Numbers that are not known are nan.
+    "grippers" are points with "tilt_deg", the "normal" of the ply and the "load_N" on them, by the
+    model that decides; "sheet" is that of `sheet_mesh`, where the sheet was draped. Where
+    catenaries were, "ply" has "gap_mm" and "height_mm" at its points and "shear_deg" in its
+    triangles, and "catenaries" has "force_n" and "slack_mm" of each line. What is not known is nan.
 
     Parameters
     ----------
@@ -283,7 +288,7 @@ def meshes(result: Result, step: int = -1, *, intervals: int = 8) -> pyvista.Mul
     Examples
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    >>> blocks = plydrape.view.meshes(plydrape.simulate(scene), 26)
+    >>> blocks = plydrape.view.meshes(plydrape.simulate(scene, also="catenaries"), 26)
     >>> blocks["catenaries"].n_cells, blocks["grippers"].n_points
     (16, 8)
 
@@ -294,12 +299,12 @@ def meshes(result: Result, step: int = -1, *, intervals: int = 8) -> pyvista.Mul
     surface = result.mold_surface()
     if surface is not None and len(surface[1]) > 0:
         out["mold"] = _triangles(pv, surface[0], surface[1].astype(np.int64))
-    ply = _shapes.ply(result, chosen, intervals)
-    if ply is not None:
-        out["ply"] = _ply_mesh(pv, ply)
-    lines = result.lines(chosen)
-    if lines:
-        catenaries = _polylines(pv, lines)
+    hanging = _shapes.hanging(result)
+    if hanging is not None and chosen <= len(hanging.times):
+        ply = _shapes.between(result, chosen, intervals)
+        if ply is not None:
+            out["ply"] = _ply_mesh(pv, ply)
+        catenaries = _polylines(pv, result.lines(chosen))
         catenaries.cell_data["force_n"] = result.forces[chosen - 1]
         catenaries.cell_data["slack_mm"] = result.slack_mm[chosen - 1]
         out["catenaries"] = catenaries
@@ -307,6 +312,7 @@ def meshes(result: Result, step: int = -1, *, intervals: int = 8) -> pyvista.Mul
     grippers.point_data["tilt_deg"] = result.tilts_deg[chosen - 1]
     up = np.array([[0.0, 0.0, 1.0]])
     grippers.point_data["normal"] = _shapes.turned(result.quaternions[chosen - 1], up)[:, 0]
+    grippers.point_data["load_N"] = result.loads[chosen - 1]
     out["grippers"] = grippers
     sheet = result.sheet
     if sheet is not None and chosen in sheet.steps:

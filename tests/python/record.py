@@ -15,9 +15,11 @@ Entry = dict[str, Any]
 
 
 def read(path: Path) -> Entry:
-    """The whole file; its steps as `steps` makes them."""
+    """The whole file; its steps as `steps` makes them, those of the other model too."""
     content: Entry = json.loads(path.read_text())
-    content["steps"] = steps(content)
+    parts = [content, content["also"]] if "also" in content else [content]
+    for part in parts:
+        part["steps"] = steps(part["steps"], content)
     return content
 
 
@@ -28,29 +30,38 @@ def rows(columns: Entry, keys: list[str] | None = None) -> list[Entry]:
     return [dict(zip(keys, row, strict=True)) for row in values]
 
 
-def steps(content: Entry) -> list[Entry]:
-    """Every step with lists of grippers, catenaries with their spans and contact, and cells."""
-    nu, nv = (content["scene"]["ply"]["grid"][key] for key in ("nu", "nv"))
-    lines = rows(content["catenaries"])
+def steps(of_model: list[Entry], content: Entry) -> list[Entry]:
+    """Every step by a model with a list of grippers; of catenaries with lists of these and of cells."""
+    grid = content["scene"]["ply"]["grid"]
+    lines = rows(content.get("catenaries", {}))
     contacts: list[Entry | None] = [None] * len(lines)
     out = []
-    for columns in content["steps"]:
-        step = {key: columns[key] for key in ("step", "time", "solver", "measures")}
-        grippers = dict(columns["grippers"])
-        if grippers["target_distance_mm"] is None:
-            grippers["target_distance_mm"] = [None] * (nu * nv)
-        if "mounts" in grippers:
-            grippers["mounts"] = rows(grippers["mounts"])
-        step["grippers"] = [
-            {"id": [n % nu, n // nu], **gripper} for n, gripper in enumerate(rows(grippers))
-        ]
-        step["cells"] = [
-            {"cell": [n % (nu - 1), n // (nu - 1)], **cell}
-            for n, cell in enumerate(rows(columns["cells"]))
-        ]
-        step["catenaries"] = catenaries(lines, columns, contacts)
+    for columns in of_model:
+        step = {key: columns[key] for key in ("step", "time", "measures")}
+        step["grippers"] = grippers(columns["grippers"], grid["nu"])
+        if "solver" in columns:
+            step["solver"] = columns["solver"]
+            step["slopes"] = rows(columns["slopes"])
+            step["cells"] = [
+                {"cell": [n % (grid["nu"] - 1), n // (grid["nu"] - 1)], **cell}
+                for n, cell in enumerate(rows(columns["cells"]))
+            ]
+            step["catenaries"] = catenaries(lines, columns, contacts)
         out.append(step)
     return out
+
+
+def grippers(columns: Entry, nu: int) -> list[Entry]:
+    """The grippers of a step, with what a file leaves out where it says nothing."""
+    count = len(columns["position"])
+    usual = {
+        "commanded": columns["position"],
+        "slide_mm": [0.0] * count,
+        "holds": [True] * count,
+        "target_distance_mm": [None] * count,
+    }
+    whole = rows({**usual, **columns})
+    return [{"id": [n % nu, n // nu], **gripper} for n, gripper in enumerate(whole)]
 
 
 def catenaries(lines: list[Entry], columns: Entry, contacts: list[Entry | None]) -> list[Entry]:

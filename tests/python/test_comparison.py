@@ -31,11 +31,11 @@ def test_a_row_shows_the_kept_numbers(row: re.Match[str]) -> None:
         str(kept["catenaries_first_contact_step"]),
         verdicts[kept["accepted"]],
         str(kept["first_contact_step"]),
-        f"{kept['height_max_mm']:.2f}",
+        f"{kept['height_mm']:.2f}",
         f"{kept['ridge_max_mm']:.2f}",
         f"{kept['bridge_max_mm']:.2f}",
-        f"{100 * kept['height_share_above_half_mm']:.0f}",
-        f"{kept['shear_max_deg']:.0f}",
+        f"{100 * kept['height_share']:.0f}",
+        f"{kept['shear_deg']:.0f}",
     ]
 
 

@@ -59,9 +59,9 @@ def test_links_of_the_readme_lead_to_files() -> None:
 def test_the_readme_shows_the_kept_numbers() -> None:
     """Heights on the dome, and the verdict of the first command."""
     dome, flat = numbers("04_dome"), numbers("01_flat_sheared_mold")
-    assert f"folds of {dome['straight']['height_max_mm']:.1f} mm stay" in README
-    assert f"ends {dome['planned']['height_max_mm']:.1f} mm high" in README
-    assert re.search(rf"^height +{flat['planned']['height_max_mm']} ", README, re.M)
+    assert f"folds of {dome['straight']['height_mm']:.1f} mm stay" in README
+    assert f"ends {dome['planned']['height_mm']:.1f} mm high" in README
+    assert re.search(rf"^height +{flat['planned']['height_mm']} ", README, re.M)
 
 
 def test_the_readme_counts_the_random_scenes_as_the_benchmark_does() -> None:

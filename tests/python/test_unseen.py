@@ -126,7 +126,7 @@ def test_the_ply_hangs_clear_of_the_mold_within_the_tilt_of_its_grippers(
         path.write_text(made.text + '\n[motion]\nkind = "hold"\n', encoding="utf-8")
         done = run("simulate", str(path), "--model", "catenaries", "--json")
         printed = json.loads(done.stdout)
-        assert printed["first_contact_step"] is None, made.text
+        assert printed["catenaries"]["first_contact_step"] is None, made.text
         assert printed["worst"]["tilt_deg"] < MAX_HANG_DEG + 1.0, made.text
 
 
@@ -153,8 +153,8 @@ SCENE = {"scene": "000", "family": "dome", "size": "small", "grippers": "3 × 2"
 def plan(accepted: bool, height: float) -> str:
     """What the planner prints, as far as it is read."""
     limit = {"name": "height", "value": height, "limit": 0.5, "unit": "mm", "where": "somewhere"}
-    sheet = {"height_max_mm": height, "limits": [{**limit, "ok": height <= 0.5}]}
-    return json.dumps({"accepted": accepted, "evaluations": 7, "limits": [], "sheet": sheet})
+    end, limits = {"height_mm": height}, [{**limit, "ok": height <= 0.5}]
+    return json.dumps({"accepted": accepted, "evaluations": 7, "final": end, "limits": limits})
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
  */
 
 import { Motion } from "./data/motion";
-import { BrokenData, nearest, readPageData, type Limit, type PageData } from "./data/page_data";
+import { BrokenData, fieldsOf, nearest, readPageData, type Limit, type PageData } from "./data/page_data";
 import { Charts } from "./page/charts";
 import { Comparison, tell } from "./page/compare";
 import { byId } from "./page/dom";
@@ -13,7 +13,7 @@ import { linkHover } from "./page/hover";
 import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
 import { showLimit, showLimits, showStrength, showVerdict } from "./page/limits";
-import { asked, colourOf, lastShown, pointerOf, worst } from "./page/opening";
+import { asked, colourOf, pointerOf, worst } from "./page/opening";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
 import { showSample, showStands } from "./page/sample";
@@ -22,7 +22,7 @@ import { Section } from "./page/section";
 import { State } from "./page/state";
 import { applyTheme, linkTheme, systemIsDark } from "./page/theme";
 import { linkTimeline } from "./page/timeline";
-import { chooseModel, linkToolbar, modes } from "./page/toolbar";
+import { chooseModel, linkToolbar } from "./page/toolbar";
 import { Scene3d } from "./scene/scene3d";
 
 declare global {
@@ -38,13 +38,13 @@ async function open(): Promise<void> {
   showStands(data.stands);
   const motion = await Motion.unpack(data);
   const wanted = asked(data);
-  const model = wanted.model ?? (data.sheet === null ? "catenaries" : "sheet");
+  const model = wanted.model ?? data.drape.model;
   const first = worst(data);
-  const known = modes(data, model).map(([key]) => key);
-  const shows = wanted.colour ?? (first === null ? null : colourOf(data, model, first));
+  const known = fieldsOf(data, model).map(({ key }) => key);
+  const shows = wanted.colour ?? (first === null ? null : colourOf(data, first));
   const state = new State(
     {
-      index: wanted.index ?? (first === null ? lastShown(data) : nearest(data.steps, first.step)),
+      index: wanted.index ?? (first === null ? data.steps.length - 1 : nearest(data.steps, first.step)),
       model,
       colour: known.find((key) => key === shows) ?? known[0] ?? "height",
       stepRange: false,
@@ -110,7 +110,7 @@ function openAtWorst(
   addEventListener("hashchange", () => {
     const { index, colour, model } = asked(data);
     if (model !== null) chooseModel(state, data, model);
-    if (colour !== null && modes(data, state.now.model).some(([key]) => key === colour))
+    if (colour !== null && fieldsOf(data, state.now.model).some(({ key }) => key === colour))
       state.set({ colour });
     if (index !== null) state.goto(index);
   });

@@ -60,10 +60,7 @@ pub fn plan(
     let results = arguments.results();
     let mut book = read_book(&results.scene)?;
     for ply in &mut book.plies {
-        let checked = arguments.apply(&mut ply.scene);
-        let checked =
-            checked.and_then(|()| crate::sheet::check(&ply.scene).map(drop).map_err(Failure::from));
-        checked.map_err(|cause| of_ply(&ply.name, cause))?;
+        arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
     let dir = results.folder("plan");
     let folder = Folder::claim(&dir, "plan")?;
@@ -162,15 +159,15 @@ fn one(
 ) -> Result<Ready, Failure> {
     let scene = &book.plies[index].scene;
     let mut search = Search::new(&scene.plan, time, eyes.interrupt, true);
-    let planned = planner::plan(scene, None, &mut |progress| eyes.watch(&mut search, progress));
+    let watch = &mut |progress: &Progress| eyes.watch(&mut search, progress);
+    let planned = planner::plan_without_errors(scene, None, watch);
     let (_, ended) = search.finish();
     let found = arguments.judged(scene, planned?, folder.stage(), eyes.interrupt, true)?;
-    let Found { result, planned, broken_off, .. } = found;
-    let record = PlyRecord::of(book, index, &result);
-    let interrupted =
-        ended == Some(Ended::Interrupted) || broken_off.is_some() || result.summary.interrupted();
-    let unsolved = outcome::is_unsolved(&result);
-    let staged = plan::stage_into(folder, &result, &planned.checkpoint, &book.files)?;
+    let Found { result, checkpoint, interrupted, .. } = &found;
+    let record = PlyRecord::of(book, index, result);
+    let interrupted = ended == Some(Ended::Interrupted) || *interrupted;
+    let unsolved = outcome::is_unsolved(result);
+    let staged = plan::stage_into(folder, result, checkpoint, &book.files)?;
     Ok(Ready { record, staged, interrupted, unsolved })
 }
 

@@ -26,7 +26,6 @@ struct Printed<'a> {
 
 /// Drapes by all strategies, writes table and picture, and judges.
 pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: bool) -> Done {
-    crate::sheet::check(scene)?;
     let folder = Folder::claim(&results.folder("compare"), "plan --compare")?;
     folder.refuse_inputs(&NAMES, &scene.files)?;
 

@@ -3,7 +3,7 @@
 use crate::search::SharedLines;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
-use plydrape::errors::{Robustness, Watch};
+use plydrape::outcome::{Robustness, Watch};
 use plydrape_io::ResultFile;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
@@ -13,8 +13,8 @@ use std::time::Duration;
 pub enum BrokenOff {
     /// Those of the sample.
     Sample,
-    /// Those by which the errors that it stands are found.
-    Stands,
+    /// Those by which the errors that it tolerates are found.
+    Tolerance,
 }
 
 impl BrokenOff {
@@ -22,7 +22,7 @@ impl BrokenOff {
     pub fn text(self) -> &'static str {
         match self {
             BrokenOff::Sample => "interrupted before the cells with errors were draped\n",
-            BrokenOff::Stands => "interrupted before it was known which errors it stands\n",
+            BrokenOff::Tolerance => "interrupted before it was known which errors it tolerates\n",
         }
     }
 }
@@ -41,10 +41,10 @@ pub fn judge(
     if !eyes.judge_by(|watch| robustness.judge_sample(&mut result.summary, watch)) {
         return Some(BrokenOff::Sample);
     }
-    let template = "looking for the errors that it stands, {elapsed}";
+    let template = "looking for the errors that it tolerates, {elapsed}";
     let eyes = Eyes::new(interrupt, bar(0, template, quiet), 0, quiet);
     let found = eyes.judge_by(|watch| robustness.judge_stands(&mut result.summary, watch));
-    (!found).then_some(BrokenOff::Stands)
+    (!found).then_some(BrokenOff::Tolerance)
 }
 
 /// Who looks on.
@@ -84,7 +84,7 @@ impl<'a> Eyes<'a> {
     fn line(&self) {
         let done = self.done.load(Ordering::Relaxed);
         self.lines.say(|| match self.most {
-            0 => "looking for the errors that it stands".into(),
+            0 => "looking for the errors that it tolerates".into(),
             most => format!("draping {done} of {most} cells with errors"),
         });
     }

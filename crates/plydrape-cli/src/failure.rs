@@ -4,7 +4,9 @@ use miette::{
     Diagnostic, LabeledSpan, MietteError, MietteHandlerOpts, MietteSpanContents, ReportHandler,
     SourceCode, SourceSpan, SpanContents,
 };
+use plydrape::planner::PlanError;
 use plydrape_io::scene::SceneError;
+use plydrape_io::sheet::model_remedy;
 use plydrape_io::shown;
 use std::fmt;
 use std::io::{self, Write};
@@ -38,7 +40,7 @@ pub enum Failure {
     },
     /// No plan could be looked for.
     #[error(transparent)]
-    Plan(#[from] plydrape::planner::PlanError),
+    Plan(#[from] PlanError),
     /// A plan could not be corrected.
     #[error(transparent)]
     Replan(#[from] plydrape_io::replan::ReplanFault),
@@ -63,9 +65,9 @@ pub enum Failure {
     /// The results could not be written.
     #[error(transparent)]
     Results(#[from] plydrape_io::OutputError),
-    /// The sheet of the scene cannot be draped.
+    /// The scene cannot be draped by a model.
     #[error(transparent)]
-    Sheet(#[from] plydrape_io::sheet::SheetDrapeError),
+    Drape(#[from] plydrape_io::sheet::SheetDrapeError),
     /// A result file was refused.
     #[error(transparent)]
     Read(#[from] plydrape_io::result::read::ReadError),
@@ -160,10 +162,11 @@ impl Diagnostic for Failure {
                     )
                 }
             })),
-            Failure::Sheet(fault) => Some(Box::new(fault.remedy())),
+            Failure::Drape(fault) => Some(Box::new(fault.remedy())),
             Failure::Results(plydrape_io::OutputError::States(fault)) => {
                 Some(Box::new(fault.states_remedy()))
             }
+            Failure::Plan(PlanError::Model(fault)) => Some(Box::new(model_remedy(fault))),
             Failure::Plan(_) | Failure::Results(_) => None,
         }
     }

@@ -1,8 +1,8 @@
 //! `plydrape limits`: the presets of limits, each figure with its source, and what is published of fiber angles.
 
 use crate::failure::Done;
-use crate::numbers::short;
-use plydrape::preset::Preset;
+use crate::numbers::written;
+use plydrape::measure::Preset;
 use plydrape_io::strength;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -31,8 +31,8 @@ fn text() -> String {
         let _ = writeln!(text, "{}: {}", preset.name(), preset.about());
         for figure in preset.figures() {
             let measure = figure.name.measure();
-            let (value, unit) = shown(figure.value, measure.unit().recorded);
-            let _ = writeln!(text, "  {} = \"{value} {unit}\"", measure.name());
+            let value = written(figure.value, measure.unit());
+            let _ = writeln!(text, "  {} = \"{value}\"", measure.name());
             text += &wrapped(figure.source, "    ");
         }
         text.push('\n');
@@ -48,16 +48,6 @@ fn text() -> String {
     }
     text += &wrapped(strength::INFORMATION, "  ");
     text
-}
-
-/// A limit (SI) in the unit that its measure is recorded in, and that unit.
-fn shown(value: f64, unit: &'static str) -> (String, &'static str) {
-    let value = match unit {
-        "mm" => value * 1e3,
-        "deg" => value.to_degrees(),
-        _ => value,
-    };
-    (short(value), unit)
 }
 
 /// Whole words in lines that are indented.

@@ -1,5 +1,26 @@
 //! Numbers as a user reads them.
 
+use plydrape::measure::Unit;
+
+/// A limit in the unit that its measure is recorded in, as it is shown: `0.5 mm`, `3°`, `0.05 %`.
+pub fn shown(value: f64, unit: Unit) -> String {
+    let number = short(without_noise(value * unit.factor));
+    match unit.shown {
+        "1" | "" => number,
+        unit if unit.starts_with('°') => format!("{number}{unit}"),
+        unit => format!("{number} {unit}"),
+    }
+}
+
+/// A limit (SI) as a scene has it, in the unit that its measure is recorded in: `3 deg`.
+pub fn written(value: f64, unit: Unit) -> String {
+    let number = short(without_noise(value / unit.si));
+    match unit.recorded {
+        "1" | "" => number,
+        unit => format!("{number} {unit}"),
+    }
+}
+
 /// Millimeters, of meters.
 pub fn millimetres(metres: f64) -> String {
     short(without_noise(metres * 1e3))

@@ -1,54 +1,49 @@
 //! How a drape came out: what `--json` prints of it, and the exit code.
 
-use plydrape::draping::record::Summary;
-use plydrape::sheet;
+use plydrape::outcome::{Status, Summary};
 use plydrape_io::ResultFile;
 use serde::Serialize;
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// What `--json` prints of a drape: the summary of the result file, how long an equilibrium took, and the summary of the
-/// sheet with the time that it took.
+/// What `--json` prints of a drape: the summary of the model that decides, `accepted` in front, how long that model took, and the summary
+/// of the other one if it was asked.
 #[derive(Serialize)]
 pub struct Printed<'a> {
     #[serde(flatten)]
-    summary: Summary,
-    mean_equilibrium_us: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sheet: Option<PrintedSheet<'a>>,
-}
-
-/// What it prints of the sheet.
-#[derive(Serialize)]
-struct PrintedSheet<'a> {
-    #[serde(flatten)]
-    summary: &'a sheet::measure::Summary,
+    summary: &'a Summary,
     time_s: f64,
+    /// Of catenaries.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean_equilibrium_us: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<&'a Summary>,
 }
 
 impl<'a> Printed<'a> {
-    /// Of a finished drape, whose equilibria took `solving` and whose sheet, if any, took `sheet`.
-    pub fn of(result: &'a ResultFile, solving: Duration, sheet: Option<Duration>) -> Self {
-        let summary = Summary { sheet: None, ..result.summary.clone() };
-        let mean_equilibrium_us = solving.as_secs_f64() * 1e6 / summary.equilibria.max(1) as f64;
-        let sheet = result.summary.sheet.as_ref().zip(sheet);
-        let sheet =
-            sheet.map(|(summary, took)| PrintedSheet { summary, time_s: took.as_secs_f64() });
-        Printed { summary, mean_equilibrium_us, sheet }
+    /// Of a finished drape whose model took a time.
+    pub fn of(result: &'a ResultFile, took: Duration) -> Self {
+        let summary = &result.summary;
+        let mean = |equilibria: usize| took.as_secs_f64() * 1e6 / equilibria.max(1) as f64;
+        Printed {
+            summary,
+            time_s: took.as_secs_f64(),
+            mean_equilibrium_us: summary.catenaries.as_ref().map(|report| mean(report.equilibria)),
+            also: result.also.as_ref().map(|also| &also.summary),
+        }
     }
 }
 
-/// Whether a drape has a step without a solution.
+/// Whether the drape that decides has a step without a solution, or no rest at its end.
 pub fn is_unsolved(result: &ResultFile) -> bool {
-    match &result.summary.sheet {
-        Some(sheet) => !sheet.converged,
-        None => result.steps.iter().any(|step| !step.solver.found()),
-    }
+    let unsolved = matches!(result.summary.status, Status::NotSolved | Status::NotAtRest);
+    unsolved || result.steps.iter().any(|step| !step.is_solved())
 }
 
 /// The exit code of a drape, `interrupted` or not.
 pub fn exit_code(result: &ResultFile, interrupted: bool) -> ExitCode {
-    code(interrupted, is_unsolved(result), result.summary.accepted)
+    let interrupted = interrupted || result.summary.interrupted();
+    code(interrupted, is_unsolved(result), result.summary.accepted())
 }
 
 /// The exit code of one or more drapes: whether they were interrupted, whether one has no solution, whether all are accepted.

@@ -3,16 +3,16 @@
 use crate::argument;
 use crate::errors::{self, BrokenOff};
 use crate::failure::{Done, Failure};
+use crate::model::{self, ModelName};
 use crate::numbers::short;
 use crate::outcome::{self, exit_code};
 use crate::results::Results;
 use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use clap::{ValueEnum, value_parser};
-use plydrape::draping::record::LimitedBy;
-use plydrape::errors::Robustness;
+use plydrape::outcome::Robustness;
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape::planner::{self, Checkpoint, Planned};
+use plydrape::planner::{self, Checkpoint, LimitedBy, Planned, Progress};
 use plydrape::scene::PlanMethod;
 use plydrape_io::scene::{Measured, SceneError, SceneFile};
 use plydrape_io::{Folder, NAMES, ResultFile, input, plan, table};
@@ -32,12 +32,15 @@ plan found is written even if it is not accepted. Ctrl-C or SIGTERM ends the sea
 plan so far and writes it; a second one ends that too. Without a terminal, how far the search is stands on \
 standard error once a minute.
 
+One model drapes and decides, that of the scene: its steps, its limits and its verdict are printed, written and returned as the exit \
+code. With --also the other model is draped along the plan too and shown beside it; it never judges.
+
 The plan is then judged with errors. With [errors] in the scene, a sample of complete drapes of cells that are off by them decides \
-too, 64 unless set there. The verdict says which errors the plan stands, of each gripper's position where the scene has none. \
+too, 64 unless set there. The verdict says which errors the plan tolerates, of each gripper's position where the scene has none. \
 --time does not bound these drapes; Ctrl-C ends them, and the plan is written without what they would say.
 
 Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json, and sheet.npz \
-where the sheet decides, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
+where the sheet was draped, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten.
 
 A plybook, a file with [[plies]], is planned ply by ply, each on those that it lies on, several at once; see `docs/guide/plybook.md`. Each ply has a \
@@ -70,12 +73,16 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<String>,
 
-    /// Judge the plan without errors: no sample of cells, and nothing about the errors that it stands.
+    /// Drape the plan by the other model too, and show it beside; it never judges.
+    #[arg(long, value_name = "MODEL")]
+    also: Option<ModelName>,
+
+    /// Judge the plan without errors: no sample of cells, and nothing about the errors that it tolerates.
     #[arg(long)]
     without_errors: bool,
 
     /// Drape by every named strategy instead of a search, and say side by side why the others fail.
-    #[arg(long, conflicts_with_all = ["method", "seed", "improve", "time", "earlier", "without_errors"])]
+    #[arg(long, conflicts_with_all = ["method", "seed", "improve", "time", "earlier", "also", "without_errors"])]
     compare: bool,
 
     /// Threads of the search, one per core unless given; the plan does not depend on it.
@@ -108,18 +115,18 @@ impl From<Method> for PlanMethod {
 /// What `--json` prints: the finished drape, and the plan it follows.
 #[derive(Serialize)]
 struct Printed<'a> {
+    #[serde(flatten)]
+    drape: outcome::Printed<'a>,
     method: PlanMethod,
     plan_time_s: f64,
     evaluations: usize,
     decisions: usize,
-    motion: Motion,
-    #[serde(flatten)]
-    drape: outcome::Printed<'a>,
+    motion: &'a Motion,
 }
 
 /// The motion in a few numbers; largest values of any gripper.
 #[derive(Serialize)]
-struct Motion {
+pub struct Motion {
     duration_s: f64,
     max_speed: f64,
     max_acceleration: f64,
@@ -153,64 +160,68 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if plydrape_io::scene::is_book(&results.scene) {
         return crate::book::plan(arguments, &interrupt, time, quiet);
     }
-    let mut scene = plydrape_io::scene::read(&results.scene)?;
+    let also = arguments.also.map(Into::into);
+    let mut scene = plydrape_io::scene::read_for(&results.scene, None, also)?;
     arguments.apply(&mut scene)?;
     let earlier = arguments.earlier.as_deref().map(checkpoint).transpose()?;
     if arguments.compare {
         return crate::compare::run(results, &scene, &interrupt, quiet);
     }
-    crate::sheet::check(&scene)?;
     let folder = Folder::claim(&results.folder("plan"), "plan")?;
     folder.refuse_inputs(&NAMES, &scene.files)?;
-    let verbose = !quiet && !results.json;
-    if verbose {
+    let infeasible = infeasible_limits(&scene);
+    if !quiet && !results.json && !infeasible.is_empty() {
         let mut out = io::stdout().lock();
-        writeln!(out, "{}\n", scene.title)?;
-        let found = infeasible_limits(&scene);
-        if !found.is_empty() {
-            writeln!(out, "{}", table::infeasible_limits(&found))?;
-        }
+        writeln!(out, "{}", table::infeasible_limits(&infeasible))?;
         out.flush()?;
     }
 
     let mut search = Search::new(&scene.plan, time, &interrupt, quiet);
-    let planned = planner::plan(&scene, earlier.as_ref(), &mut |progress| search.watch(progress));
+    let watch = &mut |progress: &Progress| search.watch(progress);
+    let planned = planner::plan_without_errors(&scene, earlier.as_ref(), watch);
     let (took, ended) = search.finish();
     let found = arguments.judged(&scene, planned?, folder.stage(), &interrupt, quiet)?;
-    let Found { result, planned, sheet_took, broken_off } = found;
-    let files = plan::write_into(folder, &result, &planned.checkpoint, &scene.files)?;
+    let Found { result, checkpoint, motion, decisions, solving, broken_off, .. } = &found;
+    let files = plan::write_into(folder, result, checkpoint, &scene.files)?;
     let printed = Printed {
-        method: planned.record.method,
+        drape: outcome::Printed::of(result, *solving),
+        method: scene.plan.method,
         plan_time_s: took.as_secs_f64(),
-        evaluations: planned.record.evaluations,
-        decisions: planned.decisions,
-        motion: Motion::of(&planned),
-        drape: outcome::Printed::of(&result, planned.drape.solving, sheet_took),
+        evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),
+        decisions: *decisions,
+        motion,
     };
-    results.print(quiet, &printed, &text(&result, &printed, (ended, broken_off), time), &files)?;
-    let interrupted =
-        ended == Some(Ended::Interrupted) || broken_off.is_some() || result.summary.interrupted();
-    Ok(exit_code(&result, interrupted))
+    let mut text = results.text(result, &text(&printed, ended, time));
+    text += broken_off.map_or("", BrokenOff::text);
+    results.print(quiet, &printed, &text, &files)?;
+    Ok(exit_code(result, ended == Some(Ended::Interrupted) || found.interrupted))
 }
 
 /// A plan and its result, judged by the model that decides and with errors.
 pub struct Found {
     /// What is written.
     pub result: ResultFile,
-    /// The plan, without the states of its sheet.
-    pub planned: Planned,
-    /// How long the sheet took.
-    pub sheet_took: Option<Duration>,
+    /// From where another search goes on.
+    pub checkpoint: Checkpoint,
+    /// The motion in a few numbers.
+    motion: Motion,
+    /// Drapes that decided on a plan.
+    decisions: usize,
+    /// How long the model took that decides.
+    solving: Duration,
     /// Which drapes with errors somebody broke off.
-    pub broken_off: Option<BrokenOff>,
+    broken_off: Option<BrokenOff>,
+    /// Whether somebody broke off what follows the search.
+    pub interrupted: bool,
 }
 
 impl Arguments {
     /// Whether something is asked for that only a scene of one ply has.
     pub fn of_one_ply(&self) -> Option<&'static str> {
-        match (self.compare, &self.earlier) {
-            (true, _) => Some("--compare"),
-            (_, Some(_)) => Some("--continue"),
+        match (self.compare, &self.earlier, self.also) {
+            (true, ..) => Some("--compare"),
+            (_, Some(_), _) => Some("--continue"),
+            (.., Some(_)) => Some("--also"),
             _ => None,
         }
     }
@@ -220,26 +231,27 @@ impl Arguments {
         &self.results
     }
 
-    /// What becomes of a planned motion: its result, with the sheet's states in a stage, judged with errors unless the options say
-    /// otherwise.
+    /// What becomes of a planned motion: its result, with the sheet's states in a stage, with the other model beside if that is asked for, and
+    /// judged with errors unless the options say otherwise.
     pub fn judged(
         &self,
         scene: &SceneFile,
-        mut planned: Planned,
+        planned: Planned,
         stage: &Path,
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Found, Failure> {
-        let mut result = ResultFile::planned(scene, scene.input.clone(), &planned);
-        let keep = |sheet| result.keep_sheet(sheet, stage);
-        let sheet_took = planned.sheet.take().map(keep).transpose()?;
-        let broken_off = if self.without_errors {
-            None
-        } else {
-            let robustness = Robustness::of_planned(scene, planned.motion.steps());
-            errors::judge(&mut result, &robustness, interrupt, quiet)
-        };
-        Ok(Found { result, planned, sheet_took, broken_off })
+        let (motion, checkpoint) = (Motion::of(&planned), planned.checkpoint.clone());
+        let (decisions, solving) = (planned.decisions, planned.outcome.drape.solving);
+        let along = planner::along(scene, &planned.motion);
+        let steps = planned.motion.steps();
+        let mut result = ResultFile::planned(scene, scene.input.clone(), planned, stage)?;
+        let mut interrupted = model::show_also(&mut result, &along, stage, interrupt, quiet)?;
+        let robustness = (!self.without_errors).then(|| Robustness::of_planned(scene, steps));
+        let broken_off =
+            robustness.and_then(|by| errors::judge(&mut result, &by, interrupt, quiet));
+        interrupted |= broken_off.is_some() || result.summary.interrupted();
+        Ok(Found { result, checkpoint, motion, decisions, solving, broken_off, interrupted })
     }
 
     /// Puts what the options say in place of the scene's own; refuses a scene that cannot be planned.
@@ -255,13 +267,13 @@ impl Arguments {
                 unread: None,
             })
         };
-        if scene.mold.is_none() {
+        if scene.layup.mold.is_none() {
             return Err(refused(
                 "has no [mold] to lay the ply on",
                 "add [mold] with kind = \"plane\", or another one; a ply that just hangs needs no plan",
             ));
         }
-        if scene.target.is_none() {
+        if scene.layup.target.is_none() {
             return Err(refused(
                 "has no [target]: a plan needs to know where the ply shall end",
                 "add [target] with `origin`, `direction`, `shear` and `seed`, or empty, or with `positions`",
@@ -312,13 +324,8 @@ fn checkpoint(folder: &Path) -> Result<Checkpoint, Failure> {
     })
 }
 
-/// What is printed for people, below the infeasible limits.
-fn text(
-    result: &ResultFile,
-    printed: &Printed,
-    (ended, broken_off): (Option<Ended>, Option<BrokenOff>),
-    time: Option<Duration>,
-) -> String {
+/// What was found and how long that took, in two lines.
+fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> String {
     let Printed { evaluations, decisions, .. } = printed;
     let tried = match printed.method {
         PlanMethod::Stepwise => format!("stepwise plan of {evaluations} steps"),
@@ -335,21 +342,12 @@ fn text(
         }
         _ => String::new(),
     };
-    let Motion { duration_s, max_speed, max_acceleration, max_jerk, .. } = &printed.motion;
-    let found = format!(
+    let Motion { duration_s, max_speed, max_acceleration, max_jerk, .. } = printed.motion;
+    format!(
         "{tried} in {:.1} s{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³",
         printed.plan_time_s,
         short(*max_speed),
         short(*max_acceleration),
         short(*max_jerk),
-    );
-    let limited_by = table::limited_by(result);
-    let mut text = format!("{found}\n{limited_by}\n{}", table::steps_and_verdict(result));
-    text += broken_off.map_or("", BrokenOff::text);
-    if result.summary.accepted
-        && let Some(closest) = table::closest(result.deciding_limits())
-    {
-        text += &format!("closest to its limit: {}\n", table::verdict_text(closest));
-    }
-    text
+    )
 }

@@ -4,7 +4,7 @@ use crate::failure::{Done, Failure};
 use crate::numbers::{degrees, millimetres, short};
 use crate::outcome::{code, is_unsolved};
 use crate::results;
-use plydrape::measure::{Subject, Verdict};
+use plydrape::measure::Verdict;
 use plydrape::mold::Pose;
 use plydrape::planner::replan::{Replanned, Replanner};
 use plydrape::tool::Posture;
@@ -57,8 +57,8 @@ const LONGEST_LINE: u64 = 1 << 20;
 #[derive(Serialize)]
 struct Answer<'a> {
     accepted: bool,
-    /// Every limit of the model that decides and of the motion.
-    limits: Vec<&'a Verdict>,
+    /// Every limit, judged by the model that decides.
+    limits: &'a [Verdict],
     duration_s: f64,
     /// How many times as long as the planned motion.
     longer: f64,
@@ -137,14 +137,13 @@ fn once(
     let said = said(&seen, &replanned);
     let result = planned.corrected(replanned, folder.stage())?;
     if !arguments.json && !quiet {
-        let text = format!("{}\n\n{said}\n\n{}", result.scene.title, table::verdict(&result));
-        print(&text)?;
+        print(&table::screen(&result, &said, results::ink()))?;
     }
     let files = write_into(folder, &result, &[], &[result_file.to_path_buf(), file.into()])?;
     if !arguments.json && !quiet {
         results::list(&files)?;
     }
-    Ok(code(false, is_unsolved(&result), result.summary.accepted))
+    Ok(code(false, is_unsolved(&result), result.summary.accepted()))
 }
 
 /// Offsets from standard input, one a line.
@@ -241,13 +240,6 @@ impl<'a> Answer<'a> {
         rate: Option<f64>,
     ) -> Result<Self, ReplanFault> {
         let Replanned { motion, summary, .. } = replanned;
-        let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
-        let limits = match &summary.sheet {
-            Some(sheet) => {
-                sheet.limits.iter().chain(summary.limits.iter().filter(of_motion)).collect()
-            }
-            None => summary.limits.iter().collect(),
-        };
         let (times, positions) = match rate {
             None => (motion.times().to_vec(), motion.positions().to_vec()),
             Some(rate) => {
@@ -256,7 +248,7 @@ impl<'a> Answer<'a> {
                 (sampled.times, sampled.positions)
             }
         };
-        let flange = planned.scene().tool.as_ref().map(|tool| {
+        let flange = planned.scene().layup.tool.as_ref().map(|tool| {
             let postures: Vec<_> = positions.iter().map(|places| tool.posture(places)).collect();
             let pose = |posture: &Posture| tool.world.compose(&posture.frame.compose(&tool.flange));
             let poses: Vec<Pose> = postures.iter().map(pose).collect();
@@ -273,8 +265,8 @@ impl<'a> Answer<'a> {
             picked_up.map(|picked| (picked.offset, picked.residual)).unwrap_or_default();
         let [x, y] = offset.shift;
         Ok(Answer {
-            accepted: summary.accepted,
-            limits,
+            accepted: summary.accepted(),
+            limits: &summary.limits,
             duration_s: motion.duration(),
             longer: replanned.longer,
             offset: Offset { x, y, yaw: offset.yaw, about: offset.about, residual },

@@ -99,7 +99,7 @@ fn timed<T>(make: impl FnOnce() -> T) -> (T, f64) {
 
 fn row(name: &str, scene: &Scene) {
     let mut scene = scene.clone();
-    scene.settings.model = plydrape::scene::Model::Sheet;
+    scene.layup.settings.model = plydrape::scene::Model::Sheet;
     let along = || ControlFlow::Continue(());
     let (straight, straight_time) =
         timed(|| sheet::drape(&scene, Tuning::default(), &|| false, |_| along()));

@@ -10,7 +10,9 @@ use plydrape::draping::simulate;
 use plydrape::equilibrium::Solver;
 use plydrape::mold::{Face, Mold, Pose, Sphere, vector};
 use plydrape::ply::Grid;
-use plydrape::scene::{Motion, Scene, SlopeRule};
+use plydrape::layup::{SlopeRule};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
 use plydrape::sheet::{self, Tuning};
 use std::ops::ControlFlow;
@@ -35,13 +37,13 @@ fn example() -> Scene {
 /// The example's ply over a larger array, level, 98 mm apart.
 fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     let mut scene = example();
-    scene.ply.grid.nu = side;
-    scene.ply.grid.nv = side;
-    scene.settings.slopes = rule;
-    let grid = scene.ply.grid;
+    scene.layup.ply.grid.nu = side;
+    scene.layup.ply.grid.nv = side;
+    scene.layup.settings.slopes = rule;
+    let grid = scene.layup.ply.grid;
     let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
     let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
-    (Solver::new(&scene.ply, &scene.settings), positions, scene.ply.lines().catenaries())
+    (Solver::new(&scene.layup.ply, &scene.layup.settings), positions, scene.layup.ply.lines().catenaries())
 }
 
 /// An edge of the example, free at the rim.
@@ -71,11 +73,11 @@ fn span_length_with_slope(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_cold(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.lines().catenaries()];
-    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    let contacts = vec![None; scene.layup.ply.lines().catenaries()];
+    let mut solver = Solver::new(&scene.layup.ply, &scene.layup.settings);
     bencher.bench_local(|| {
         solver.forget();
-        solver.solve(black_box(&scene.motion.positions[0]), &contacts)
+        solver.solve(black_box(&scene.layup.motion.positions[0]), &contacts)
     });
 }
 
@@ -83,24 +85,24 @@ fn equilibrium_4x2_cold(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_again(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.lines().catenaries()];
-    let mut solver = Solver::new(&scene.ply, &scene.settings);
-    bencher.bench_local(|| solver.solve(black_box(&scene.motion.positions[0]), &contacts));
+    let contacts = vec![None; scene.layup.ply.lines().catenaries()];
+    let mut solver = Solver::new(&scene.layup.ply, &scene.layup.settings);
+    bencher.bench_local(|| solver.solve(black_box(&scene.layup.motion.positions[0]), &contacts));
 }
 
 /// 24 equilibria, each from the step before: the example from step 2 to step 25, the last before contact.
 #[divan::bench]
 fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.lines().catenaries()];
+    let contacts = vec![None; scene.layup.ply.lines().catenaries()];
     bencher
         .with_inputs(|| {
-            let mut solver = Solver::new(&scene.ply, &scene.settings);
-            solver.solve(&scene.motion.positions[0], &contacts);
+            let mut solver = Solver::new(&scene.layup.ply, &scene.layup.settings);
+            solver.solve(&scene.layup.motion.positions[0], &contacts);
             solver
         })
         .bench_local_values(|mut solver| {
-            for positions in &scene.motion.positions[1..25] {
+            for positions in &scene.layup.motion.positions[1..25] {
                 solver.solve(black_box(positions), &contacts);
             }
             solver
@@ -111,13 +113,13 @@ fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_warm_steps_1_2(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.lines().catenaries()];
-    let mut solver = Solver::new(&scene.ply, &scene.settings);
-    solver.solve(&scene.motion.positions[0], &contacts);
+    let contacts = vec![None; scene.layup.ply.lines().catenaries()];
+    let mut solver = Solver::new(&scene.layup.ply, &scene.layup.settings);
+    solver.solve(&scene.layup.motion.positions[0], &contacts);
     let mut step = 0;
     bencher.bench_local(|| {
         step = 1 - step;
-        solver.solve(black_box(&scene.motion.positions[step]), &contacts)
+        solver.solve(black_box(&scene.layup.motion.positions[step]), &contacts)
     });
 }
 
@@ -193,7 +195,7 @@ fn sheet_factorization(bencher: Bencher, (across, along): (u32, u32)) {
 
 /// A scene with lines of its sheet every so many millimetres.
 fn meshed(mut scene: Scene, mesh_mm: f64) -> Scene {
-    scene.settings.sheet.mesh = Some(mesh_mm * 1e-3);
+    scene.layup.settings.sheet.mesh = Some(mesh_mm * 1e-3);
     scene
 }
 
@@ -204,10 +206,10 @@ fn wide_dome(grid: [usize; 2]) -> Scene {
     let radius = 0.6 * scale;
     let pose = Pose::new([0.0, 0.0, -radius], [0.0; 3]);
     let mold = Mold::Sphere(Sphere { pose, radius, face: Face::Outside });
-    scene.ply.grid = Grid { nu: grid[0], nv: grid[1] };
+    scene.layup.ply.grid = Grid { nu: grid[0], nv: grid[1] };
     let [u, v] = [0, 1].map(|n| 0.05 * (grid[n] - 1) as f64);
     let place = |n: usize| {
-        let [i, j] = scene.ply.grid.id(n);
+        let [i, j] = scene.layup.ply.grid.id(n);
         [0.1 * i as f64 - u, 0.1 * j as f64 - v]
     };
     // to the places on the sphere straight above which the fabric would lie: along its great circles
@@ -223,12 +225,12 @@ fn wide_dome(grid: [usize; 2]) -> Scene {
         let between = |n| vector::between(start(n), end(n), k as f64 / 29.0);
         grippers.clone().map(between).collect()
     };
-    scene.motion = Motion {
+    scene.layup.motion = Motion {
         times: (0..30).map(|k| k as f64).collect(),
         positions: (0..30).map(step).collect(),
     };
-    scene.mold = Some(mold);
-    scene.target = None;
+    scene.layup.mold = Some(mold);
+    scene.layup.target = None;
     scene
 }
 

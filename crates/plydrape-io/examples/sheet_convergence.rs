@@ -5,7 +5,8 @@
 //! in a step in which the ply touches; stiffer contact is a smaller depth of penetration.
 
 use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
-use plydrape::scene::{Motion, Scene};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape::sheet::{Tuning, drape};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -23,7 +24,7 @@ fn main() {
     for (name, scene) in &cases {
         for (varied, mesh, tuning) in variants() {
             let mut scene = scene.clone();
-            scene.settings.sheet.mesh = Some(mesh * 1e-3);
+            scene.layup.settings.sheet.mesh = Some(mesh * 1e-3);
             row(name, &varied, &scene, tuning);
         }
     }
@@ -75,7 +76,7 @@ fn shipped(name: &str) -> Scene {
 /// lines not made taut.
 fn front(a: f64, slope: f64) -> Scene {
     let mut scene = shipped("04_dome");
-    let curvature = a * scene.ply.cell[0].min(scene.ply.cell[1]);
+    let curvature = a * scene.layup.ply.cell[0].min(scene.layup.ply.cell[1]);
     let strategy = Strategy {
         start: [0.5; 2],
         ratio: 1.0,
@@ -88,6 +89,6 @@ fn front(a: f64, slope: f64) -> Scene {
     };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
-    scene.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    scene.layup.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
     scene
 }

@@ -1,18 +1,24 @@
 //! Made-up results for the tests of this folder: parabolas between grippers that move to a sheared
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
-use crate::result::{ResultFile, SceneEcho};
-use plydrape::bodies::Bodies;
+use crate::result::{Also, ResultFile, SceneEcho};
+use crate::sheet::{SheetKept, SheetSeal};
 use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;
-use plydrape::errors::{CellVerdict, Errors, Highest, SampleVerdict};
+use plydrape::errors::Errors;
+use plydrape::layup::{ContactEnd, ContactSettings, Model, Settings, SlopeRule, Stepping, Target};
 use plydrape::material::{Material, Section};
-use plydrape::measure::Name;
+use plydrape::measure::{Measures, Name, Numbers, Verdict, Worst};
 use plydrape::mold::{Mold, Plane};
+use plydrape::motion::Motion;
+use plydrape::outcome::{
+    CatenaryReport, CellVerdict, Gripper, Highest, SampleVerdict, Status as Ended, Step, Summary,
+};
 use plydrape::ply::{Catenary, Grid, Kind, Lines, Ply};
-use plydrape::scene::{ContactEnd, ContactSettings, Limits, Settings, SlopeRule, Stepping, Target};
+use plydrape::scene::Scene;
 use plydrape::sheet;
+use std::sync::OnceLock;
 
 const CELL: f64 = 0.1;
 const SPACING: f64 = 0.098;
@@ -71,37 +77,40 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         .map(|k| catenary(graph.catenary(k), lengths[k], &shapes[k], mold))
         .collect();
     let grippers = (0..at.len()).map(|k| gripper(grid, k, at)).collect();
-    let worst = |value| Worst { value, at: "edge g0_0–g1_0".into(), place: Some(at[0]) };
+    let solver = Solver {
+        status: Status::Converged,
+        iterations: 3,
+        residual: 1e-12,
+        equilibria: 1,
+        contact: ContactStatus::Followed,
+    };
+    let slopes = (0..at.len()).map(|k| slopes(grid, k).map(Some)).collect();
+    let cells = (graph.cells().iter())
+        .map(|cell| cell.id)
+        .map(|cell| Cell { cell, shear_deg: 0.0, shearing: None, landed_deg: [None; 2] })
+        .collect();
+    let measured = [
+        (Name::Overstretch, 0.01 * time),
+        (Name::Tilt, 19.0 - 3.0 * time),
+        (Name::Shear, SHEAR * time),
+        (Name::Force, 0.37 + time),
+        (Name::Slack, 2.0 - time),
+        (Name::LandingError, 4.2 * time),
+        (Name::ContactShare, (time - 0.85).max(0.0)),
+    ];
+    let known = |(name, _): &(Name, f64)| *name != Name::LandingError || time > 0.8;
     Step {
         step,
         time,
         grippers,
-        solver: Solver {
-            status: Status::Converged,
-            iterations: 3,
-            residual: 1e-12,
-            equilibria: 1,
-            contact: ContactStatus::Followed,
-        },
-        catenaries,
-        cells: (graph.cells().iter())
-            .map(|cell| cell.id)
-            .map(|cell| Cell { cell, shear_deg: 0.0, shearing: None, landed_deg: [None; 2] })
-            .collect(),
-        measures: [
-            (Name::Overstretch, 0.01 * time),
-            (Name::Tilt, 19.0 - 3.0 * time),
-            (Name::Shear, SHEAR * time),
-            (Name::Force, 0.37 + time),
-            (Name::Slack, 2.0 - time),
-            (Name::LandingError, 4.2 * time),
-            (Name::ContactShare, (time - 0.85).max(0.0)),
-        ]
-        .into_iter()
-        .filter(|(name, _)| *name != Name::LandingError || time > 0.8)
-        .map(|(name, value)| (name, worst(value)))
-        .collect(),
+        measures: measures(measured.into_iter().filter(known)),
+        catenaries: Some(CatenaryStep { solver, slopes, catenaries, cells }),
     }
+}
+
+fn measures(values: impl IntoIterator<Item = (Name, f64)>) -> Measures {
+    let worst = |value| Worst { value, at: "edge g0_0–g1_0".into(), place: Some([0.0; 3]) };
+    values.into_iter().map(|(name, value)| (name, worst(value))).collect()
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -191,8 +200,8 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
     }
 }
 
-/// A gripper tilted towards the middle of the ply, as the edge slopes would have it.
-fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
+/// Slopes of the ply at a gripper: down from the edges of the ply to its middle.
+fn slopes(grid: Grid, k: usize) -> [f64; 2] {
     let [i, j] = grid.id(k);
     let outer = |n: usize, count: usize| match n {
         _ if count == 1 => 0.0,
@@ -200,121 +209,92 @@ fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
         n if n + 1 == count => 0.3,
         _ => 0.0,
     };
-    let (u, v) = (outer(i, grid.nu), outer(j, grid.nv));
+    [outer(i, grid.nu), outer(j, grid.nv)]
+}
+
+/// A gripper tilted towards the middle of the ply, as the edge slopes would have it.
+fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
+    let [u, v] = slopes(grid, k);
     // Half the rotation vector of the tilt, small enough to stand for the whole rotation.
     let q = [v / 2.0, -u / 2.0, 0.0, 1.0];
     let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     Gripper {
-        id: [i, j],
+        id: grid.id(k),
         position: at[k],
-        slope_u: Some(u),
-        slope_v: Some(v),
-        tilt_deg: u.hypot(v).atan().to_degrees(),
+        commanded: at[k],
         quaternion: q.map(|c| c / norm),
+        tilt_deg: u.hypot(v).atan().to_degrees(),
+        force: [0.3, -0.2, -0.5],
+        slide_mm: 0.0,
+        holds: true,
         target_distance_mm: None,
-        mount: None,
     }
 }
 
 fn summarize(result: &mut ResultFile) {
     let touching = |c: &&CatenaryState| c.contact.is_some();
-    let first = result.steps.iter().find(|s| s.catenaries.iter().any(|c| c.contact.is_some()));
+    let lines = |step: &Step| step.catenaries.clone().map_or_else(Vec::new, |s| s.catenaries);
+    let first = result.steps.iter().find(|step| lines(step).iter().any(|c| touching(&c)));
     let id = |c: &CatenaryState| CatenaryId { kind: c.kind, from: c.from, to: c.to };
-    result.summary.first_contact_step = first.map(|s| s.step);
-    result.summary.first_contact =
-        first.map(|s| s.catenaries.iter().filter(touching).map(id).collect()).unwrap_or_default();
+    let report = CatenaryReport {
+        first_contact_step: first.map(|step| step.step),
+        first_contact: first
+            .map(|step| lines(step).iter().filter(touching).map(id).collect())
+            .unwrap_or_default(),
+        equilibria: 30,
+        ..CatenaryReport::default()
+    };
+    result.summary.catenaries = Some(report);
     result.summary.steps = result.steps.len();
     result.summary.steps_planned = result.steps.len();
 }
 
 fn frame(grid: Grid) -> ResultFile {
+    let material = Material {
+        name: "fabric".into(),
+        source: "made up".into(),
+        section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
+        shear_curve: None,
+        tension: None,
+        locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
+    };
+    let settings = Settings {
+        model: Model::Catenaries,
+        slopes: SlopeRule::MinForce,
+        axial_stiffness: 1e5,
+        gravity: 9.8,
+        max_tilt: 0.7,
+        contact: ContactSettings {
+            tolerance: 0.001,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+            ..ContactSettings::default()
+        },
+        ..Settings::default()
+    };
+    let motion = Motion { times: Vec::new(), positions: Vec::new() };
+    let scene = Scene::new(Ply::of_array(grid, [CELL, CELL], material), settings, motion);
     ResultFile {
         program: "test".into(),
-        scene: SceneEcho {
-            title: "Flat sheared mold".into(),
-            input: None,
-            ply: Ply::of_array(
-                grid,
-                [CELL, CELL],
-                Material {
-                    name: "fabric".into(),
-                    source: "made up".into(),
-                    section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
-                    shear_curve: None,
-                    tension: None,
-                    locking_angle: None,
-                    moment: Default::default(),
-                    scatter: Default::default(),
-                },
-            ),
-            mold: None,
-            target: None,
-            settings: Settings {
-                slopes: SlopeRule::MinForce,
-                axial_stiffness: 1e5,
-                gravity: 9.8,
-                max_tilt: 0.7,
-                contact: ContactSettings {
-                    tolerance: 0.001,
-                    stepping: Stepping::Once,
-                    end: ContactEnd::Free,
-                    ..ContactSettings::default()
-                },
-                ..Settings::default()
-            },
-            limits: Limits {
-                preset: None,
-                slack_ratio: 0.005,
-                slack_angle: None,
-                wrinkle: None,
-                bridging: 0.001,
-                overstretch: 0.01,
-                landing_contact: 0.002,
-                height: 5e-4,
-                out_of_plane: 0.05,
-                position: 0.002,
-                gripper_force: None,
-                landing_gripper: 0.002,
-                fibre_angle: 0.05,
-                shear: 0.8,
-                landing_shear: 0.05,
-                strain: 0.005,
-                penetration: 0.001,
-                tilt: 0.7,
-                tilt_rate: 1.5,
-                force: None,
-                gripper_load: 10.0,
-                gripper_pull: None,
-                grip_safety: 1.5,
-                contact_share: 0.9,
-                gripper_distance: 0.05,
-                clearance: 0.005,
-                workspace: None,
-                speed: 0.25,
-                acceleration: 1.0,
-                jerk: 10.0,
-                duration: None,
-            },
-            bodies: Bodies::default(),
-            errors: None,
-            tool: None,
-            release: None,
-        },
+        scene: SceneEcho { title: "Flat sheared mold".into(), ..SceneEcho::new(&scene, None) },
         plan: None,
         sheet_states: None,
         steps: Vec::new(),
+        also: None,
+        motion: OnceLock::new(),
         summary: Summary {
-            accepted: true,
+            model: Model::Catenaries,
+            status: Ended::Converged,
             steps: 0,
             steps_planned: 0,
             stopped: None,
-            first_contact_step: None,
-            first_contact: Vec::new(),
-            first_shear_step: None,
-            all_shear_step: None,
             worst: Numbers::default(),
             last: Numbers::default(),
-            contact_share: None,
+            height_rms_mm: None,
+            height_share: None,
+            position_rms_mm: None,
             limits: vec![Verdict {
                 name: Name::Tilt,
                 value: 19.2,
@@ -325,8 +305,9 @@ fn frame(grid: Grid) -> ResultFile {
                 at: "gripper g0_0".into(),
                 place: None,
             }],
-            equilibria: 30,
+            events: Vec::new(),
             sheet: None,
+            catenaries: None,
             sample: None,
             stands: None,
             tool: None,
@@ -334,13 +315,21 @@ fn frame(grid: Grid) -> ResultFile {
     }
 }
 
+/// The catenaries of a step of a result, by its place.
+pub(super) fn lines(result: &mut ResultFile, step: usize) -> &mut Vec<CatenaryState> {
+    &mut result.steps[step].catenaries.as_mut().expect("catenaries drape").catenaries
+}
+
 /// A drape onto a tilted plane, the whole motion tilted with it.
 pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
     let mut result = draped(nu, nv, 30);
     let lean = |p: &mut [f64; 3]| p[2] += 0.25 * p[0] + 0.1 * p[1];
     for step in &mut result.steps {
-        step.grippers.iter_mut().for_each(|g| lean(&mut g.position));
-        for catenary in &mut step.catenaries {
+        for gripper in &mut step.grippers {
+            lean(&mut gripper.position);
+            lean(&mut gripper.commanded);
+        }
+        for catenary in step.catenaries.iter_mut().flat_map(|step| &mut step.catenaries) {
             catenary.contact.iter_mut().flat_map(|c| &mut c.points).for_each(lean);
         }
     }
@@ -353,31 +342,29 @@ pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
     result
 }
 
-/// The outcome of a sheet of one step.
-pub(super) fn sheet_summary() -> sheet::measure::Summary {
-    sheet::measure::Summary {
-        accepted: true,
-        status: sheet::Status::Converged,
-        converged: true,
+/// A drape by a sheet of nine nodes with the grippers of [`draped`]; its states are in no file.
+pub(super) fn sheet(nu: usize, nv: usize, steps: usize) -> ResultFile {
+    let mut result = draped(nu, nv, steps);
+    result.scene.settings.model = Model::Sheet;
+    for step in &mut result.steps {
+        step.catenaries = None;
+        step.measures = measures([
+            (Name::Gap, 75.0 * (1.0 - step.time)),
+            (Name::Shear, SHEAR * step.time),
+            (Name::Tilt, 19.0 - 3.0 * step.time),
+            (Name::GripperLoad, 0.5),
+            (Name::GripperPull, 0.4),
+            (Name::Strain, 1e-4),
+        ]);
+    }
+    let summary = &mut result.summary;
+    summary.model = Model::Sheet;
+    summary.catenaries = None;
+    summary.sheet = Some(sheet::Report {
         nodes: 9,
-        steps: 1,
-        height_max_mm: Some(0.2),
-        height_rms_mm: Some(0.1),
-        height_share_above_half_mm: Some(0.0),
         ridge_max_mm: Some(0.2),
         bridge_max_mm: Some(0.0),
-        out_of_plane_deg: Some(1.0),
-        fibre_angle_deg: None,
-        position_max_mm: None,
-        position_rms_mm: None,
-        strain_max: 1e-4,
-        shear_max_deg: 20.0,
-        gripper_force_max_n: 0.5,
-        gripper_pull_max_n: 0.4,
-        slip_max_mm: None,
-        tilt_max_deg: 10.0,
         fold_max_deg: 5.0,
-        penetration_mm: Some(0.01),
         first_contact_step: Some(1),
         first_contact_uv_mm: Some([50.0, 50.0]),
         energy_j: 0.1,
@@ -385,9 +372,24 @@ pub(super) fn sheet_summary() -> sheet::measure::Summary {
         time_steps: 10,
         solves: 30,
         smallest_step: 0.5,
-        limits: Vec::new(),
-        events: Vec::new(),
-    }
+    });
+    let worst = [(Name::GripperLoad, Some(0.5)), (Name::GripperPull, Some(0.4))];
+    summary.worst = worst.into_iter().collect();
+    summary.last = [(Name::Height, Some(0.2))].into_iter().collect();
+    result.sheet_states = Some(states());
+    result
+}
+
+/// States of a sheet in a file that is not there.
+pub(super) fn states() -> SheetKept {
+    let checksum = "crc32:0123abcd".to_string();
+    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
+    SheetKept::read(seal, "no/such/folder".into())
+}
+
+/// A result as the drape by the model that does not decide.
+pub(super) fn also(result: ResultFile) -> Also {
+    Also { summary: result.summary, steps: result.steps }
 }
 
 /// A sample of four cells, two of which are accepted and three needed.

@@ -20,7 +20,7 @@ mod tool;
 pub use book::book;
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
-pub(crate) use errors::{share, tolerance_in_words};
+pub(crate) use errors::{share, stands_in_words};
 pub use ink::Ink;
 pub use limited_by::limited_by;
 pub use screen::{details, draped, heading, screen, verdict};

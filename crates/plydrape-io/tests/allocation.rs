@@ -1,7 +1,7 @@
 //! Once their buffers have grown, the solvers ask for no memory.
 
 use plydrape::equilibrium::Solver;
-use plydrape::scene::SlopeRule;
+use plydrape::layup::{SlopeRule};
 use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
 use plydrape::sheet::{Tuning, drape};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -19,21 +19,21 @@ fn a_second_solve_allocates_nothing() {
     let path =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
     let scene = plydrape_io::scene::read(Path::new(path)).expect("a shipped scene").scene;
-    let contacts = vec![None; scene.ply.lines().catenaries()];
+    let contacts = vec![None; scene.layup.ply.lines().catenaries()];
     for rule in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
-        let mut settings = scene.settings;
+        let mut settings = scene.layup.settings;
         settings.slopes = rule;
-        let mut solver = Solver::new(&scene.ply, &settings);
-        for positions in &scene.motion.positions[..6] {
+        let mut solver = Solver::new(&scene.layup.ply, &settings);
+        for positions in &scene.layup.motion.positions[..6] {
             solver.solve(positions, &contacts);
         }
         let region = Region::new(ALLOCATOR);
         let mut iterations = 0;
-        for positions in &scene.motion.positions[..6] {
+        for positions in &scene.layup.motion.positions[..6] {
             iterations += solver.solve(positions, &contacts).iterations;
         }
         solver.forget();
-        iterations += solver.solve(&scene.motion.positions[0], &contacts).iterations;
+        iterations += solver.solve(&scene.layup.motion.positions[0], &contacts).iterations;
         let change = region.change();
         assert!(iterations > 10, "{rule:?}: {iterations}");
         assert_eq!((change.allocations, change.reallocations), (0, 0), "{rule:?}");
@@ -65,7 +65,7 @@ fn a_factorization_and_its_solution_allocate_nothing() {
 fn a_time_step_of_a_sheet_allocates_nothing() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/04_dome/scene.toml");
     let mut scene = plydrape_io::scene::read(Path::new(path)).expect("a shipped scene").scene;
-    scene.settings.sheet.mesh = Some(0.02);
+    scene.layup.settings.sheet.mesh = Some(0.02);
     let allocator = &ALLOCATOR;
     // allocations when a time step began, unless a state was shown since
     let began = Cell::new(None);

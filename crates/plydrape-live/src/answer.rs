@@ -1,14 +1,15 @@
 //! The answer to a scene: the ply as it hangs, or why there is none.
 
-use plydrape::draping::record::{Hold, Step};
+use plydrape::draping::record::{CatenaryState, CatenaryStep, Hold};
+use plydrape::layup::Model;
+use plydrape::outcome::Step;
 use plydrape::ply::{GripperId, Kind};
-use plydrape::scene::Model;
 use plydrape_io::page::{self, Form};
-use plydrape_io::scene::{SceneError, parse};
+use plydrape_io::scene::{SceneError, parse_for};
+use plydrape_io::sheet::drape;
 use plydrape_io::surface::{shape, stations};
 use plydrape_io::{OutputError, PROGRAM, ResultFile, json};
 use serde::Serialize;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// Triangles of a mold that is bent while the page looks on, at most: a quarter of those of a report.
@@ -85,15 +86,17 @@ struct Refused<'a> {
 /// Solves a scene whose grippers are held, by the catenaries, whatever its model is.
 #[must_use]
 pub fn answer(scene: &str, mold: Mold) -> Answer {
-    match parse(scene, Path::new(""), "the scene") {
-        Ok(mut file) => {
-            file.scene.settings.model = Model::Catenaries;
-            let drape = plydrape::simulate(&file.scene, |_| ControlFlow::Continue(()));
-            let result = ResultFile::new(&file.scene, file.input.clone(), drape);
-            let triangles = (mold == Mold::Drawn).then_some(TRIANGLES);
-            let form = Form { triangles, packed: false };
-            hanging(&result, form).map_or_else(|e| refused(&e.to_string(), ""), Answer::Ply)
-        }
+    let model = Model::Catenaries;
+    match parse_for(scene, Path::new(""), "the scene", None, Some(model), None) {
+        Ok(file) => match drape(&file, model, Path::new(""), &|| false, |_| {}) {
+            Ok(drape) => {
+                let result = ResultFile::new(&file, file.input.clone(), drape);
+                let triangles = (mold == Mold::Drawn).then_some(TRIANGLES);
+                let form = Form { triangles, packed: false };
+                hanging(&result, form).map_or_else(|e| refused(&e.to_string(), ""), Answer::Ply)
+            }
+            Err(fault) => refused(&fault.to_string(), fault.remedy()),
+        },
         Err(SceneError { message, help, .. }) => refused(&message, &help),
     }
 }
@@ -104,31 +107,41 @@ fn refused(message: &str, help: &str) -> Answer {
 
 fn hanging(result: &ResultFile, form: Form) -> Result<String, OutputError> {
     let data = page::data(result, form)?;
-    let step = &result.steps[0];
-    let curves = result.curves(step);
-    let count = step.catenaries.len();
-    let own = json::of(&Hanging {
-        program: PROGRAM,
-        found: step.solver.found(),
-        status: [step.solver.status.name(), step.solver.contact.name()],
-        catenaries: (0..count).map(|n| catenary(result, step, n, &curves[n])).collect(),
-    })?;
+    let steps = result.steps.first().and_then(|step| Some((step, step.catenaries.as_ref()?)));
+    let own = steps.map(|(step, hanging)| {
+        let curves = result.curves(step);
+        json::of(&Hanging {
+            program: PROGRAM,
+            found: hanging.solver.found(),
+            status: [hanging.solver.status.name(), hanging.solver.contact.name()],
+            catenaries: catenaries(result, step, hanging, &curves),
+        })
+    });
+    let own = own.transpose()?.unwrap_or_default();
     let own = own.trim_end().trim_end_matches('}');
     Ok([own, ",\"page\":", data.trim_end(), "}"].concat())
 }
 
-fn catenary(result: &ResultFile, step: &Step, n: usize, curves: &[Vec<[f64; 3]>]) -> Catenary {
-    let state = &step.catenaries[n];
-    let ends = result.scene.ply.lines().ends(n).map(|gripper| step.grippers[gripper].position);
-    let line = shape(state, curves, ends);
-    Catenary {
-        kind: state.kind,
-        from: state.from,
-        to: state.to,
-        forces: state.spans.iter().map(|span| span.force).collect(),
-        holds: state.spans.iter().map(|span| span.hold).collect(),
-        shearing: state.shearing,
-        touches: state.contact.is_some(),
-        middle: stations(&line, 2)[1],
-    }
+fn catenaries(
+    result: &ResultFile,
+    step: &Step,
+    hanging: &CatenaryStep,
+    curves: &[Vec<Vec<[f64; 3]>>],
+) -> Vec<Catenary> {
+    let lines = result.scene.ply.lines();
+    let catenary = |(n, (state, curves)): (usize, (&CatenaryState, &Vec<Vec<[f64; 3]>>))| {
+        let ends = lines.ends(n).map(|gripper| step.grippers[gripper].position);
+        let line = shape(state, curves, ends);
+        Catenary {
+            kind: state.kind,
+            from: state.from,
+            to: state.to,
+            forces: state.spans.iter().map(|span| span.force).collect(),
+            holds: state.spans.iter().map(|span| span.hold).collect(),
+            shearing: state.shearing,
+            touches: state.contact.is_some(),
+            middle: stations(&line, 2)[1],
+        }
+    };
+    hanging.catenaries.iter().zip(curves).enumerate().map(catenary).collect()
 }

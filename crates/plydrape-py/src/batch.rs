@@ -1,17 +1,16 @@
 //! Many at once, on all cores: `plydrape.batch`.
 
 use crate::arrays::{Array, Numbers};
-use crate::drape::for_model;
+use crate::drape::{draped, judge_by};
 use crate::error;
+use crate::model::for_models;
 use crate::result::Result;
 use crate::scene::Scene;
 use crate::solver::{Solver, shear_angles};
 use crate::work::run;
-use plydrape::draping;
 use plydrape::equilibrium::Status;
-use plydrape::errors::{self, Robustness};
+use plydrape::outcome::Robustness;
 use plydrape::ply::{Lines, Ply};
-use plydrape_io::ResultFile;
 use plydrape_io::scene::SceneFile;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -37,7 +36,9 @@ fn pool(threads: Option<usize>) -> PyResult<ThreadPool> {
 /// scenes : iterable of Scene
 ///     The scenes.
 /// model : {"sheet", "catenaries"}, optional
-///     The model that decides, instead of that of each scene: "sheet" or "catenaries".
+///     The model that drapes and decides, instead of that of each scene.
+/// also : {"sheet", "catenaries"}, optional
+///     The other model, to be draped too and shown beside as `Result.also`; it never judges.
 /// threads : int, optional
 ///     How many at once; one a core unless given. The results do not depend on it.
 /// progress : callable, optional
@@ -61,31 +62,26 @@ fn pool(threads: Option<usize>) -> PyResult<ThreadPool> {
 #[pyfunction]
 #[pyo3(name = "simulate_all", signature = (
     scenes: "typing.Iterable[Scene]", *,
-    model: "typing.Literal['sheet', 'catenaries'] | None" = None, threads = None,
+    model: "typing.Literal['sheet', 'catenaries'] | None" = None,
+    also: "typing.Literal['sheet', 'catenaries'] | None" = None, threads = None,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 pub fn simulate_all(
     py: Python<'_>,
     scenes: &Bound<'_, PyAny>,
     model: Option<&str>,
+    also: Option<&str>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Result>> {
     let scenes = (scenes.try_iter()?)
-        .map(|scene| for_model(&scene?.cast::<Scene>()?.get().0, model))
+        .map(|scene| for_models(scene?.cast::<Scene>()?.get(), model, also))
         .collect::<PyResult<Vec<_>>>()?;
     let pool = pool(threads)?;
     let results = run(py, progress, move |watch| {
         let drape = |scene: &Arc<SceneFile>| {
-            let drape = draping::simulate(scene, |_| watch.flow());
-            let mut result = ResultFile::new(scene, scene.input.clone(), drape);
-            let stop = || watch.flow().is_break();
-            result.drape_sheet(scene, &std::env::temp_dir(), &stop, |_| {})?;
-            let robustness = Robustness::of_simulated(scene);
-            let watched = errors::Watch { stop: &stop, done: &|_, _| {} };
-            if robustness.judge_sample(&mut result.summary, &watched) {
-                robustness.judge_stands(&mut result.summary, &watched);
-            }
+            let mut result = draped(scene, watch, &|_, _| {})?;
+            judge_by(&mut result, &Robustness::of_simulated(scene), watch, &|_, _| {});
             let _ = watch.count(1, scenes.len(), "draping");
             Ok(Result(Arc::new(result)))
         };

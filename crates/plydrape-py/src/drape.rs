@@ -3,20 +3,19 @@
 use crate::arrays::{Array, Named, Numbers};
 use crate::error;
 use crate::json::Json;
+use crate::model::for_models;
 use crate::quantity::Amount;
 use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::{Watch, run};
-use plydrape::draping;
-use plydrape::draping::record::PlanRecord;
-use plydrape::errors::{self, Robustness};
 use plydrape::motion::TimedMotion;
-use plydrape::planner::{self, Checkpoint};
-use plydrape::scene::{Model, PlanMethod};
+use plydrape::outcome::{self, Robustness};
+use plydrape::planner::{self, Checkpoint, PlanError, PlanRecord};
+use plydrape::scene::PlanMethod;
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
 use plydrape_io::scene::{Measured, SceneFile};
-use plydrape_io::sheet::{SheetDrapeError, SheetSize};
+use plydrape_io::sheet::{self, SheetDrapeError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -26,14 +25,17 @@ use std::time::{Duration, Instant};
 
 /// Drapes the ply of a scene along its motion, as `plydrape simulate` does.
 ///
-/// Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a sample of its cells too.
+/// One model drapes and decides. Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a
+/// sample of its cells too.
 ///
 /// Parameters
 /// ----------
 /// scene : Scene
 ///     The scene.
 /// model : {"sheet", "catenaries"}, optional
-///     The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
+///     The model that drapes and decides, instead of the scene's.
+/// also : {"sheet", "catenaries"}, optional
+///     The other model, to be draped too and shown beside as `Result.also`; it never judges.
 /// without_errors : bool, default False
 ///     Whether the errors of the scene are left out.
 /// progress : callable, optional
@@ -47,7 +49,7 @@ use std::time::{Duration, Instant};
 /// Raises
 /// ------
 /// SceneError
-///     If the scene has no sheet, because its material lacks a stiffness for instance.
+///     If a model cannot drape the scene: its material lacks a stiffness that the sheet needs, for instance.
 /// OutputError
 ///     If the states of the sheet cannot be kept in the folder for temporary files.
 /// ValueError
@@ -59,26 +61,28 @@ use std::time::{Duration, Instant};
 /// >>> plydrape.simulate(scene).accepted
 /// True
 /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-/// >>> plydrape.simulate(scene, model="sheet").sheet
-/// <plydrape.Sheet of 341 nodes, 30 states, not accepted>
+/// >>> result = plydrape.simulate(scene, also="catenaries")
+/// >>> result.model, result.also.model
+/// ('sheet', 'catenaries')
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, model: "typing.Literal['sheet', 'catenaries'] | None" = None, without_errors = false,
+    scene, *, model: "typing.Literal['sheet', 'catenaries'] | None" = None,
+    also: "typing.Literal['sheet', 'catenaries'] | None" = None, without_errors = false,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 pub fn simulate(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
     model: Option<&str>,
+    also: Option<&str>,
     without_errors: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
-    let scene = for_model(&scene.get().0, model)?;
-    let steps = scene.motion.positions.len();
+    let scene = for_models(scene.get(), model, also)?;
+    let steps = scene.layup.motion.positions.len();
     let result = run(py, progress, move |watch| {
-        let drape = draping::simulate(&scene, |done| watch.tell(done, steps, "draping"));
-        let mut result = ResultFile::new(&scene, scene.input.clone(), drape);
-        drape_sheet(&mut result, &scene, watch)?;
+        let told = |done, stage| drop(watch.tell(done, steps, stage));
+        let mut result = draped(&scene, watch, &told)?;
         if !without_errors {
             judge_errors(&mut result, &Robustness::of_simulated(&scene), watch);
         }
@@ -87,55 +91,51 @@ pub fn simulate(
     result.map(|result| Result(Arc::new(result))).map_err(|fault| error::sheet(&fault))
 }
 
-/// The scene with the model that a call asks for, whose sheet, if it has one, can be draped.
-pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<SceneFile>> {
-    let mut scene = Arc::clone(scene);
-    match model {
-        None => {}
-        Some("sheet") => Arc::make_mut(&mut scene).settings.model = Model::Sheet,
-        Some("catenaries") if !scene.ply.has_lines() => {
-            let text = "no catenaries hang between the cups that hold this ply: not each of them shares \
-                a yarn with another one, as in rows along the yarns or at 45° to them: drape it with \
-                model=\"sheet\"";
-            return Err(PyValueError::new_err(text));
-        }
-        Some("catenaries") if scene.release.is_some() => {
-            let text = "catenaries hang from grippers that hold them: they cannot follow a ply that pads let go of: \
-                drape it with model=\"sheet\", or leave out `release`";
-            return Err(PyValueError::new_err(text));
-        }
-        Some("catenaries") => Arc::make_mut(&mut scene).settings.model = Model::Catenaries,
-        Some(other) => {
-            let text = format!("model is {other:?}; \"sheet\" or \"catenaries\" is wanted");
-            return Err(PyValueError::new_err(text));
-        }
-    }
-    if scene.settings.model == Model::Sheet {
-        SheetSize::of(&scene).map_err(|fault| error::sheet(&fault))?;
-    }
-    Ok(scene)
+/// The drape of a scene by the model that decides, and by the other one if the scene asks for it, with the states of a sheet in the folder
+/// for temporary files. `told` hears of the steps that are done, and of what.
+pub fn draped(
+    scene: &SceneFile,
+    watch: &Watch,
+    told: &dyn Fn(usize, &'static str),
+) -> std::result::Result<ResultFile, SheetDrapeError> {
+    let (model, dir) = (scene.layup.settings.model, std::env::temp_dir());
+    let drape = sheet::drape(scene, model, &dir, &watch.stop(), |done| told(done, "draping"))?;
+    let mut result = ResultFile::new(scene, scene.input.clone(), drape);
+    show_also(&mut result, scene, watch, told)?;
+    Ok(result)
 }
 
-/// Drapes the sheet of a scene too, if its model says so, with its states in the folder for temporary files.
-fn drape_sheet(
+/// Shows the model that does not decide beside a result, if the scene asks for it.
+fn show_also(
     result: &mut ResultFile,
-    scene: &plydrape::scene::Scene,
+    scene: &plydrape::Scene,
     watch: &Watch,
+    told: &dyn Fn(usize, &'static str),
 ) -> std::result::Result<(), SheetDrapeError> {
-    let steps = scene.motion.positions.len();
-    let stop = || watch.flow().is_break();
-    let told = |done| {
-        let _ = watch.tell(done, steps, "draping the sheet");
-    };
-    result.drape_sheet(scene, &std::env::temp_dir(), &stop, told).map(drop)
+    if scene.also && !result.summary.interrupted() {
+        let (model, dir) = (result.model().other(), std::env::temp_dir());
+        let beside = |done| told(done, "draping by the other model");
+        result.show_also(sheet::drape(scene, model, &dir, &watch.stop(), beside)?);
+    }
+    Ok(())
 }
 
 /// Judges a result with errors, until the work shall end.
-pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Watch) {
+fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Watch) {
     let told = |done, most| {
         let _ = watch.tell(done, most, "draping with errors");
     };
-    let watch = errors::Watch { stop: &|| watch.flow().is_break(), done: &told };
+    judge_by(result, robustness, watch, &told);
+}
+
+/// Judges a result with errors, until the work shall end; `done` hears of the cells that are draped.
+pub fn judge_by(
+    result: &mut ResultFile,
+    robustness: &Robustness,
+    watch: &Watch,
+    done: &(dyn Fn(usize, usize) + Sync),
+) {
+    let watch = outcome::Watch { stop: &watch.stop(), done };
     if robustness.judge_sample(&mut result.summary, &watch) {
         robustness.judge_stands(&mut result.summary, &watch);
     }
@@ -143,7 +143,7 @@ pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Wa
 
 /// Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 ///
-/// Where the scene's model is the sheet, the sheet decides on the plan; the catenaries are draped along it too.
+/// The scene's model drapes and decides.
 ///
 /// The search ends with a plan that keeps all limits with a margin. Other threads of Python run on meanwhile. Ctrl-C raises
 /// KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
@@ -168,6 +168,8 @@ pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Wa
 ///     drape that decides on that plan may take a little longer.
 /// checkpoint : str, optional
 ///     Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
+/// also : {"sheet", "catenaries"}, optional
+///     The model that does not decide, to be draped along the plan too and shown beside as `Result.also`; it never judges.
 /// without_errors : bool, default False
 ///     Whether the plan is judged without errors.
 /// progress : callable, optional
@@ -183,7 +185,7 @@ pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Wa
 /// PlanError
 ///     If the scene has no mold or target, or `checkpoint` is not of its ply.
 /// SceneError
-///     If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
+///     If its motion has a `duration`, which a plan would ignore, or if a model cannot drape it.
 /// ValueError
 ///     If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
 ///
@@ -196,7 +198,8 @@ pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Wa
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, improve = None,
-    time: "float | str | None" = None, checkpoint = None, without_errors = false,
+    time: "float | str | None" = None, checkpoint = None,
+    also: "typing.Literal['sheet', 'catenaries'] | None" = None, without_errors = false,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -208,10 +211,11 @@ pub fn plan(
     improve: Option<bool>,
     time: Option<Amount>,
     checkpoint: Option<&str>,
+    also: Option<&str>,
     without_errors: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
-    let mut scene = (*scene.get().0).clone();
+    let mut scene = (*for_models(scene.get(), None, also)?).clone();
     match method {
         None => {}
         Some("path") => scene.plan.method = PlanMethod::Path,
@@ -233,35 +237,48 @@ pub fn plan(
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::scene(refusal));
     }
-    let scene = for_model(&Arc::new(scene), None)?;
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();
-        let mut planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
+        let planned = planner::plan_without_errors(&scene, checkpoint.as_ref(), &mut |progress| {
             let over = time.is_some_and(|time| began.elapsed() >= time);
             match watch.tell(progress.candidates, progress.most, progress.stage) {
                 ControlFlow::Continue(()) if over && !progress.finishing => ControlFlow::Break(()),
                 flow => flow,
             }
-        })?;
-        let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-        let keep = |sheet| result.keep_sheet(sheet, &std::env::temp_dir());
-        let kept = planned.sheet.take().map(keep).transpose();
-        if !without_errors {
-            let robustness = Robustness::of_planned(&scene, planned.motion.steps());
-            judge_errors(&mut result, &robustness, watch);
-        }
-        Ok(kept.map(|_| Plan {
-            result: Arc::new(result),
-            record: planned.record,
-            motion: planned.motion,
-            checkpoint: planned.checkpoint,
-            decisions: planned.decisions,
-            time_over: planned.interrupted,
-        }))
+        });
+        planned.map(|planned| judged(&scene, planned, without_errors, watch))
     })?;
-    planned
-        .map_err(|fault: planner::PlanError| error::plan(&fault))?
-        .map_err(|fault| error::sheet(&fault))
+    planned.map_err(|fault| no_plan(&fault))?.map_err(|fault| error::sheet(&fault))
+}
+
+/// What becomes of a planned motion: its result, with the other model beside if the scene asks for it, judged with errors unless these are
+/// left out.
+fn judged(
+    scene: &SceneFile,
+    planned: planner::Planned,
+    without_errors: bool,
+    watch: &Watch,
+) -> std::result::Result<Plan, SheetDrapeError> {
+    let (record, motion) = (planned.record.clone(), planned.motion.clone());
+    let (checkpoint, decisions) = (planned.checkpoint.clone(), planned.decisions);
+    let time_over = planned.interrupted;
+    let along = planner::along(scene, &motion);
+    let (dir, steps) = (std::env::temp_dir(), along.layup.motion.positions.len());
+    let mut result = ResultFile::planned(scene, scene.input.clone(), planned, &dir)?;
+    let told = |done, stage| drop(watch.tell(done, steps, stage));
+    show_also(&mut result, &along, watch, &told)?;
+    if !without_errors {
+        judge_errors(&mut result, &Robustness::of_planned(scene, motion.steps()), watch);
+    }
+    Ok(Plan { result: Arc::new(result), record, motion, checkpoint, decisions, time_over })
+}
+
+/// Why there is no plan; a scene that its model cannot drape is refused as such.
+fn no_plan(fault: &PlanError) -> PyErr {
+    match fault {
+        PlanError::Model(fault) => error::model(fault),
+        fault => error::plan(fault),
+    }
 }
 
 /// A time above zero.
@@ -330,7 +347,7 @@ impl Plan {
     /// Whether every limit is kept, by the model that decides, and in enough cells of the sample where the scene has errors.
     #[getter]
     fn accepted(&self) -> bool {
-        self.result.summary.accepted
+        self.result.summary.accepted()
     }
 
     /// How long the motion takes (s).

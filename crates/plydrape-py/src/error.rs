@@ -1,9 +1,10 @@
 //! Errors of the library as the exceptions of `plydrape.errors`, with the same words.
 
+use plydrape::ModelError;
 use plydrape_io::OutputError;
 use plydrape_io::result::read::ReadError;
 use plydrape_io::scene::{SceneError, Unread};
-use plydrape_io::sheet::SheetDrapeError;
+use plydrape_io::sheet::{SheetDrapeError, model_remedy};
 use plydrape_io::size::SizeError;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -73,18 +74,30 @@ pub fn scene(error: &SceneError) -> PyErr {
     })
 }
 
-/// A scene whose sheet was not draped.
+/// A refused scene, of which no place is at fault.
+pub fn refused(message: &(impl Display + ?Sized), help: &str) -> SceneError {
+    SceneError {
+        file: "scene".into(),
+        text: "".into(),
+        span: None,
+        message: message.to_string(),
+        help: help.into(),
+        unread: None,
+    }
+}
+
+/// A scene that a model cannot drape.
+pub fn model(fault: &ModelError) -> PyErr {
+    scene(&refused(fault, model_remedy(fault)))
+}
+
+/// A scene that was not draped.
 pub fn sheet(fault: &SheetDrapeError) -> PyErr {
     match fault {
         SheetDrapeError::States(_) => plain("OutputError", &format!("{fault}; {}", fault.remedy())),
-        SheetDrapeError::Sheet(_) | SheetDrapeError::Size(_) => scene(&SceneError {
-            file: "scene".into(),
-            text: "".into(),
-            span: None,
-            message: fault.to_string(),
-            help: fault.remedy().into(),
-            unread: None,
-        }),
+        SheetDrapeError::Model(_) | SheetDrapeError::Size(_) => {
+            scene(&refused(fault, fault.remedy()))
+        }
     }
 }
 

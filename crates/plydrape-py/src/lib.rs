@@ -5,6 +5,7 @@
 
 mod arrays;
 mod batch;
+mod beside;
 mod drape;
 mod equilibrium;
 mod error;
@@ -13,6 +14,7 @@ mod jacobian;
 mod json;
 mod limits;
 mod measure;
+mod model;
 mod mold;
 mod net;
 mod outcome;
@@ -36,6 +38,8 @@ use pyo3::prelude::*;
 mod _plydrape {
     #[pymodule_export]
     use crate::batch::{Equilibria, equilibria, simulate_all};
+    #[pymodule_export]
+    use crate::beside::Drape;
     #[pymodule_export]
     use crate::drape::{Plan, plan, simulate};
     #[pymodule_export]

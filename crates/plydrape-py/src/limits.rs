@@ -1,7 +1,7 @@
 //! Judged limits as `plydrape.limits.Limits`.
 
 use crate::json::Json;
-use plydrape::draping::record::Verdict;
+use plydrape::measure::Verdict;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 

@@ -2,10 +2,12 @@
 
 use crate::arrays::Array;
 use crate::error;
+use crate::model::for_models;
 use crate::result::Result;
 use crate::scene::Scene;
 use crate::work::run;
 use plydrape::planner::sensitivity::{self, Quantity};
+use plydrape_io::sheet::keep;
 use plydrape_io::{ResultFile, size};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -70,7 +72,7 @@ impl Rows {
     }
 }
 
-/// Drapes a scene along its motion and differentiates where the ply has come to.
+/// Drapes a scene along its motion by catenaries, whatever its model is, and differentiates where the ply has come to.
 ///
 /// Parameters
 /// ----------
@@ -86,6 +88,8 @@ impl Rows {
 ///
 /// Raises
 /// ------
+/// SceneError
+///     If catenaries cannot drape the scene.
 /// ValueError
 ///     If the drape has no steps, or the derivatives would take more memory than allowed.
 ///
@@ -104,15 +108,18 @@ pub fn outcome(
     scene: &Bound<'_, Scene>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Outcome> {
-    let scene = Arc::clone(&scene.get().0);
-    size::derivatives(&scene.ply).map_err(|fault| error::too_large(&fault))?;
-    let (steps, grippers) = (scene.motion.positions.len(), scene.ply.grippers());
+    let mut scene = (*for_models(scene.get(), Some("catenaries"), None)?).clone();
+    scene.also = false;
+    let layup = &scene.layup;
+    size::derivatives(&layup.ply).map_err(|fault| error::too_large(&fault))?;
+    let (steps, grippers) = (layup.motion.positions.len(), layup.ply.grippers());
     let found = run(py, progress, move |watch| {
         let found = sensitivity::outcome(&scene, |done| watch.tell(done, steps, "draping"))?;
-        let result = ResultFile::new(&scene, scene.input.clone(), found.drape.clone());
-        Some((found, result))
+        let drape = keep(found.drape.clone(), &std::env::temp_dir());
+        Some(drape.map(|drape| (found, ResultFile::new(&scene, scene.input.clone(), drape))))
     })?;
-    let (found, result) = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
+    let found = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
+    let (found, result) = found.map_err(|fault| error::sheet(&fault))?;
     let [overstretch, tilt] =
         [found.overstretch, found.tilt].map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
     let rows = |quantities: &[Option<Quantity>]| Rows::of(quantities, grippers);

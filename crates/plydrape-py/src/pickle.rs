@@ -4,6 +4,7 @@
 //! version are read by that version. `python/plydrape/_values.py` gives the classes pickling, copies and comparison by it.
 
 use crate::batch::{Equilibria, Found};
+use crate::beside::Drape;
 use crate::drape::Plan;
 use crate::error;
 use crate::measure::{Measure, measures};
@@ -23,7 +24,9 @@ use plydrape::elastica::Bending;
 use plydrape::material::MomentCurve;
 use plydrape::mold::{self as molds, Raised, Waves};
 use plydrape::ply as plies;
-use plydrape::scene::{self as scenes, Motion, Settings};
+use plydrape::layup::{Layup, Settings};
+use plydrape::motion::Motion;
+use plydrape::scene as scenes;
 use plydrape_io::result::SceneEcho;
 use plydrape_io::scene::{SceneError, SceneFile};
 use plydrape_io::sheet::{SheetFile, SheetKept};
@@ -48,6 +51,9 @@ pub fn state<'py>(
     }
     if let Ok(sheet) = value.cast::<Sheet>() {
         return of_result(py, &sheet.get().result, whole);
+    }
+    if let Ok(drape) = value.cast::<Drape>() {
+        return of_result(py, &drape.get().result, whole);
     }
     if let Ok(plan) = value.cast::<Plan>() {
         let plan = plan.get();
@@ -112,6 +118,10 @@ pub fn restore<'py>(
     let any = match name {
         "Result" => Bound::new(py, Result(Arc::new(result(state, file)?)))?.into_any(),
         "Sheet" => Sheet::of(&Arc::new(result(state, file)?))?.into_pyobject(py)?.into_any(),
+        "Drape" => {
+            let result = Arc::new(result(state, file)?);
+            Bound::new(py, Drape { result, beside: true })?.into_any()
+        }
         "Plan" => Bound::new(py, plan(state, file)?)?.into_any(),
         "Outcome" => {
             let state: OutcomeState = from(state)?;
@@ -260,6 +270,7 @@ struct SceneState {
     times: Vec<f64>,
     positions: Vec<Vec<[f64; 3]>>,
     plan: scenes::Plan,
+    also: bool,
     thickness: Option<f64>,
     origin: Option<Origin>,
     refusal: Option<Refusal>,
@@ -288,14 +299,15 @@ impl SceneState {
             help: fault.help.clone(),
         };
         SceneState {
-            mold: MoldState::of(scene.mold.as_ref()),
+            mold: MoldState::of(scene.layup.mold.as_ref()),
             scene: SceneEcho {
                 mold: None,
                 ..SceneEcho::new(scene, input.clone().filter(|_| whole))
             },
-            times: scene.motion.times.clone(),
-            positions: scene.motion.positions.clone(),
+            times: scene.layup.motion.times.clone(),
+            positions: scene.layup.motion.positions.clone(),
             plan: scene.plan,
+            also: scene.also,
             thickness: *thickness,
             origin: whole.then(|| origin.clone()),
             refusal: plan_refusal.as_deref().filter(|_| whole).map(refusal),
@@ -317,20 +329,18 @@ impl SceneState {
             release,
         } = self.scene;
         let motion = Motion { times: self.times, positions: self.positions };
-        let scene = scenes::Scene {
-            title,
+        let layup = Layup {
             ply,
             mold: self.mold.mold(),
             motion,
             target,
             settings,
-            limits,
             bodies,
-            plan: self.plan,
-            errors,
             tool,
             release,
         };
+        let scene =
+            scenes::Scene { title, layup, limits, plan: self.plan, errors, also: self.also };
         let refusal = |Refusal { file, text, span, message, help }: Refusal| {
             Box::new(SceneError { file, text, span, message, help, unread: None })
         };

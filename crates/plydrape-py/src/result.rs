@@ -1,9 +1,11 @@
 //! `plydrape.Result`: the result file, read by arrays.
 
 use crate::arrays::{Array, Named, or_nan};
+use crate::beside::Drape;
 use crate::error;
 use crate::json::Json;
 use crate::limits::Limits;
+use crate::model;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
 use crate::ply::Ply;
@@ -11,10 +13,10 @@ use crate::quantity::Amount;
 use crate::sample::Sample;
 use crate::sheet::Sheet;
 use crate::surface::Surface;
-use plydrape::draping::record::{CatenaryState, Step};
-use plydrape::equilibrium::Status;
+use plydrape::draping::record::{CatenaryState, CatenaryStep, Cell};
 use plydrape::errors::Term;
-use plydrape::measure::{Name, Scope, Subject};
+use plydrape::layup::Model;
+use plydrape::outcome::{Status, Step};
 use plydrape::ply::Grid;
 use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::program::{Robot, Template, Tolerance};
@@ -29,17 +31,19 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A drape: every force, shape, contact and measure of every step, and the verdict.
+/// A drape: the grippers, loads and measures of every step, and the verdict, by the model that decides.
 ///
-/// Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
-/// catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
+/// What is of one model alone is there wherever that has draped, whether it decides or was asked for beside by `also`: the states
+/// of the `sheet`, and of the catenaries `forces`, `slack_mm`, `contact`, `shear_deg`, `lines`, `contact_lines` and `surface`.
+/// Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest, catenaries as in
+/// `Ply`. Steps count from 1, the start; −1 is the last.
 ///
 /// Examples
 /// --------
 /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
 /// >>> result = plydrape.simulate(scene)
-/// >>> result.positions.shape, result.summary["first_contact_step"]
-/// ((30, 8, 3), 26)
+/// >>> result.model, result.positions.shape, result.first_contact_step
+/// ('sheet', (30, 8, 3), 22)
 #[pyclass(frozen, module = "plydrape")]
 #[derive(Clone)]
 pub struct Result(pub Arc<ResultFile>);
@@ -47,35 +51,46 @@ pub struct Result(pub Arc<ResultFile>);
 impl Result {
     /// A step by its number, from 1; negative ones count from the end.
     fn step(&self, step: isize) -> PyResult<&Step> {
-        let steps = &self.0.steps;
-        let index = match step {
-            1.. => step.unsigned_abs().checked_sub(1),
-            0 => None,
-            _ => steps.len().checked_sub(step.unsigned_abs()),
-        };
-        index.and_then(|n| steps.get(n)).ok_or_else(|| {
-            PyIndexError::new_err(format!(
-                "there is no step {step}; the result has steps 1 to {}, and -1 is the last",
-                steps.len()
-            ))
+        find(&self.0.steps, step)
+    }
+
+    /// The drape by the model that decides.
+    fn drape(&self) -> Drape {
+        Drape { result: Arc::clone(&self.0), beside: false }
+    }
+
+    /// The steps of the catenaries, which decide or stand beside.
+    fn hanging(&self) -> PyResult<&[Step]> {
+        self.0.steps_of(Model::Catenaries).ok_or_else(|| {
+            PyValueError::new_err(
+                "the result has no catenaries, as the sheet alone has draped its scene: drape it with also=\"catenaries\"",
+            )
         })
     }
 
-    /// A number of each gripper in each step.
-    fn grippers<const N: usize>(
-        &self,
-        find: impl Fn(&plydrape::draping::record::Gripper) -> [f64; N],
-    ) -> Array<f64> {
-        let shape = [self.0.steps.len(), self.0.scene.ply.grippers(), N];
-        let axes = if N == 1 { 2 } else { 3 };
-        Array::rows(&shape[..axes], self.0.steps.iter().flat_map(|s| &s.grippers).map(find))
-    }
-
     /// A number of each catenary in each step.
-    fn catenaries(&self, find: impl Fn(&CatenaryState) -> f64) -> Array<f64> {
-        let shape = [self.0.steps.len(), self.0.scene.ply.lines().catenaries()];
-        Array::new(&shape, self.0.steps.iter().flat_map(|s| &s.catenaries).map(find).collect())
+    fn catenaries(&self, number: impl Fn(&CatenaryState) -> f64) -> PyResult<Array<f64>> {
+        let steps = self.hanging()?;
+        let shape = [steps.len(), self.0.scene.ply.lines().catenaries()];
+        let catenaries = steps.iter().filter_map(|step| step.catenaries.as_ref());
+        let numbers = catenaries.flat_map(|step| &step.catenaries).map(number);
+        Ok(Array::new(&shape, numbers.collect()))
     }
+}
+
+/// A step of some by its number, from 1; negative ones count from the end.
+fn find(steps: &[Step], step: isize) -> PyResult<&Step> {
+    let index = match step {
+        1.. => step.unsigned_abs().checked_sub(1),
+        0 => None,
+        _ => steps.len().checked_sub(step.unsigned_abs()),
+    };
+    index.and_then(|n| steps.get(n)).ok_or_else(|| {
+        PyIndexError::new_err(format!(
+            "there is no step {step}; the result has steps 1 to {}, and -1 is the last",
+            steps.len()
+        ))
+    })
 }
 
 #[pymethods]
@@ -191,24 +206,50 @@ impl Result {
         self.0.scene.target.as_ref().and_then(|target| target.drape.clone()).map(Net)
     }
 
-    /// Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries; and in enough
-    /// cells of the sample, if there is one.
+    /// The model that decides: "sheet" or "catenaries".
+    #[getter]
+    fn model(&self) -> &'static str {
+        model::name(self.0.model())
+    }
+
+    /// Whether every step was done and every limit holds, by the model that decides, and in enough cells of the sample, if there is
+    /// one.
     #[getter]
     fn accepted(&self) -> bool {
-        self.0.summary.accepted
+        self.0.summary.accepted()
     }
 
-    /// Whether every equilibrium was found, by the model that decides.
+    /// Whether every step was solved and the ply is at rest at the end, by the model that decides.
     #[getter]
     fn converged(&self) -> bool {
-        match &self.0.summary.sheet {
-            Some(sheet) => sheet.converged,
-            None => self.0.steps.iter().all(|step| step.solver.status == Status::Converged),
-        }
+        let solved = self.0.steps.iter().all(Step::is_solved);
+        solved && self.0.summary.status == Status::Converged
     }
 
-    /// The whole ply as a sheet over its steps; None where the catenaries decide. Everything else here is of the
-    /// catenaries.
+    /// First step in which the ply touches the mold, by the model that decides; None if it does not.
+    #[getter]
+    fn first_contact_step(&self) -> Option<usize> {
+        self.0.summary.first_contact_step()
+    }
+
+    /// The drape by the model that does not decide, as it was asked for by `also`; None where it was not. It is shown and judges
+    /// nothing.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> plydrape.simulate(scene).also is None
+    /// True
+    /// >>> beside = plydrape.simulate(scene, also="catenaries").also
+    /// >>> beside.model, beside.first_contact_step
+    /// ('catenaries', 26)
+    #[getter]
+    fn also(&self) -> Option<Drape> {
+        let result = Arc::clone(&self.0);
+        self.0.also.is_some().then_some(Drape { result, beside: true })
+    }
+
+    /// The states of the whole ply as a sheet, where it was draped as one; else None.
     ///
     /// Raises
     /// ------
@@ -220,8 +261,8 @@ impl Result {
     /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
     /// >>> plydrape.simulate(scene, model="catenaries").sheet is None
     /// True
-    /// >>> plydrape.simulate(scene, model="sheet").sheet.converged
-    /// True
+    /// >>> plydrape.simulate(scene).sheet
+    /// <plydrape.Sheet of 341 nodes, 30 states>
     #[getter]
     fn sheet(&self, py: Python<'_>) -> PyResult<Option<Sheet>> {
         py.detach(|| Sheet::of(&self.0))
@@ -257,7 +298,7 @@ impl Result {
         (!other).then(|| 1e3 * stands.position.value())
     }
 
-    /// The outcome: the `summary` of result.json.
+    /// The outcome by the model that decides: the `summary` of result.json.
     #[getter]
     fn summary(&self) -> PyResult<Json> {
         Json::of(&self.0.summary)
@@ -272,8 +313,7 @@ impl Result {
         self.0.events().iter().map(Json::of).collect()
     }
 
-    /// Every limit that decides on the drape, judged, by its name: of the sheet and of the motion where the sheet was draped, else of the
-    /// catenaries.
+    /// Every limit, judged by the model that decides, by its name.
     ///
     /// Examples
     /// --------
@@ -283,16 +323,6 @@ impl Result {
     /// (28.6, 40.0, '°', 9, True)
     #[getter]
     fn limits(&self) -> PyResult<Limits> {
-        let summary = &self.0.summary;
-        let Some(sheet) = &summary.sheet else { return Limits::of(&summary.limits) };
-        let motion =
-            summary.limits.iter().filter(|v| v.name.measure().subject() == Subject::Motion);
-        Limits::of(sheet.limits.iter().chain(motion))
-    }
-
-    /// Every limit of the drape by catenaries, judged, by its name; of a drape with the sheet it does not decide.
-    #[getter]
-    fn catenary_limits(&self) -> PyResult<Limits> {
         Limits::of(&self.0.summary.limits)
     }
 
@@ -333,33 +363,57 @@ impl Result {
     /// Time of each step (s), shape (steps,).
     #[getter]
     fn times(&self) -> Array<f64> {
-        let times: Vec<f64> = self.0.steps.iter().map(|step| step.time).collect();
-        Array::new(&[times.len()], times)
+        self.drape().times()
     }
 
-    /// Positions of the grippers (m), shape (steps, grippers, 3).
+    /// Positions of the grippers (m), shape (steps, grippers, 3): where they hold the fabric.
     #[getter]
     fn positions(&self) -> Array<f64> {
-        self.grippers(|gripper| gripper.position)
+        self.drape().positions()
     }
 
-    /// Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's
-    /// normal, x along u.
+    /// Where the robot holds the grippers (m), shape (steps, grippers, 3): their positions where their mounts are rigid.
+    #[getter]
+    fn commanded(&self) -> Array<f64> {
+        self.drape().commanded()
+    }
+
+    /// Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's normal, x along
+    /// u.
     #[getter]
     fn quaternions(&self) -> Array<f64> {
-        self.grippers(|gripper| gripper.quaternion)
+        self.drape().quaternions()
     }
 
-    /// Angles between the ply's normal at the grippers and the vertical (°), shape (steps, grippers).
+    /// Angles between the ply's normal at the grippers and their stems, which are upright unless a tool turns them (°), shape
+    /// (steps, grippers).
     #[getter]
     fn tilts_deg(&self) -> Array<f64> {
-        self.grippers(|gripper| [gripper.tilt_deg])
+        self.drape().tilts_deg()
+    }
+
+    /// Force of the ply on each gripper (N), shape (steps, grippers, 3).
+    #[getter]
+    fn loads(&self) -> Array<f64> {
+        self.drape().loads()
+    }
+
+    /// The worst value of every measure of the model in each step, by name, each of shape (steps,); nan where it has no meaning in
+    /// a step. The unit is part of the name, ratios have none. A measure that the model does not evaluate is not there.
+    #[getter]
+    fn measures(&self) -> Named {
+        self.drape().measures()
     }
 
     /// Horizontal force of each catenary (N), shape (steps, catenaries): of its free segment that pulls or pushes most; of
     /// a stretched diagonal its shear force. nan where the model gives none.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If no catenaries were draped, as the sheet decides and `also` did not ask for them.
     #[getter]
-    fn forces(&self) -> Array<f64> {
+    fn forces(&self) -> PyResult<Array<f64>> {
         self.catenaries(|c| {
             let forces = c.spans.iter().filter_map(|span| span.force);
             let most = forces.max_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -368,43 +422,45 @@ impl Result {
     }
 
     /// Slack of each catenary (mm), shape (steps, catenaries): all of its free segments.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     As `forces`.
     #[getter]
-    fn slack_mm(&self) -> Array<f64> {
+    fn slack_mm(&self) -> PyResult<Array<f64>> {
         self.catenaries(|c| c.spans.iter().map(|span| span.slack_mm(c.length)).sum())
     }
 
     /// Fabric length of each catenary that is in contact (m), shape (steps, catenaries).
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     As `forces`.
     #[getter]
-    fn contact(&self) -> Array<f64> {
+    fn contact(&self) -> PyResult<Array<f64>> {
         self.catenaries(|c| c.contact.as_ref().map_or(0.0, |contact| contact.length()))
     }
 
-    /// Shear angle of each cell (°), shape (steps, cells along v, cells along u), or (steps, cells) where the cups are no whole
-    /// array along the yarns; 0 where no bias line shears.
+    /// Shear angle of each cell between catenaries (°), shape (steps, cells along v, cells along u), or (steps, cells) where the
+    /// cups are no whole array along the yarns; 0 where no bias line shears.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     As `forces`.
     #[getter]
-    fn shear_deg(&self) -> Array<f64> {
-        let lines = self.0.scene.ply.lines();
+    fn shear_deg(&self) -> PyResult<Array<f64>> {
+        let (steps, lines) = (self.hanging()?, self.0.scene.ply.lines());
         let shape = match lines.whole_array() {
             Some(Grid { nu, nv }) => vec![nv.saturating_sub(1), nu.saturating_sub(1)],
             None => vec![lines.cells().len()],
         };
-        let shape = [vec![self.0.steps.len()], shape].concat();
-        let cells = self.0.steps.iter().flat_map(|step| &step.cells);
-        Array::new(&shape, cells.map(|cell| cell.shear_deg).collect())
-    }
-
-    /// The worst value of every measure in each step, by name, each of shape (steps,); nan where it has no
-    /// meaning. The unit is part of the name, ratios have none.
-    #[getter]
-    fn measures(&self) -> Named {
-        let shape = [self.0.steps.len()];
-        let every = |value: &dyn Fn(&Step) -> Option<f64>| {
-            Array::new(&shape, self.0.steps.iter().map(|step| or_nan(value(step))).collect())
-        };
-        let measured = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
-        let worst =
-            measured.map(|name| (name.measure().key(), every(&|step| step.measures.value(*name))));
-        Named(worst.collect())
+        let shape = [vec![steps.len()], shape].concat();
+        let hanging = steps.iter().filter_map(|step| step.catenaries.as_ref());
+        let cells = hanging.flat_map(|step: &CatenaryStep| &step.cells);
+        Ok(Array::new(&shape, cells.map(|cell: &Cell| cell.shear_deg).collect()))
     }
 
     /// Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
@@ -419,22 +475,29 @@ impl Result {
     /// list of ndarray
     ///     An array of points (m), shape (n, 3), for each catenary.
     ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     If there is no such step.
+    /// ValueError
+    ///     As `forces`.
+    ///
     /// Examples
     /// --------
     /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> result = plydrape.simulate(scene)
+    /// >>> result = plydrape.simulate(scene, model="catenaries")
     /// >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
     /// (16, 3)
     fn lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
-        let (ply, step) = (&self.0.scene.ply, self.step(step)?);
-        let graph = ply.lines();
+        let (graph, step) = (self.0.scene.ply.lines(), find(self.hanging()?, step)?);
         let curves = self.0.curves(step);
         let line = |(n, (c, curves)): (usize, (&CatenaryState, &Vec<_>))| {
             let ends = graph.ends(n).map(|gripper| step.grippers[gripper].position);
             let points = surface::shape(c, curves, ends);
             Array::rows(&[points.len(), 3], points)
         };
-        Ok(step.catenaries.iter().zip(&curves).enumerate().map(line).collect())
+        let catenaries = step.catenaries.iter().flat_map(|step| &step.catenaries);
+        Ok(catenaries.zip(&curves).enumerate().map(line).collect())
     }
 
     /// The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
@@ -450,19 +513,26 @@ impl Result {
     /// list of ndarray
     ///     An array of points (m), shape (n, 3), for each catenary that touches.
     ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     If there is no such step.
+    /// ValueError
+    ///     As `forces`.
+    ///
     /// Examples
     /// --------
     /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> result = plydrape.simulate(scene)
+    /// >>> result = plydrape.simulate(scene, model="catenaries")
     /// >>> len(result.contact_lines(1)), len(result.contact_lines(26))
     /// (0, 3)
     fn contact_lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
-        let step = self.step(step)?;
+        let step = find(self.hanging()?, step)?;
         let lines = surface::contact_lines(step, &self.0.curves(step), usize::MAX);
         Ok(lines.into_iter().map(|line| Array::rows(&[line.len(), 3], line)).collect())
     }
 
-    /// The ply of a step as a surface with so many intervals along each side of a cell.
+    /// The ply between the catenaries of a step as a surface with so many intervals along each side of a cell.
     ///
     /// Parameters
     /// ----------
@@ -476,10 +546,17 @@ impl Result {
     /// Surface
     ///     The surface.
     ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     If there is no such step.
+    /// ValueError
+    ///     As `forces`, or if there are too many intervals.
+    ///
     /// Examples
     /// --------
     /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> result = plydrape.simulate(scene)
+    /// >>> result = plydrape.simulate(scene, model="catenaries")
     /// >>> surface = result.surface(1, intervals=4)
     /// >>> surface.size, surface.points.shape, surface.triangles.shape
     /// ((13, 5), (65, 3), (96, 3))
@@ -489,7 +566,7 @@ impl Result {
             let text = format!("intervals is {intervals}; 1 to 1000 are possible");
             return Err(PyValueError::new_err(text));
         }
-        let step = self.step(step)?;
+        let step = find(self.hanging()?, step)?;
         Ok(Surface(py.detach(|| surface::Surface::new(&self.0, step, intervals))))
     }
 
@@ -882,8 +959,8 @@ impl Result {
     /// Parameters
     /// ----------
     /// table : {"measures", "grippers", "catenaries", "limits"}, default "measures"
-    ///     "measures", one row a step; "grippers", one row a step and gripper; "catenaries", one row a step and catenary;
-    ///     "limits", one row a limit that decides.
+    ///     "measures", one row a step; "grippers", one row a step and gripper; "limits", one row a limit, all of the model that
+    ///     decides; "catenaries", one row a step and catenary, where catenaries were draped.
     ///
     /// Returns
     /// -------
@@ -895,7 +972,7 @@ impl Result {
     /// ExtraError
     ///     If pandas is not installed.
     /// ValueError
-    ///     If there is no such table.
+    ///     If there is no such table, or no catenaries were draped for theirs.
     ///
     /// Examples
     /// --------
@@ -912,8 +989,9 @@ impl Result {
 
     /// Everything over the steps as one labeled data set. Needs xarray.
     ///
-    /// Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array), `xyz`, `catenary` and
-    /// `cell_u`, `cell_v`; every variable has its `units` and `long_name`. Names and units are those of the properties.
+    /// Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array) and `xyz`, and where
+    /// catenaries were draped `catenary`, `cell_u` and `cell_v`; every variable has its `units` and `long_name`. Names and units are
+    /// those of the properties.
     ///
     /// Returns
     /// -------
@@ -946,7 +1024,8 @@ impl Result {
     /// Returns
     /// -------
     /// pyvista.MultiBlock
-    ///     The blocks "mold", "ply", "catenaries" and "grippers", and "sheet" where it was draped, as far as there are such.
+    ///     The blocks "mold" and "grippers", "ply" and "catenaries" where catenaries were draped, "sheet" where the sheet was, as far
+    ///     as there are such.
     ///
     /// Raises
     /// ------
@@ -960,9 +1039,9 @@ impl Result {
     /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
     /// >>> blocks = plydrape.simulate(scene).to_pyvista()
     /// >>> blocks.keys()
-    /// ['mold', 'ply', 'catenaries', 'grippers', 'sheet']
-    /// >>> blocks["ply"].array_names
-    /// ['gap_mm', 'height_mm', 'shear_deg']
+    /// ['mold', 'grippers', 'sheet']
+    /// >>> blocks["sheet"].array_names
+    /// ['height_mm', 'contact', 'landing_step', 'shear_deg']
     #[pyo3(signature = (step = -1) -> "pyvista.MultiBlock")]
     fn to_pyvista<'py>(slf: &Bound<'py, Self>, step: isize) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("plydrape.view")?.getattr("meshes")?.call1((slf, step))

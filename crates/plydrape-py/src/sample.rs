@@ -3,7 +3,7 @@
 use crate::arrays::{Array, or_nan};
 use crate::json::Json;
 use crate::limits::Limits;
-use plydrape::errors::{CellVerdict, SampleVerdict};
+use plydrape::outcome::{CellVerdict, SampleVerdict};
 use pyo3::prelude::*;
 
 /// The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion.

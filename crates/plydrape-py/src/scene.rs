@@ -7,7 +7,7 @@ use crate::net::Net;
 use crate::ply::Ply;
 use crate::{error, table};
 use plydrape::errors::{Draw, Errors};
-use plydrape::scene::Motion;
+use plydrape::motion::Motion;
 use plydrape_io::scene::{self, SceneFile};
 use plydrape_io::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -187,10 +187,7 @@ impl Scene {
         }
         let text = text_of(&keys)?;
         let mold = given.is_some();
-        let scene = py.detach(|| match given {
-            None => scene::parse(&text, &base, "scene"),
-            Some(mold) => scene::parse_on(mold, &text, &base, "scene"),
-        });
+        let scene = py.detach(|| scene::parse_for(&text, &base, "scene", given, None, None));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
         let tables = Some(text.as_str().into());
         let origin = Origin { tables, base, mold, motion: false };
@@ -448,39 +445,39 @@ impl Scene {
     /// What hangs between the grippers.
     #[getter]
     fn ply(&self) -> Ply {
-        Ply(self.0.ply.clone())
+        Ply(self.0.layup.ply.clone())
     }
 
     /// What it is laid on, if anything.
     #[getter]
     fn mold(&self) -> Option<Mold> {
-        self.0.mold.clone().map(Mold)
+        self.0.layup.mold.clone().map(Mold)
     }
 
     /// The ideal drape that its target is taken from, where there is one.
     #[getter]
     fn net(&self) -> Option<Net> {
-        let drape = self.0.target.as_ref()?.drape.clone()?;
+        let drape = self.0.layup.target.as_ref()?.drape.clone()?;
         Some(Net(drape))
     }
 
     /// Time of each step (s), shape (steps,).
     #[getter]
     fn times(&self) -> Array<f64> {
-        let times = self.0.motion.times.clone();
+        let times = self.0.layup.motion.times.clone();
         Array::new(&[times.len()], times)
     }
 
     /// Positions of the grippers in each step (m), shape (steps, grippers, 3), i running fastest.
     #[getter]
     fn positions(&self) -> Array<f64> {
-        blocks(&self.0.motion.positions, self.0.ply.grippers())
+        blocks(&self.0.layup.motion.positions, self.0.layup.ply.grippers())
     }
 
     /// Where the ideal drape puts the grippers (m), shape (grippers, 3), if the ply is to be draped.
     #[getter]
     fn target(&self) -> Option<Array<f64>> {
-        let grippers = &self.0.target.as_ref()?.grippers;
+        let grippers = &self.0.layup.target.as_ref()?.grippers;
         Some(Array::rows(&[grippers.len(), 3], grippers.iter().copied()))
     }
 
@@ -521,11 +518,11 @@ impl Scene {
         title: Option<String>,
     ) -> PyResult<Scene> {
         let times = times.list("times")?;
-        let positions = positions.steps("positions", &self.0.ply)?;
+        let positions = positions.steps("positions", &self.0.layup.ply)?;
         let motion = Motion { times, positions };
-        let fault = self.0.ply.check_motion(&motion);
+        let fault = self.0.layup.ply.check_motion(&motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
-        size::drape(&self.0.ply, motion.times.len()).map_err(|fault| error::too_large(&fault))?;
+        size::drape(&self.0.layup.ply, motion.times.len()).map_err(|fault| error::too_large(&fault))?;
         if let Some(found) = title.as_deref().and_then(shown::control) {
             return Err(PyValueError::new_err(format!(
                 "title holds the control character {}: remove it, one line of plain text is wanted",
@@ -538,7 +535,7 @@ impl Scene {
         if let Some(title) = title {
             scene.title = title;
         }
-        scene.motion = motion;
+        scene.layup.motion = motion;
         Ok(Scene(Arc::new(scene), Origin { motion: true, ..self.1.clone() }))
     }
 
@@ -628,7 +625,7 @@ impl Scene {
     fn with_errors(&self, py: Python<'_>, sample: usize, factor: f64) -> PyResult<Scene> {
         let draw = self.drawn(sample, factor)?;
         let real = py.detach(|| draw.apply(&self.0.scene));
-        let fault = real.ply.check_motion(&real.motion);
+        let fault = real.layup.ply.check_motion(&real.layup.motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
         let mut scene = (*self.0).clone();
         scene.scene = real;
@@ -638,8 +635,8 @@ impl Scene {
     }
 
     fn __repr__(&self) -> String {
-        let grid = self.0.ply.grid;
-        let steps = self.0.motion.positions.len();
+        let grid = self.0.layup.ply.grid;
+        let steps = self.0.layup.motion.positions.len();
         format!(
             "<plydrape.Scene {:?}, {} × {} grippers, {steps} steps>",
             self.0.title, grid.nu, grid.nv
@@ -660,7 +657,7 @@ impl Scene {
                 "factor is {factor}: a finite number is wanted"
             )));
         }
-        Ok(errors.draw(sample, self.0.ply.grippers()).scaled(factor))
+        Ok(errors.draw(sample, self.0.layup.ply.grippers()).scaled(factor))
     }
 }
 

@@ -3,13 +3,14 @@
 use crate::arrays::Array;
 use crate::error;
 use crate::json::Json;
-use crate::limits::Limits;
+use plydrape::layup::Model;
+use plydrape::outcome::Status;
 use plydrape_io::ResultFile;
 use plydrape_io::sheet::{SheetState, SheetStates};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The whole ply as a sheet: its states over the steps that were kept, what was measured, and the verdict.
+/// The whole ply as a sheet: its states over the steps that were kept. Measures and the verdict are those of its result.
 ///
 /// Nodes stand where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
 /// Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
@@ -17,8 +18,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Examples
 /// --------
 /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-/// >>> result = plydrape.simulate(scene, model="sheet")
-/// >>> sheet = result.sheet
+/// >>> sheet = plydrape.simulate(scene).sheet
 /// >>> sheet.positions.shape, sheet.summary["first_contact_step"]
 /// ((30, 341, 3), 22)
 #[pyclass(frozen, module = "plydrape")]
@@ -212,29 +212,18 @@ impl Sheet {
         )
     }
 
-    /// The outcome: `sheet` in the `summary` of result.json.
+    /// What the sheet says beside its measures: `sheet` in its `summary` in result.json.
     #[getter]
     fn summary(&self) -> PyResult<Json> {
-        Json::of(&self.result.summary.sheet)
-    }
-
-    /// Every limit of the sheet, judged, by its name, as in `Result.limits`.
-    #[getter]
-    fn limits(&self) -> PyResult<Limits> {
-        let limits = self.result.summary.sheet.as_ref().map_or(&[][..], |sheet| &sheet.limits);
-        Limits::of(limits)
-    }
-
-    /// Whether every limit of the sheet holds and every state was found.
-    #[getter]
-    fn accepted(&self) -> bool {
-        self.result.summary.sheet.as_ref().is_some_and(|sheet| sheet.accepted)
+        let summary = self.result.summary_of(Model::Sheet);
+        Json::of(&summary.and_then(|summary| summary.sheet.as_ref()))
     }
 
     /// Whether every step was solved and the ply is at rest at the end.
     #[getter]
     fn converged(&self) -> bool {
-        self.result.summary.sheet.as_ref().is_some_and(|sheet| sheet.converged)
+        let summary = self.result.summary_of(Model::Sheet);
+        summary.is_some_and(|summary| summary.status == Status::Converged)
     }
 
     /// All states as one labeled data set. Needs xarray.
@@ -295,7 +284,6 @@ impl Sheet {
 
     fn __repr__(&self, py: Python<'_>) -> String {
         let (nodes, states) = self.with(py, |states| (nodes(states), states.states()));
-        let verdict = if self.accepted() { "accepted" } else { "not accepted" };
-        format!("<plydrape.Sheet of {nodes} nodes, {states} states, {verdict}>")
+        format!("<plydrape.Sheet of {nodes} nodes, {states} states>")
     }
 }

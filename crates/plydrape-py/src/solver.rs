@@ -10,8 +10,8 @@ use crate::quantity::Amount;
 use crate::scene::Scene;
 use plydrape::draping::spans::shape;
 use plydrape::equilibrium::{self, Status};
+use plydrape::layup::{Settings, SlopeRule};
 use plydrape::ply::{self, ContactSegment, shear};
-use plydrape::scene::{Settings, SlopeRule};
 use plydrape_io::scene::Measured;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -152,7 +152,7 @@ impl Solver {
     /// (16,)
     #[staticmethod]
     fn of(scene: &Scene) -> Self {
-        Solver(Mutex::new(State::new(&scene.0.ply, &scene.0.settings)))
+        Solver(Mutex::new(State::new(&scene.0.layup.ply, &scene.0.layup.settings)))
     }
 
     /// Forgets the last equilibrium: the next one starts from nothing.

@@ -48,6 +48,11 @@ impl Watch {
         }
     }
 
+    /// Whether the work shall end, as it is asked often.
+    pub fn stop(&self) -> impl Fn() -> bool + Sync {
+        || self.flow().is_break()
+    }
+
     fn state(&self) -> (usize, usize, &'static str) {
         let stage = *self.stage.lock().unwrap_or_else(PoisonError::into_inner);
         (self.done.load(Ordering::Relaxed), self.most.load(Ordering::Relaxed), stage)

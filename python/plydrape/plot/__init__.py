@@ -77,11 +77,11 @@ def steps(
     width: Width = "double",
     title: str | None = None,
 ) -> Figure:
-    """Chosen steps in 3D, one panel each, all in one frame and one scale.
+    """Chosen steps in 3D by the model that decides, one panel each, all in one frame and one scale.
 
-    Red lines are the catenaries, thick where they touch the mold, with a ring in the middle of each
-    touching part; black discs are the grippers, tilted with the ply; the gray line on the mold is
-    the outline of the ideal drape. What the mold hides from this view is left out, so choose the
+    Black discs are the grippers, tilted with the ply; the gray line on the mold is the outline of
+    the ideal drape. Of catenaries, which are red lines, those parts are thick that touch the mold,
+    with a ring in the middle of each. What the mold hides from this view is left out, so choose the
     view here and not by turning the axes later.
 
     Parameters
@@ -89,8 +89,8 @@ def steps(
     result : Result
         The result.
     steps : sequence of int, optional
-        Steps to show, counted from 1. If None: the start, the first contact, the first
-        shear, the end, and one in the middle of the longest stretch between them.
+        Steps to show, counted from 1. If None: the start, the first contact, of catenaries the
+        first shear, the end, and one in the middle of the longest stretch between them.
     color : Surface, optional
         What the color of the ply tells; if None the gap to a curved mold, else the height.
     elev : float or str, default "28 deg"
@@ -109,12 +109,13 @@ def steps(
     ImportError
         Matplotlib is not installed.
     ValueError
-        No such step, none at all, or a view or width that cannot be.
+        No such step, none at all, one of a sheet that was not kept, or a view or width that cannot
+        be.
 
     Examples
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    >>> result = plydrape.simulate(scene)
+    >>> result = plydrape.simulate(scene, model="catenaries")
     >>> figure = plydrape.plot.steps(result, [1, 26, 30], width="single")
     >>> [text.get_text() for text in figure.texts]
     ['a  step 1, start', 'b  step 26, first contact', 'c  step 30, end']
@@ -136,7 +137,7 @@ def measures(
     width: Width = "double",
     title: str | None = None,
 ) -> Figure:
-    """The worst value of each measure over the steps, one small panel each.
+    """The worst value of each measure over the steps by the model that decides, a small panel each.
 
     A limit is a dashed line, with its value beside the name; "end" says that it holds at the last
     step only. A dot marks the step that the limit judges, or the largest value where there is no
@@ -147,8 +148,8 @@ def measures(
     result : Result
         The result.
     names : sequence of str, optional
-        Names of `result.measures` in the order wanted; if None those with a limit, then
-        slack, gap and force.
+        Names of `result.measures` in the order wanted; if None those with a limit, then loads on
+        grippers, and of catenaries slack, gap and force.
     against : {"step", "time"}, default "step"
         What runs to the right, the number of the step or its time (s).
     columns : int, optional
@@ -169,7 +170,7 @@ def measures(
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
     >>> result = plydrape.simulate(scene)
-    >>> figure = plydrape.plot.measures(result, ["tilt_deg", "slack_ratio"])
+    >>> figure = plydrape.plot.measures(result, ["tilt_deg", "strain"])
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['deg', '%']
 

@@ -41,7 +41,9 @@ class _Sheet:
     def __init__(self, result: Result, step: int) -> None:
         sheet = result.sheet
         if sheet is None:
-            raise ValueError('the result has no sheet; drape its scene with model="sheet"')
+            raise ValueError(
+                'the result has no sheet; drape its scene with model="sheet" or also="sheet"'
+            )
         self.result = result
         self.state = _shapes.state(sheet, step)
         self.step = int(sheet.steps[self.state])
@@ -52,8 +54,8 @@ class _Sheet:
         self.height = np.asarray(sheet.heights)[self.state] * 1e3
         self.shear = np.rad2deg(np.asarray(sheet.shear)[self.state])
         self.tension = np.asarray(sheet.tension)[self.state]
-        limits = {limit["name"]: limit["limit"] for limit in sheet.summary["limits"]}
-        self.limits: dict[str, float] = limits
+        # heights beside catenaries are judged by nobody
+        self.limit = result.limits.get("height")
 
 
 def figure(
@@ -116,7 +118,7 @@ def _height(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
     mesh = Triangulation(u, v, np.concatenate(sides))
     norm = LogNorm(LOW, HIGH)
     axis.tripcolor(mesh, value, norm=norm, cmap="viridis", shading="gouraud", gid="height")
-    limit = sheet.limits.get("height")
+    limit = None if sheet.limit is None else sheet.limit.limit
     if limit is not None and value.min() < limit < value.max():
         lines = axis.tricontour(mesh, value, [limit], colors=RED, linewidths=0.9)
         lines.set_gid("limit")

@@ -51,8 +51,9 @@ def key(
 
 def _marks(stage: Stage, chosen: list[int]) -> list[Line2D]:
     """A sample and a name of every mark that is drawn."""
-    marks = [Line2D([], [], color=RED, lw=1.0, label="catenary")]
-    if any(stage.result.contact_lines(step) for step in chosen):
+    catenaries = stage.result.model == "catenaries"
+    marks = [Line2D([], [], color=RED, lw=1.0, label="catenary")] * catenaries
+    if catenaries and any(stage.result.contact_lines(step) for step in chosen):
         ring: dict[str, Any] = {"marker": "o", "ms": 2.8, "mfc": "white", "mec": RED, "mew": 0.7}
         marks.append(Line2D([], [], color=RED, lw=1.5, label="touches the mold", **ring))
     marks.append(Line2D([], [], ls="", marker="o", ms=5.5, color=BLACK, label="gripper"))

@@ -34,7 +34,7 @@ BESIDE = 15.0
 
 MEASURES = {measure.key: measure for measure in plydrape.measures() if measure.scope != "whole"}
 """What steps may have, by key."""
-ALSO = ("slack_mm", "gap_mm", "force_n")
+ALSO = ("slack_mm", "gap_mm", "force_n", "gripper_load_n")
 """What a reader looks for beside the limits."""
 
 
@@ -50,7 +50,7 @@ def figure(
     if against not in ("step", "time"):
         raise ValueError(f'measures can be drawn against "step" or "time", not "{against}"')
     wide = breadth(width)
-    limits = result.catenary_limits
+    limits = result.limits
     chosen = _chosen(result.measures, names, limits)
     across = columns or (3 if wide > 120.0 else 2)
     if across < 1:
@@ -74,7 +74,7 @@ def figure(
         rect = (0, foot / high, 1, 1 - (foot + head) / high)
         engine.set(w_pad=0.05, h_pad=0.03, rect=rect)  # type: ignore[call-arg]
         axes = sheet.subplots(rows, across, sharex=True, squeeze=False).ravel()
-        first = result.summary["first_contact_step"]
+        first = result.first_contact_step
         for k, panel in enumerate(axes):
             if k >= len(chosen):
                 panel.set_axis_off()
@@ -104,7 +104,7 @@ def _chosen(
     limits: Limits,
 ) -> list[str]:
     """Keys of measures that have a value, those with a limit first."""
-    meant = [name for name in MEASURES if np.isfinite(measures[name]).any()]
+    meant = [name for name in MEASURES if np.isfinite(measures.get(name, np.nan)).any()]
     meant.sort(key=lambda name: MEASURES[name].name not in limits)
     if names is None:
         shown = [name for name in meant if MEASURES[name].name in limits or name in ALSO]

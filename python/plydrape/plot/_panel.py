@@ -58,7 +58,7 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
         )
         axes.add_collection3d(surface, autolim=False)
 
-    lines = result.lines(step)
+    lines = _shapes.lines(result, step)
     edges = _shapes.edges(result.grid)
     _lines(axes, stage, lines[:edges], RED, 1.0 * stage.fine, 3, "edges")
     _lines(axes, stage, lines[edges:], RED, 0.5 * stage.fine, 3, "diagonals")
@@ -84,6 +84,8 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
 
 def _touching(stage: Stage, step: int) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
     """Touching parts, and a spot (N, 3) in each that is too short to be seen as a line; in m."""
+    if stage.result.model != "catenaries":
+        return [], np.zeros((0, 3))
     parts = stage.result.contact_lines(step)
     short = SHORT * min(stage.result.cell)
     spots = [_shapes.middle(part) for part in parts if _shapes.length(part) < short]

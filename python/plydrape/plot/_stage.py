@@ -65,11 +65,13 @@ def stage(
     if kind == "gap" and mold is None:
         raise ValueError('without a mold there is no gap; choose color="height" or "shear"')
 
-    lines = [line for step in chosen for line in result.lines(step)]
+    lines = [line for step in chosen for line in _shapes.lines(result, step)]
     size = _shapes.radius(result)
     around = [_shapes.discs(result, step, size).reshape(-1, 3) for step in chosen]
     net = result.net
-    every = np.concatenate([*lines, *around, *_shapes.outline(net)]) * 1e3
+    plies = [ply for step in chosen if (ply := _shapes.ply(result, step, 1)) is not None]
+    fabric = [ply.points for ply in plies]
+    every = np.concatenate([*lines, *around, *fabric, *_shapes.outline(net)]) * 1e3
     low, high = every.min(axis=0), every.max(axis=0)
     ground = result.mold_surface(most=1200)
     patch = screen = None

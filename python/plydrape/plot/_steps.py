@@ -98,14 +98,26 @@ def figure(
 
 def _telling(result: Result) -> list[int]:
     """Start, first contact, first shear, end, and the middle of the longest stretch."""
-    last = len(result.times)
-    summary = result.summary
-    found = {1, last, summary.get("first_contact_step") or 1, summary.get("first_shear_step") or 1}
-    chosen = sorted(step for step in found if 1 <= step <= last)
+    last, shear = len(result.times), _first_shear(result)
+    sheet = result.sheet if result.model == "sheet" else None
+    kept = np.arange(1, last + 1) if sheet is None else np.unique(sheet.steps)
+
+    def shown(step: int) -> int:
+        """The first step from there on of which a picture can be made."""
+        return int(kept[min(np.searchsorted(kept, step), len(kept) - 1)])
+
+    found = {1, last, result.first_contact_step or 1, shear or 1}
+    chosen = sorted({shown(step) for step in found if 1 <= step <= last})
     long, start = max(((b - a, a) for a, b in pairwise(chosen)), default=(0, 1))
     if long > 1:
-        chosen.append(start + long // 2)
-    return sorted(chosen)
+        chosen.append(shown(start + long // 2))
+    return sorted({*chosen})
+
+
+def _first_shear(result: Result) -> int | None:
+    """The first step in which a cell between catenaries shears, where these decide."""
+    catenaries: dict[str, int | None] = result.summary.get("catenaries", {})
+    return catenaries.get("first_shear_step")
 
 
 def _checked(result: Result, steps: Sequence[int]) -> list[int]:
@@ -127,9 +139,9 @@ def _caption(result: Result, step: int) -> str:
     what = []
     if len(result.times) > 1 and step == 1:
         what.append("start")
-    if step == result.summary.get("first_contact_step"):
+    if step == result.first_contact_step:
         what.append("first contact")
-    if step == result.summary.get("first_shear_step"):
+    if step == _first_shear(result):
         what.append("first shear")
     if len(result.times) > 1 and step == len(result.times):
         what.append("end")

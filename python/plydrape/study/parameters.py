@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Mapping
@@ -17,7 +16,7 @@ from .error import StudyError
 from .keys import nearest
 from .labels import shown
 from .law import Input
-from .scenario import Motion, Numbers
+from .scenario import Motion
 
 # Scenarios of a study that does not say how many it may have: a slip of the pen is likelier.
 MOST = 1_000_000
@@ -191,19 +190,7 @@ def motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
     if path.is_dir():
         path = path / "result.json"
     result = plydrape.Result.read(str(path))
-    return Motion(np.array(result.times), commanded(path, np.array(result.positions)))
-
-
-def commanded(path: Path, positions: Numbers) -> Numbers:
-    """Where the robot holds the grippers of a result (m), shape of `positions`.
-
-    `positions` are where the pads are. Where mounts yield, the robot holds them elsewhere.
-    """
-    steps = json.loads(path.read_text(encoding="utf-8"))["steps"]
-    mounts = [step["grippers"].get("mounts") for step in steps]
-    if any(mount is None for mount in mounts):
-        return positions
-    return np.array([mount["commanded"] for mount in mounts])
+    return Motion(np.array(result.times), np.array(result.commanded))
 
 
 def plain(value: Any) -> Any:

@@ -32,7 +32,7 @@ Cell = float | int | str | bool | None
 Line = dict[str, Cell]
 
 
-# Units of what is measured of the sheet, by the end of its name.
+# Units of what a summary says beside its measures, by the end of its name.
 UNITS = {"mm": "mm", "deg": "deg", "n": "N", "j": "J"}
 
 
@@ -223,8 +223,8 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     where no ply would have survived it. Of each limit there is
     `value_…`, `limit_…` (both in the unit added to `units`), `ok_…`, and `margin_…`: what is
     left of the limit as a share of it, negative where it is exceeded, None where it is zero. Where
-    the value is not finite, the limit is not kept and the drape not accepted. Where the sheet was
-    draped, `sheet.…` are the numbers of its outcome, and `value_sheet.…` and so on its limits.
+    the value is not finite, the limit is not kept and the drape not accepted. All of it is by the
+    model that decides; `sheet.…` and `catenaries.…` are what that alone says beside its measures.
     """
     summary = result.summary
     limits = summary["limits"]
@@ -232,40 +232,43 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     row: Line = {
         "accepted": result.accepted and all(sound.values()),
         "converged": result.converged,
-        "stopped": summary["stopped"],
+        "first_contact_step": result.first_contact_step,
     }
-    for key, value in summary.items():
-        if isinstance(value, bool | int | float) or value is None:
-            row[key] = value
+    row |= plain(summary, "", units)
     for part in ("worst", "final"):
         for key, value in summary[part].items():
             row[f"{part}_{key}"] = value
             if BY_KEY[key].unit not in ("", "1"):
                 units[f"{part}_{key}"] = BY_KEY[key].unit
-    row |= judged(limits, "", units)
-    sheet = summary.get("sheet")
-    if sheet is not None:
-        for key, value in sheet.items():
-            if isinstance(value, bool | int | float | str) or value is None:
-                row[f"sheet.{key}"] = value
-                unit = UNITS.get(key.rpartition("_")[2])
-                if unit:
-                    units[f"sheet.{key}"] = unit
-        row |= judged(sheet["limits"], "sheet.", units)
+    row |= judged(limits, units)
+    for model in ("sheet", "catenaries"):
+        row |= plain(summary.get(model, {}), f"{model}.", units)
     return row
 
 
-def judged(limits: list[dict[str, Any]], of: str, units: dict[str, str]) -> Line:
-    """What became of each limit; `of` begins the names of those of the sheet."""
+def plain(values: dict[str, Any], model: str, units: dict[str, str]) -> Line:
+    """Those of a summary's values that a row can hold and does not have already."""
+    row: Line = {}
+    for key, value in values.items():
+        held = isinstance(value, bool | int | float | str) or value is None
+        if held and key not in ("accepted", "first_contact_step"):
+            row[f"{model}{key}"] = value
+            if unit := UNITS.get(key.rpartition("_")[2]):
+                units[f"{model}{key}"] = unit
+    return row
+
+
+def judged(limits: list[dict[str, Any]], units: dict[str, str]) -> Line:
+    """What became of each limit."""
     row: Line = {}
     for limit in limits:
         name, value, allowed = limit["name"], float(limit["value"]), float(limit["limit"])
         left = value - allowed if is_least(name) else allowed - value
-        row[f"value_{of}{name}"] = value
-        row[f"limit_{of}{name}"] = allowed
-        row[f"ok_{of}{name}"] = bool(limit["ok"]) and math.isfinite(value)
-        row[f"margin_{of}{name}"] = left / allowed if allowed else None
-        units[f"value_{of}{name}"] = units[f"limit_{of}{name}"] = str(limit["unit"])
+        row[f"value_{name}"] = value
+        row[f"limit_{name}"] = allowed
+        row[f"ok_{name}"] = bool(limit["ok"]) and math.isfinite(value)
+        row[f"margin_{name}"] = left / allowed if allowed else None
+        units[f"value_{name}"] = units[f"limit_{name}"] = str(limit["unit"])
     return row
 
 

@@ -117,15 +117,12 @@ def measure(
 
 
 def verdicts(draped: pa.Table) -> np.ndarray[Any, Any]:
-    """Which drapes are accepted: those that say so and break no limit of the model that decides."""
+    """Which drapes are accepted: those that say so and break no limit."""
     accepted = np.array([value is True for value in flags(draped, "accepted")], dtype=bool)
-    sheets = flags(draped, "sheet.accepted") or [None] * draped.num_rows
-    by_sheet = np.array([value is not None for value in sheets], dtype=bool)
     for name in draped.column_names:
         if name.startswith("value_"):
-            limit = name.removeprefix("value_")
-            kept = np.array([ok is not False for ok in kept_limit(draped, limit)], dtype=bool)
-            accepted &= kept if limit.startswith("sheet.") else kept | by_sheet
+            kept = kept_limit(draped, name.removeprefix("value_"))
+            accepted &= np.array([ok is not False for ok in kept], dtype=bool)
     return accepted
 
 

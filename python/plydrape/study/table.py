@@ -18,18 +18,16 @@ INTEGERS = {
     "steps",
     "steps_planned",
     "first_contact_step",
-    "first_shear_step",
-    "all_shear_step",
-    "equilibria",
     "evaluations",
+    "catenaries.first_shear_step",
+    "catenaries.all_shear_step",
+    "catenaries.equilibria",
     "sheet.nodes",
-    "sheet.steps",
-    "sheet.first_contact_step",
     "sheet.time_steps",
     "sheet.solves",
 }
-BOOLEANS = {"accepted", "converged", "sheet.accepted", "sheet.converged"}
-TEXTS = {"version", "stopped", "error", "error_kind", "sheet.status"}
+BOOLEANS = {"accepted", "converged"}
+TEXTS = {"version", "model", "status", "stopped", "error", "error_kind"}
 # What closes a row; everything else stands in the order in which it was measured.
 LAST = ("seed", "version", "error", "error_kind")
 

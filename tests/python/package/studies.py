@@ -78,16 +78,11 @@ def judged(result: plydrape.Result) -> dict[str, Any]:
     """What the row of a result must say, read off its summary here once more."""
     summary = result.summary
     wanted: dict[str, Any] = {
-        key: summary[key]
-        for key in (
-            "accepted",
-            "stopped",
-            "contact_share",
-            "first_contact_step",
-            "equilibria",
-            "steps",
-        )
+        key: summary[key] for key in ("accepted", "model", "status", "stopped", "steps")
     }
+    report = summary["catenaries"]
+    wanted["first_contact_step"] = report["first_contact_step"]
+    wanted["catenaries.equilibria"] = report["equilibria"]
     wanted["converged"] = result.converged
     for part in ("worst", "final"):
         wanted |= {f"{part}_{key}": value for key, value in summary[part].items()}

@@ -272,7 +272,7 @@ def test_a_converted_mold_drapes_as_the_exact_one(tmp_path: Path, ending: str) -
             model={"kind": "catenaries"},
         )
         drapes.append(plydrape.simulate(scene))
-    assert drapes[0].summary["first_contact_step"] == drapes[1].summary["first_contact_step"]
+    assert drapes[0].first_contact_step == drapes[1].first_contact_step
     nets = [drape.net for drape in drapes]
     assert nets[0] is not None and nets[1] is not None
     assert nets[0].nodes == pytest.approx(nets[1].nodes, abs=1e-4)

@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 import plydrape
@@ -81,23 +82,29 @@ def test_a_search_goes_on_from_its_memory() -> None:
 
 def test_arrays_are_the_result_files_numbers(tmp_path: Path) -> None:
     """Positions, forces, measures and lines, against the JSON text."""
-    result = plydrape.simulate(plydrape.Scene.read(EXAMPLE))
+    result = plydrape.simulate(plydrape.Scene.read(EXAMPLE), also="catenaries")
     whole = json.loads(result.to_json())
     checksum = result.to_dict().pop("checksum")
     assert result.to_dict() == {**whole, "checksum": checksum}
     assert result.summary == whole["summary"]
-    assert result.catenary_limits == plydrape.Limits.of(whole["summary"]["limits"])
+    assert result.limits == plydrape.Limits.of(whole["summary"]["limits"])
+    assert result.accepted == whole["summary"]["accepted"]
     steps = whole["steps"]
     positions = [step["grippers"]["position"] for step in steps]
     assert np.array_equal(result.positions, positions)
     tilts = [step["grippers"]["tilt_deg"] for step in steps]
     assert np.array_equal(result.tilts_deg, tilts)
+    loads = [step["grippers"]["force_N"] for step in steps]
+    assert np.array_equal(result.loads, loads)
+    known = {name for step in steps for name in step["measures"]}
+    assert {*result.measures} == known
     for name, values in result.measures.items():
         for step, value in zip(steps, values, strict=True):
             found = step["measures"].get(name)
             assert value == found["value"] if found is not None else np.isnan(value), name
+    assert result.also is not None and result.also.summary == whole["also"]["summary"]
     for number in (1, 26, -1):
-        step = steps[number - 1 if number > 0 else number]
+        step = whole["also"]["steps"][number - 1 if number > 0 else number]
         names = zip(whole["catenaries"]["from"], whole["catenaries"]["to"], strict=True)
         for line, ends_at in zip(result.lines(number), names, strict=True):
             ends = [step["grippers"]["position"][i + 4 * j] for i, j in ends_at]
@@ -109,19 +116,24 @@ def test_arrays_are_the_result_files_numbers(tmp_path: Path) -> None:
 
 def test_measures_are_what_results_hold() -> None:
     """Their keys are those of the steps, and the worst of their values are those of the limits."""
-    result = plydrape.simulate(plydrape.Scene.read(EXAMPLE))
     measures = plydrape.measures()
-    stepwise = [measure.key for measure in measures if measure.scope != "whole"]
-    assert list(result.measures) == stepwise
-    # nothing is carried in this cell, so that nothing is near
-    assert list(result.summary["worst"]) == [key for key in stepwise if key != "clearance_mm"]
-    assert {key for step in result.to_dict()["steps"] for key in step["measures"]} <= {*stepwise}
     by_name = {measure.name: measure for measure in measures}
     assert len(by_name) == len({measure.key for measure in measures}) == len(measures)
-    assert {"tilt", "contact_share", "gripper_distance", "landing_contact"} <= {
-        *result.catenary_limits
-    }
-    for name, limit in result.catenary_limits.items():
+    shared = {"tilt", "tilt_rate", "gripper_distance", "position", "penetration", "strain"}
+    own = {"sheet": {"height", "out_of_plane"}, "catenaries": {"contact_share", "slack_ratio"}}
+    for model, others in (("sheet", "catenaries"), ("catenaries", "sheet")):
+        result = plydrape.simulate(plydrape.Scene.read(EXAMPLE), model=cast(Any, model))
+        assert shared | own[model] <= {*result.limits}
+        assert not own[others] & {*result.limits}
+        of_its_model(result, by_name)
+
+
+def of_its_model(result: plydrape.Result, by_name: dict[str, plydrape.Measure]) -> None:
+    """What one model measures is in the order of tables, and its limits are the worst of that."""
+    stepwise = [measure.key for measure in by_name.values() if measure.scope != "whole"]
+    assert list(result.measures) == [key for key in stepwise if key in result.measures]
+    assert {*result.summary["worst"]} <= {*result.measures}
+    for name, limit in result.limits.items():
         measure = by_name[name]
         values = result.measures[measure.key]
         least = measure.sense == "at-least"

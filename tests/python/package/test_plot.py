@@ -129,7 +129,7 @@ def test_contact_is_marked(flat: plydrape.Result) -> None:
     rings = np.stack(named(figure, "contact", 1).get_data_3d(), axis=-1)
     ends = [
         [flat.positions[25, i + 4 * j] for i, j in (line["from"], line["to"])]
-        for line in flat.summary["first_contact"]
+        for line in flat.summary["catenaries"]["first_contact"]
     ]
     middles = np.mean(ends, axis=1) * 1e3
     assert len(rings) == len(middles) == 3
@@ -231,7 +231,7 @@ def test_measures_are_those_of_the_result(flat: plydrape.Result) -> None:
         ("slack ratio", "slack_ratio", 100.0, "slack_ratio", "%"),
         ("overstretch", "overstretch", 100.0, "overstretch", "%"),
         ("tilt", "tilt_deg", 1.0, "tilt", "deg"),
-        ("landing of contact points", "landing_contact_mm", 1.0, "landing_contact", "mm"),
+        ("position of landed points", "position_mm", 1.0, "position", "mm"),
         ("tilt rate", "tilt_rate_deg_s", 1.0, "tilt_rate", "deg/s"),
         ("horizontal force", "force_n", 1.0, None, "N"),
         ("contact share", "contact_share", 100.0, "contact_share", "%"),
@@ -273,7 +273,8 @@ def test_measures_run_over_time(dome: plydrape.Result) -> None:
     figure = plot.measures(dome, ["tilt_deg"], against="time")
     assert named(figure, "values").get_xdata() == pytest.approx(dome.times)
     assert figure.axes[0].get_xlabel() == "time (s)"
-    first = dome.summary["first_contact_step"]
+    first = dome.first_contact_step
+    assert first is not None
     dotted = [line for line in figure.axes[0].lines if line.get_linestyle() == ":"]
     assert dotted[0].get_xdata() == pytest.approx([dome.times[first - 1]] * 2)
 

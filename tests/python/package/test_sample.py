@@ -43,7 +43,7 @@ def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
     sample = result.sample
     assert sample is not None and len(sample) == 5 and sample.needed == 3
     cells = [plydrape.simulate(judged.with_errors(n)) for n in range(5)]
-    heights = [cell.summary["sheet"]["height_max_mm"] for cell in cells]
+    heights = [cell.summary["final"]["height_mm"] for cell in cells]
     np.testing.assert_allclose(sample.heights_mm, heights, rtol=1e-12)
     assert sample.kept.tolist() == [cell.accepted for cell in cells]
     assert sample.accepted == sum(cell.accepted for cell in cells)

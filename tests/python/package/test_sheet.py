@@ -6,16 +6,20 @@ The mesh is coarse: nothing here is about the cloth.
 from __future__ import annotations
 
 import os
+import pickle
 import signal
+import subprocess
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import plydrape
 import plydrape.study
 import pytest
 from plydrape.study import Study
+from program import binary
 from studies import PAPER, rows
 
 COARSE = PAPER.read_text().replace("[contact]", '[sheet]\nmesh = "25 mm"\n\n[contact]')
@@ -75,27 +79,68 @@ def test_the_arrays_are_those_of_one_sheet(result: plydrape.Result) -> None:
     lengths = np.linalg.norm(along[:, 1] - along[:, 0], axis=1)
     assert np.allclose(lengths, 0.025, rtol=1e-3)
     assert np.array_equal(sheet.landing_step > 0, sheet.contact[-1])
-    assert 1e3 * sheet.heights[-1].max() == pytest.approx(sheet.summary["height_max_mm"], rel=1e-9)
+    last, worst = result.summary["final"], result.summary["worst"]
+    assert 1e3 * sheet.heights[-1].max() == pytest.approx(last["height_mm"], rel=1e-9)
     shear = np.degrees(np.abs(sheet.shear).max())
-    assert shear == pytest.approx(sheet.summary["shear_max_deg"], rel=1e-9)
+    assert shear == pytest.approx(worst["shear_deg"], rel=1e-9)
     # vertical forces of the ply on its grippers are its weight, in the air
     weight = 3.143 * 0.03 * 9.8
     assert sheet.pad_forces[0, :, 2].sum() == pytest.approx(-weight, rel=1e-3)
+    assert np.allclose(sheet.pad_forces, result.loads, atol=1e-12)
+    assert np.allclose(sheet.pad_quaternions, result.quaternions, atol=1e-12)
 
 
-def test_the_sheet_decides(scene: plydrape.Scene, result: plydrape.Result) -> None:
-    """Its verdict is that of the result; the catenaries come out as they do alone."""
+def test_one_model_decides(scene: plydrape.Scene, result: plydrape.Result) -> None:
+    """Its verdict is that of the result, and the other model beside it changes nothing."""
+    assert result.model == "sheet" and result.also is None
     alone = plydrape.simulate(scene)
-    assert alone.sheet is None and "sheet" not in alone.summary
-    assert np.array_equal(alone.positions, result.positions)
-    assert alone.limits == result.catenary_limits != result.limits
-    assert set(sheet_of(result).limits) < set(result.limits)
+    assert alone.model == "catenaries" and alone.sheet is None and "sheet" not in alone.summary
+    assert {*alone.limits} != {*result.limits}
     slippery = plydrape.Scene.parse(COARSE + "friction = 0.3\n")
     flat = plydrape.simulate(slippery, model="sheet")
-    assert flat.accepted and flat.converged and sheet_of(flat).accepted
-    assert not result.accepted and not sheet_of(result).accepted
+    assert flat.accepted and flat.converged and not result.accepted
     assert not plydrape.simulate(slippery, model="catenaries").accepted
-    assert sheet_of(flat).limits == plydrape.Limits.of(flat.summary["sheet"]["limits"])
+
+    both = plydrape.simulate(slippery, model="sheet", also="catenaries")
+    assert both.accepted and both.summary == flat.summary and both.limits == flat.limits
+    for name in ("times", "positions", "commanded", "quaternions", "tilts_deg", "loads"):
+        assert np.array_equal(getattr(both, name), getattr(flat, name)), name
+    assert {*both.measures} == {*flat.measures}
+
+
+def test_the_other_model_stands_beside(scene: plydrape.Scene, result: plydrape.Result) -> None:
+    """It comes out as it does alone, and has no verdict."""
+    alone = plydrape.simulate(scene)
+    for both, other in (
+        (plydrape.simulate(scene, model="sheet", also="catenaries"), alone),
+        (plydrape.simulate(scene, also="sheet"), result),
+        (plydrape.batch.simulate([scene], also="sheet")[0], result),
+    ):
+        beside = both.also
+        assert beside is not None and beside.model == other.model != both.model
+        assert not {"accepted", "limits"} & {*dir(beside)}
+        assert beside.summary == other.summary
+        for name in ("times", "positions", "commanded", "quaternions", "tilts_deg", "loads"):
+            assert np.array_equal(getattr(beside, name), getattr(other, name)), name
+        assert {*beside.measures} == {*other.measures}
+        assert np.array_equal(both.forces, alone.forces)
+        assert np.array_equal(sheet_of(both).positions, sheet_of(result).positions)
+        again = pickle.loads(pickle.dumps(beside))
+        assert again == beside and np.array_equal(again.loads, beside.loads)
+
+
+def test_catenaries_that_were_not_draped_say_how_to_ask_for_them(result: plydrape.Result) -> None:
+    """Of every array, line and table."""
+    for name in ("forces", "slack_mm", "contact", "shear_deg"):
+        with pytest.raises(ValueError, match='also="catenaries"'):
+            getattr(result, name)
+    for call in (result.lines, result.contact_lines, result.surface):
+        with pytest.raises(ValueError, match='also="catenaries"'):
+            call(1)
+    with pytest.raises(ValueError, match='also="catenaries"'):
+        result.to_pandas("catenaries")
+    assert "catenary" not in result.to_xarray().dims
+    assert not {"slack_mm", "force_n"} & {*result.measures}
 
 
 def test_a_folder_gives_the_same_sheet(result: plydrape.Result, tmp_path: Path) -> None:
@@ -148,27 +193,62 @@ def test_a_study_has_columns_of_the_sheet() -> None:
     slippery, sticky = rows(outcome.table())
     assert slippery["error"] is None and sticky["error"] is None
     assert slippery["accepted"] and not sticky["accepted"]
-    assert slippery["sheet.height_max_mm"] < 0.5 < sticky["sheet.height_max_mm"]
-    assert sticky["value_sheet.height"] == sticky["sheet.height_max_mm"]
-    assert not sticky["ok_sheet.height"] and sticky["limit_sheet.height"] == 0.5
-    assert sticky["sheet.nodes"] == 65 and sticky["sheet.status"] == "converged"
-    # by the catenaries neither is
-    assert not slippery["ok_slack_ratio"]
+    assert slippery["final_height_mm"] < 0.5 < sticky["final_height_mm"]
+    assert sticky["value_height"] == sticky["final_height_mm"]
+    assert not sticky["ok_height"] and sticky["limit_height"] == 0.5
+    assert sticky["sheet.nodes"] == 65 and sticky["status"] == "converged"
+    # what catenaries alone are judged by has no column
+    assert sticky["model"] == "sheet" and "ok_slack_ratio" not in sticky
     assert outcome.accepted_share == 0.5
     units = {f.name: (f.metadata or {}).get(b"unit") for f in outcome.table().schema}
-    assert units["sheet.height_max_mm"] == b"mm" and units["value_sheet.height"] == b"mm"
+    assert units["height_rms_mm"] == b"mm" and units["value_height"] == b"mm"
 
 
 def test_a_scene_without_a_sheet_is_refused_before_anything_runs() -> None:
     """The paper's own numbers alone say nothing of tension and shear."""
     bare = '{ mass = "0.3143 kg/m", flexural_rigidity = "9e-6 N m^2" }'
     scene = plydrape.Scene.parse(COARSE.replace('"krogh2018"', bare))
-    with pytest.raises(plydrape.SceneError, match="shear curve"):
-        plydrape.simulate(scene, model="sheet")
-    with pytest.raises(plydrape.SceneError, match="shear curve"):
-        plydrape.batch.simulate([scene], model="sheet")
-    with pytest.raises(ValueError, match='"sheet" or "catenaries"'):
+    for call in (
+        lambda: plydrape.simulate(scene, model="sheet"),
+        lambda: plydrape.simulate(scene, also="sheet"),
+        lambda: plydrape.batch.simulate([scene], model="sheet"),
+        lambda: plydrape.plan(scene, also="sheet"),
+        lambda: plydrape.simulate(scene.with_motion(scene.times, scene.positions), model="sheet"),
+    ):
+        with pytest.raises(plydrape.SceneError, match="tension") as refused:
+            call()
+        assert refused.value.help
+    with pytest.raises(ValueError, match='model is "cloth"; "sheet" or "catenaries"'):
         plydrape.simulate(scene, model="cloth")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match='also is "cloth"; "sheet" or "catenaries"'):
+        plydrape.simulate(scene, also="cloth")  # type: ignore[arg-type]
+    with pytest.raises(plydrape.SceneError, match="beside the one that decides is that one"):
+        plydrape.simulate(scene, also="catenaries")
+
+
+@pytest.mark.parametrize("option", ["--model", "--also"])
+def test_a_model_that_cannot_drape_is_refused_as_on_the_command_line(
+    option: str, tmp_path: Path
+) -> None:
+    """Message, remedy, line and column are those of `plydrape simulate`."""
+    bare = '{ mass = "0.3143 kg/m", flexural_rigidity = "9e-6 N m^2" }'
+    file = tmp_path / "scene.toml"
+    file.write_text(COARSE.replace('"krogh2018"', bare))
+    asked: dict[str, Any] = {option.removeprefix("--"): "sheet"}
+    with pytest.raises(plydrape.SceneError) as refused:
+        plydrape.simulate(plydrape.Scene.read(file), **asked)
+    error = refused.value
+    done = subprocess.run(
+        [binary(), "simulate", file, option, "sheet", "-o", tmp_path / "out"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "COLUMNS": "1000", "NO_COLOR": "1"},
+    )
+    assert done.returncode == 2
+    said = "".join(done.stderr.replace("│", " ").split())
+    assert "".join(error.message.split()) in said and "".join(error.help.split()) in said
+    assert error.line is not None and f"scene.toml:{error.line}:{error.column}" in said
 
 
 def test_an_interrupt_ends_the_drape_of_a_sheet_at_once() -> None:
@@ -199,7 +279,7 @@ def test_pads_let_go_at_the_time_of_their_events() -> None:
     assert sheet.steps[-2:].tolist() == [30, 30] and sheet.times[-2:].tolist() == [29.0, 31.0]
     assert sheet.pad_holds[:-1].all() and not sheet.pad_holds[-1].any()
     assert not sheet.pad_forces[-1].any()
-    with pytest.raises(ValueError, match="leave out `release`"):
+    with pytest.raises(plydrape.SceneError, match=r"leave out \[release\]"):
         plydrape.simulate(scene, model="catenaries")
 
 

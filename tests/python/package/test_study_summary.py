@@ -80,6 +80,7 @@ def test_a_row_with_a_value_that_is_not_finite_is_not_accepted(value: float) -> 
         result = SimpleNamespace(
             accepted=True,
             converged=True,
+            first_contact_step=None,
             summary={
                 "stopped": None,
                 "worst": {},
@@ -133,7 +134,7 @@ def test_height_drives_the_landing_of_straight_paths() -> None:
         "ply.material.flexural_rigidity": {"relative": [0.8, 1.2]},
     }
     outcome = run(study(60, vary=varied), workers=2)
-    landing = outcome.summary["measures"]["value_landing_contact"]
+    landing = outcome.summary["measures"]["value_position"]
     assert landing["driver"] == "grippers.height"
     assert landing["correlations"]["grippers.height"] < -0.7
 

@@ -7,8 +7,10 @@
 
 import { MICRO } from "./micro";
 import type { MoldBelow } from "./mold_below";
-import type { Motion } from "./motion";
-import type { CutCell, Model, Place } from "./page_data";
+import type { CatenaryStates } from "./catenary_states";
+import type { Drape } from "./drape";
+import type { CutCell, Place } from "./page_data";
+import type { SheetStates } from "./sheet_states";
 
 /** A line along u or along v, at a value of the other coordinate (mm). */
 export interface FabricLine {
@@ -32,10 +34,9 @@ type Quad = [number, number, number, number];
 /** Shortest piece of a line (mm). */
 const LEAST = 1e-3;
 
-/** Ends of the fabric coordinates of a model along u and v (mm); null where it has no surface. */
-export function fabricBounds(motion: Motion, model: Model): [[number, number], [number, number]] | null {
-  const { sheet, data } = motion;
-  if (model === "sheet" && sheet !== null) {
+/** Ends of the fabric coordinates of a drape along u and v (mm); null where it has no surface. */
+export function fabricBounds({ sheet, catenaries }: Drape): [[number, number], [number, number]] | null {
+  if (sheet !== null) {
     const ends: [[number, number], [number, number]] = [
       [Infinity, -Infinity],
       [Infinity, -Infinity],
@@ -48,30 +49,32 @@ export function fabricBounds(motion: Motion, model: Model): [[number, number], [
     }
     return ends;
   }
-  const [nu, nv] = data.grid;
-  if (nu < 2 || nv < 2) return null;
+  if (catenaries === null) return null;
+  const { grid, pitch } = catenaries.data;
+  if (grid[0] < 2 || grid[1] < 2) return null;
   return [
-    [0, (nu - 1) * data.pitch[0]],
-    [0, (nv - 1) * data.pitch[1]],
+    [0, (grid[0] - 1) * pitch[0]],
+    [0, (grid[1] - 1) * pitch[1]],
   ];
 }
 
 /** Fabric coordinates of a vertex of the surface between the catenaries (mm). */
-export function vertexPlace(motion: Motion, vertex: number): [number, number] {
-  const { grid, divisions, pitch } = motion.data;
+export function vertexPlace({ data }: CatenaryStates, vertex: number): [number, number] {
+  const { grid, divisions, pitch } = data;
   const columns = (grid[0] - 1) * divisions + 1;
   return [((vertex % columns) / divisions) * pitch[0], (Math.floor(vertex / columns) / divisions) * pitch[1]];
 }
 
-/** The pieces of a fabric line in a step of the page, each from its start to its end; none where the model has no state. */
-export function pieces(
-  motion: Motion,
-  model: Model,
-  index: number,
-  line: FabricLine,
-  mold: MoldBelow | null,
-): LinePoint[][] {
-  const found = model === "sheet" ? ofSheet(motion, index, line) : ofCatenaries(motion, index, line);
+/** The pieces of a fabric line in a step of the page, each from its start to its end; none where the drape has no state. */
+export function pieces(drape: Drape, index: number, line: FabricLine, mold: MoldBelow | null): LinePoint[][] {
+  const picture = drape.picture(index);
+  if (picture === null) return [];
+  const found =
+    drape.sheet !== null
+      ? ofSheet(drape.sheet, picture, line)
+      : drape.catenaries !== null
+        ? ofCatenaries(drape.catenaries, picture, line)
+        : [];
   for (const piece of found) {
     for (const point of piece) {
       const [x, y, z] = point.place;
@@ -82,10 +85,7 @@ export function pieces(
   return found;
 }
 
-function ofSheet(motion: Motion, index: number, { along, at }: FabricLine): LinePoint[][] {
-  const sheet = motion.sheet!;
-  const state = sheet.stateOf(index);
-  if (state === null) return [];
+function ofSheet(sheet: SheetStates, state: number, { along, at }: FabricLine): LinePoint[][] {
   const { cells, cut } = sheet.data;
   const points = sheet.positions.at(state);
   const [run, level] = along === "u" ? [0, 1] : [1, 0];
@@ -154,12 +154,12 @@ function inside(rings: CutCell["rings"] | undefined, share: number, turned: bool
   return Array.from({ length: meets.length >> 1 }, (_, k) => [meets[2 * k]!, meets[2 * k + 1]!]);
 }
 
-function ofCatenaries(motion: Motion, index: number, { along, at }: FabricLine): LinePoint[][] {
-  const { grid, divisions, pitch } = motion.data;
+function ofCatenaries(catenaries: CatenaryStates, picture: number, { along, at }: FabricLine): LinePoint[][] {
+  const { grid, divisions, pitch } = catenaries.data;
   if (grid[0] < 2 || grid[1] < 2) return [];
   const [columns, rows] = [(grid[0] - 1) * divisions + 1, (grid[1] - 1) * divisions + 1];
-  const points = motion.surface.at(index);
-  const gaps = motion.gap?.at(index) ?? null;
+  const points = catenaries.positions.at(picture);
+  const gaps = catenaries.gap?.at(picture) ?? null;
   const [run, level] = along === "u" ? [0, 1] : [1, 0];
   const [count, lines] = along === "u" ? [columns, rows] : [rows, columns];
   const place = (at / pitch[level]!) * divisions;

@@ -1,6 +1,6 @@
 /** The mold as it is drawn, asked for its height at a place: triangles in bins as seen from above. */
 
-import type { Geometry } from "./page_data";
+import type { MoldData } from "./page_data";
 
 /** Bins along each side. */
 const BINS = 64;
@@ -10,7 +10,7 @@ export class MoldBelow {
   private readonly low: [number, number] = [Infinity, Infinity];
   private readonly size: [number, number];
 
-  constructor(private readonly mold: NonNullable<Geometry["mold"]>) {
+  constructor(private readonly mold: MoldData) {
     const { vertices, triangles } = mold;
     const high = [-Infinity, -Infinity];
     for (let k = 0; k < vertices.length; k += 3) {

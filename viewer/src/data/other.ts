@@ -9,9 +9,8 @@ export type OtherLimit = Pick<Limit, "name" | "value" | "limit" | "unit" | "ok">
 export interface Other {
   title: string;
   accepted: boolean;
-  /** The limits of its sheet, if it has one, and all others. */
-  sheet: OtherLimit[] | null;
-  own: OtherLimit[];
+  /** The limits of the model that decides. */
+  limits: OtherLimit[];
   /** Steps and time of the motion (s). */
   steps: number;
   duration: number;
@@ -23,18 +22,20 @@ export interface Other {
 const START = /<script type="application\/json" id="plydrape-data">/;
 const END = "</script>";
 
-/** Reads a page or a result from its text; the message of what it throws is a sentence for the reader. */
-export async function readOther(text: string): Promise<Other> {
+/**
+ * Reads a page, or a result of the version that this page belongs to, from its text; the message of what it throws is a sentence for
+ * the reader.
+ */
+export async function readOther(text: string, version: number): Promise<Other> {
   const start = START.exec(text);
-  if (start === null) return ofResult(text);
+  if (start === null) return ofResult(text, version);
   const from = start.index + start[0].length;
   const data = readPageData(text.slice(from, text.indexOf(END, from)));
   const { title, accepted, steps, times } = data;
   return {
     title,
     accepted,
-    sheet: data.sheet?.limits ?? null,
-    own: data.limits,
+    limits: data.limits,
     steps: steps.length,
     duration: times[times.length - 1]! - times[0]!,
     motion: await Motion.unpack(data),
@@ -44,32 +45,40 @@ export async function readOther(text: string): Promise<Other> {
 /** As much of result.json as is compared. */
 interface ResultText {
   format?: string;
+  version?: number;
   scene?: { title?: string };
-  summary?: { accepted?: boolean; limits?: OtherLimit[]; sheet?: { limits?: OtherLimit[] } | null };
+  summary?: { accepted?: boolean; limits?: OtherLimit[] };
   steps?: { time: number }[];
 }
 
-function ofResult(text: string): Other {
+function ofResult(text: string, version: number): Other {
   let given: ResultText;
   try {
     given = JSON.parse(text) as ResultText;
   } catch {
     throw new BrokenData("it is neither a page of plydrape nor a result.json");
   }
-  const limits = given.summary?.limits;
-  if (given.format !== "plydrape-result" || limits === undefined || given.steps === undefined) {
+  if (given.format !== "plydrape-result") {
     throw new BrokenData("it is neither a page of plydrape nor a result.json");
   }
-  // names are those of files: gripper_load
-  const named = (list: OtherLimit[]) =>
-    list.map((limit) => ({ ...limit, name: limit.name.replaceAll("_", " ").replace("fibre", "fiber") }));
+  if (given.version !== version) {
+    throw new BrokenData(
+      `it has version ${String(given.version)}, and this page reads version ${String(version)}: simulate or plan it again`,
+    );
+  }
+  const limits = given.summary?.limits;
+  if (limits === undefined || given.steps === undefined) {
+    throw new BrokenData("its limits or its steps are missing");
+  }
   const times = given.steps.map(({ time }) => time);
-  const sheet = given.summary?.sheet?.limits;
   return {
     title: given.scene?.title ?? "without a title",
     accepted: given.summary?.accepted ?? false,
-    sheet: sheet === undefined ? null : named(sheet),
-    own: named(limits),
+    // names are those of files: gripper_load
+    limits: limits.map((limit) => ({
+      ...limit,
+      name: limit.name.replaceAll("_", " ").replace("fibre", "fiber"),
+    })),
     steps: times.length,
     duration: (times[times.length - 1] ?? 0) - (times[0] ?? 0),
     motion: null,

@@ -1,15 +1,16 @@
 /**
  * What the page is given: one JSON object, written by the program.
  *
- * The page shows these numbers and computes no mechanics. Everything that belongs to a step is a list with
- * one entry a step; positions over the steps are packed in blocks (`block.ts`).
+ * The page shows these numbers and computes no mechanics. It knows no measure and no limit by name: which there are, in which
+ * order, with which words and units, the data say. Everything that belongs to a step is a list with one entry a step; positions
+ * over the steps are packed in blocks (`block.ts`).
  */
 
 export type Place = [number, number, number];
 /** Column and row of a gripper. */
 export type GripperId = [number, number];
-export type FieldKey =
-  "height" | "gap" | "shear" | "direction" | "over_mold" | "spread" | "strain" | "landing";
+/** What a color mode is found by; which there are, and their names, the data say. */
+export type FieldKey = string;
 /** The two models of the ply. */
 export type Model = "sheet" | "catenaries";
 
@@ -23,6 +24,8 @@ export interface Block {
 
 /** One line of the table of limits. */
 export interface Limit {
+  /** Key of the measure that it limits. */
+  key: string;
   name: string;
   /** The same in other units, where it is slack. */
   note: string | null;
@@ -34,13 +37,11 @@ export interface Limit {
   ok: boolean;
   /** The value as a multiple of its limit: beyond 1 it is exceeded. */
   ratio: number;
-  /** One of the motion, which counts with every model. */
+  /** About the motion as a whole, not about the ply of a step. */
   motion: boolean;
   step: number | null;
   where: string;
   place: Place | null;
-  /** Key of the measure that it limits, where there is one. */
-  measure: string | null;
 }
 
 /** What a source says of the strength that the angles at the end cost. */
@@ -50,7 +51,7 @@ export interface StrengthNote {
   source: string;
 }
 
-/** One quantity with a value in every step: a column of steps.csv. */
+/** One quantity over the steps: a column of steps.csv. */
 export interface Measure {
   key: string;
   label: string;
@@ -58,6 +59,7 @@ export interface Measure {
   values: (number | null)[];
   where: (string | null)[];
   places: (Place | null)[];
+  /** Null where nothing is judged by it. */
   limit: number | null;
   least: boolean;
 }
@@ -65,6 +67,8 @@ export interface Measure {
 /** A color mode: what it shows, on vertices or on cells, and its range over all steps. */
 export interface Field {
   key: FieldKey;
+  /** In a few words, for its button. */
+  name: string;
   label: string;
   unit: string;
   on: "vertex" | "cell";
@@ -72,28 +76,20 @@ export interface Field {
   scale: "even" | "orders";
   low: number;
   high: number;
+  /** Key of the measure that is the worst of its values. */
+  measure: string | null;
   limit: number | null;
 }
 
-export interface Geometry {
-  surface: Block;
-  gap: Block | null;
-  /** Fiber lines where they are no lines of a surface: the grid is zero, and cups hold that are no whole array. */
-  fibres: Block | null;
-  diagonals: Block;
-  grippers: Block;
-  normals: Block;
-  shear: Block;
-  direction: Block;
-  contacts: { counts: number[]; points: Block };
-  mold: { vertices: number[]; triangles: number[] } | null;
+/** Triangles (m). */
+export interface MoldData {
+  vertices: number[];
+  triangles: number[];
 }
 
 /** A body of triangles with a name (m). */
-export interface Solid {
+export interface Solid extends MoldData {
   name: string;
-  vertices: number[];
-  triangles: number[];
 }
 
 /** What the grippers carry, what stands in the cell, and the tool of a robot. */
@@ -103,8 +99,6 @@ export interface CellData {
   obstacles: Solid[];
   /** Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange; null without a tool. */
   mounts: number[] | null;
-  /** The pads, the stems, and of a tool the flange: a place in micrometers and a quaternion in millionths. */
-  origins: Block;
 }
 
 /** What the vacuum of some grippers does at a time (s). */
@@ -114,17 +108,49 @@ export interface VacuumEvent {
   grippers: string[];
 }
 
-/** The ply as a sheet. Micrometers, hundredths of a degree, millionths of strain, mN/m and micronewtons. */
+/** The grippers over the steps: micrometers, ten-thousandths, and hundredths of a degree. */
+export interface GrippersData {
+  positions: Block;
+  normals: Block;
+  /** Angles between pads and their stems. */
+  tilts: Block;
+  /** What the numbers of `forces` count (N). */
+  force_unit: number;
+  /** Of the ply on the grippers. */
+  forces: Block;
+  /** Whether each pad holds the ply, 1 or 0; null where all of them always do. */
+  holds: Block | null;
+  /** Thousandths of the allowed loads that are used along the ply and across it; -1 without a limit. */
+  used: Block;
+}
+
+/** The largest loads that a gripper may have (N), along the ply, off the pad, and as a whole, and its largest tilt (°). */
+export interface Allowed {
+  along: number | null;
+  across: number | null;
+  whole: number | null;
+  tilt: number | null;
+}
+
+/** The ply as a net of catenaries. Micrometers and hundredths of a degree. */
+export interface CatenariesData {
+  /** Grippers along u and v; zeros where catenaries make no surface. */
+  grid: [number, number];
+  /** Fabric between neighboring grippers along u and v (mm). */
+  pitch: [number, number];
+  divisions: number;
+  surface: Block;
+  gap: Block | null;
+  /** Fiber lines where they are no lines of a surface: the grid is zero, and cups hold that are no whole array. */
+  fibers: Block | null;
+  diagonals: Block;
+  shear: Block;
+  direction: Block;
+  contacts: { counts: number[]; points: Block };
+}
+
+/** The ply as a sheet. Micrometers, hundredths of a degree, millionths of strain and mN/m. */
 export interface SheetData {
-  /** All of its own limits hold, and it is at rest. */
-  accepted: boolean;
-  /** Why its end does not count. */
-  ended: string | null;
-  nodes: number;
-  /** For each step of the page the state that is shown in it. */
-  states: (number | null)[];
-  limits: Limit[];
-  fields: Field[];
   /** Corners of the cells, four each. */
   cells: number[];
   /** Cells that the boundary of the ply cuts: drawn in place of those with the same corners. */
@@ -140,18 +166,6 @@ export interface SheetData {
   shear: Block;
   strain: Block;
   tension: Block;
-  grippers: Block;
-  normals: Block;
-  /** What the numbers of `forces` count (N). */
-  force_unit: number;
-  /** Of the sheet on the pads. */
-  forces: Block;
-  /** Whether each pad holds the ply, 1 or 0; null where all of them always do. */
-  holds: Block | null;
-  /** The largest loads that a gripper may have (N): along the ply, off the pad, and as a whole. */
-  allowed: { along: number | null; across: number | null; whole: number | null };
-  /** Thousandths of them that the loads use, along the ply and across it; -1 without a limit. */
-  used: Block;
   /** Height at the end that the needed share of the cells of the sample keeps at each node; one step. */
   spread: Block | null;
 }
@@ -161,6 +175,24 @@ export interface CutCell {
   nodes: [number, number, number, number];
   cell: number;
   rings: [number, number][][];
+}
+
+/** The drape by one model. */
+export interface DrapeData {
+  model: Model;
+  /** Numbers of the steps in which the ply is drawn. */
+  drawn: number[];
+  /** For each step of the page that the model has done, the first ones, which of the drawn ones is the nearest. */
+  pictures: number[];
+  measures: Measure[];
+  fields: Field[];
+  grippers: GrippersData;
+  /** Null of a model that judges nothing. */
+  allowed: Allowed | null;
+  /** The pads, the stems, and of a tool the flange: a place in micrometers and a quaternion in millionths. */
+  origins: Block | null;
+  catenaries: CatenariesData | null;
+  sheet: SheetData | null;
 }
 
 /** The verdict over a sample of cells, each with errors of its own. */
@@ -187,68 +219,47 @@ export interface SampleData {
 export interface PageData {
   format: string;
   version: number;
+  /** Version of the result files that it can be compared with. */
+  result_version: number;
   program: string;
   title: string;
   input: string | null;
   facts: { label: string; value: string }[];
+  /** The verdict of the model that decides. */
   accepted: boolean;
-  /** Somebody broke the drape off before its last step. */
-  interrupted: boolean;
-  /** Why the drape ended where no ply would have survived it; null if it did not. */
-  stopped: string | null;
+  /** Why its end does not count. */
+  ended: string | null;
   steps: number[];
   times: number[];
-  /** Grippers along u and v; zeros where catenaries make no surface. */
-  grid: [number, number];
-  /** Fabric between neighboring grippers along u and v (mm). */
-  pitch: [number, number];
+  /** The first step in which the ply touches the mold. */
+  first_contact: number | null;
   /** Column and row of each gripper. */
   ids: GripperId[];
-  divisions: number;
+  /** Every limit of the model that decides, the closest first. */
   limits: Limit[];
   /** What published data say of such angles, for information, and what they are not. */
   strength: { notes: StrengthNote[]; warning: string };
-  measures: Measure[];
-  fields: Field[];
-  geometry: Geometry;
+  /** The drape by the model that decides. */
+  drape: DrapeData;
+  /** The drape by the other model, if it was asked for: shown for comparison, and judging nothing. */
+  also: DrapeData | null;
+  mold: MoldData | null;
   cell: CellData | null;
   /** When pads grip, press and let go; empty where they hold the ply from first to last. */
   events: VacuumEvent[];
-  /** The sheet, which decides, if it was draped. */
-  sheet: SheetData | null;
   sample: SampleData | null;
   /** The largest errors that the motion stands, in words. */
   stands: string | null;
   left_out: string[];
 }
 
-/** Whether catenaries hang between the cups. */
-export const hasCatenaries = (data: PageData): boolean =>
-  !data.grid.includes(0) || data.geometry.fibres !== null;
-
-/** Whether the catenaries span a surface: neither a strip nor cups that are no whole array do. */
-export const hasSurface = (data: PageData): boolean => data.grid.every((count) => count > 1);
-
 /** Data that cannot be shown; the message completes the sentence "This page cannot be shown: …". */
 export class BrokenData extends Error {}
 
-const LISTS = [
-  "facts",
-  "steps",
-  "times",
-  "grid",
-  "pitch",
-  "ids",
-  "limits",
-  "measures",
-  "fields",
-  "events",
-  "left_out",
-] as const;
-const BLOCKS = ["surface", "diagonals", "grippers", "normals", "shear", "direction"] as const;
+const LISTS = ["facts", "steps", "times", "ids", "limits", "events", "left_out"] as const;
 
 /** The version of the data that this page reads. */
-const VERSION = 2;
+const VERSION = 3;
 
 /** The page's data from its text, checked as far as a wrong file would show. */
 export function readPageData(text: string): PageData {
@@ -277,62 +288,85 @@ export function checked(found: Partial<PageData> | null): PageData {
     throw new BrokenData("what is published of strength is missing in its data");
   }
   const data = found as PageData;
-  checkLengths(data);
-  checkGeometry(data);
-  if (data.cell !== null) checkCell(data, data.cell);
-  if (data.sheet !== null) checkSheet(data, data.sheet);
+  if (data.steps.length === 0) throw new BrokenData("its data has no step");
+  if (data.times.length !== data.steps.length)
+    throw new BrokenData(`it has ${data.steps.length} steps but ${data.times.length} times`);
+  checkDrape(data, data.drape);
+  if (data.also !== null) checkDrape(data, data.also);
+  if (data.also !== null && data.also.model === data.drape.model) {
+    throw new BrokenData("the drape for comparison is by the model that decides");
+  }
   if (data.sample !== null) checkSample(data.sample);
   return data;
 }
 
-function checkCell(data: PageData, cell: CellData): void {
-  const expected = 2 * data.ids.length + (cell.mounts === null ? 0 : 1);
-  if (cell.origins.count !== expected || cell.origins.steps !== data.steps.length) {
-    throw new BrokenData("the bodies of its cell do not fit its grippers and steps");
-  }
-}
+/** Whether a block has so many items in so many steps; none is as it should be. */
+const fits = (block: Block | null | undefined, steps: number, count: number): boolean =>
+  block === null || (block?.data !== undefined && block.steps === steps && block.count === count);
 
-function checkLengths(data: PageData): void {
+function checkDrape(data: PageData, drape: Partial<DrapeData> | undefined): void {
+  if (drape === undefined || (drape.model !== "sheet" && drape.model !== "catenaries")) {
+    throw new BrokenData("the drape by the model that decides is missing in its data");
+  }
+  const { model, drawn, pictures, measures, fields, grippers } = drape;
+  for (const list of [drawn, pictures, measures, fields]) {
+    if (!Array.isArray(list)) throw new BrokenData(`a list of the ${model} is missing in its data`);
+  }
   const count = data.steps.length;
-  if (count === 0) throw new BrokenData("its data has no step");
-  if (data.times.length !== count)
-    throw new BrokenData(`it has ${count} steps but ${data.times.length} times`);
-  for (const { key, values } of data.measures) {
+  for (const { key, values } of measures!) {
     if (!Array.isArray(values) || values.length !== count) {
       throw new BrokenData(`measure “${key}” does not have one value for each of ${count} steps`);
     }
   }
+  if (pictures!.length > count || pictures!.some((picture) => drawn![picture] === undefined)) {
+    throw new BrokenData(`the pictures of the ${model} do not fit its steps`);
+  }
+  const steps = grippers?.positions.steps ?? -1;
+  const pads = grippers && [
+    grippers.positions,
+    grippers.normals,
+    grippers.tilts,
+    grippers.forces,
+    grippers.holds,
+    grippers.used,
+  ];
+  const whole =
+    pads?.every((block) => fits(block, steps, data.ids.length)) === true && grippers!.force_unit > 0;
+  if (!whole || steps > count || (pictures!.length > 0 && pictures!.length !== steps)) {
+    throw new BrokenData(`the grippers of the ${model} do not fit its steps`);
+  }
+  const bodies = 2 * data.ids.length + ((data.cell?.mounts ?? null) === null ? 0 : 1);
+  if ((data.cell === null) !== (drape.origins === null) || !fits(drape.origins, steps, bodies)) {
+    throw new BrokenData("the bodies of its cell do not fit its grippers and steps");
+  }
+  if (drape.catenaries) checkCatenaries(drape.catenaries, drawn!.length);
+  if (drape.sheet) checkSheet(drape.sheet, drawn!.length);
 }
 
-function checkGeometry(data: PageData): void {
-  const geometry = data.geometry as Partial<Geometry> | undefined;
-  if (typeof geometry !== "object") throw new BrokenData("its geometry is missing");
-  for (const name of BLOCKS) {
-    if (geometry[name]?.data === undefined) throw new BrokenData(`the ${name} of its geometry is missing`);
-  }
-  if (!Array.isArray(geometry.contacts?.counts))
-    throw new BrokenData("the contacts of its geometry are missing");
-  const [nu, nv] = data.grid;
-  const n = data.divisions;
+function checkCatenaries(catenaries: CatenariesData, drawn: number): void {
+  const [nu, nv] = catenaries.grid;
+  const n = catenaries.divisions;
   const none = nu === 0;
   const cells = none ? 0 : (nu - 1) * (nv - 1);
-  const expected: Record<(typeof BLOCKS)[number], number> = {
-    surface: none ? 0 : ((nu - 1) * n + 1) * ((nv - 1) * n + 1),
-    diagonals: 2 * cells * (n + 1),
-    grippers: data.ids.length,
-    normals: data.ids.length,
+  const vertices = none ? 0 : ((nu - 1) * n + 1) * ((nv - 1) * n + 1);
+  const expected = {
+    surface: vertices,
+    gap: vertices,
     shear: cells,
     direction: cells,
   };
-  for (const name of BLOCKS) {
-    const block = data.geometry[name];
-    // Diagonals may be left out to keep the page small.
-    if (name === "diagonals" && (block.count === 0 || (none && block.count % (n + 1) === 0))) continue;
-    if (block.count !== expected[name] || block.steps !== data.steps.length) {
-      throw new BrokenData(
-        `the ${name} of its geometry do not fit ${data.ids.length} grippers and ${data.steps.length} steps`,
-      );
+  for (const [name, count] of Object.entries(expected)) {
+    if (!fits(catenaries[name as keyof typeof expected], drawn, count)) {
+      throw new BrokenData(`the ${name} of its catenaries does not fit ${nu} × ${nv} grippers`);
     }
+  }
+  // diagonals may be left out to keep the page small
+  const { count } = catenaries.diagonals;
+  if (count !== 0 && (none ? count % (n + 1) !== 0 : count !== 2 * cells * (n + 1))) {
+    throw new BrokenData(`the diagonals of its catenaries do not fit ${nu} × ${nv} grippers`);
+  }
+  if (catenaries.contacts.counts.length !== drawn) {
+    throw new BrokenData("the contacts of its catenaries do not fit its steps");
   }
 }
 
@@ -342,49 +376,17 @@ function checkSample(sample: Partial<SampleData> | undefined): void {
   }
 }
 
-function checkSheet(data: PageData, sheet: SheetData): void {
+function checkSheet(sheet: SheetData, drawn: number): void {
   const nodes = sheet.landing.length;
   const cells = sheet.cells.length / 4;
-  const count = sheet.positions.steps;
-  const expected: [Block | null, number][] = [
-    [sheet.positions, nodes],
-    [sheet.height, nodes],
-    [sheet.contact, nodes],
-    [sheet.shear, cells],
-    [sheet.strain, cells],
-    [sheet.tension, cells],
-    [sheet.forces, sheet.grippers.count],
-    [sheet.holds, sheet.grippers.count],
-    [sheet.normals, sheet.grippers.count],
-    [sheet.used, sheet.grippers.count],
-  ];
-  const fit = expected.every(
-    ([block, of]) => block === null || (block.count === of && block.steps === count),
-  );
-  const known = sheet.states.every((state) => state === null || state < count);
+  const fit =
+    [sheet.positions, sheet.height, sheet.contact].every((block) => fits(block, drawn, nodes)) &&
+    [sheet.shear, sheet.strain, sheet.tension].every((block) => fits(block, drawn, cells)) &&
+    [sheet.places, sheet.spread].every((block) => fits(block, 1, nodes));
   const corners =
     sheet.cells.every((node) => node < nodes) &&
     sheet.cut.every((cut) => cut.cell < cells && cut.nodes.every((node) => node < nodes));
-  const pads = sheet.grippers.count === data.geometry.grippers.count;
-  if (
-    !fit ||
-    !known ||
-    !corners ||
-    !pads ||
-    !(sheet.force_unit > 0) ||
-    sheet.places.count !== nodes ||
-    (sheet.spread !== null && sheet.spread.count !== nodes) ||
-    sheet.states.length !== data.steps.length
-  ) {
-    throw new BrokenData("the states of its sheet do not fit each other");
-  }
-}
-
-/** The limits that count: with a sheet its own and those of the motion. */
-export function deciding(data: PageData): Limit[] {
-  return data.sheet === null
-    ? data.limits
-    : [...data.sheet.limits, ...data.limits.filter((limit) => limit.motion)];
+  if (!fit || !corners) throw new BrokenData("the states of its sheet do not fit each other");
 }
 
 /** Index of a step, or of the one nearest to it if it was left out; -1 for none. */
@@ -394,9 +396,24 @@ export function nearest(steps: number[], step: number | null): number {
   return away.indexOf(Math.min(...away));
 }
 
+/** The drape by a model, or by the one that decides if that was not draped. */
+export function drapeOf(data: PageData, model: Model): DrapeData {
+  return data.also?.model === model ? data.also : data.drape;
+}
+
+/** Whether a model is shown for comparison and does not decide. */
+export function isBeside(data: PageData, model: Model): boolean {
+  return data.also?.model === model;
+}
+
+/** A model in words, with what it is good for. */
+export function modelText(data: PageData, model: Model): string {
+  return isBeside(data, model) ? `${model} (for comparison, judges nothing)` : model;
+}
+
 /** What colors can tell of a model. */
 export function fieldsOf(data: PageData, model: Model): Field[] {
-  return model === "sheet" && data.sheet !== null ? data.sheet.fields : data.fields;
+  return drapeOf(data, model).fields;
 }
 
 /** The name of a gripper, as in all files: `g2_0`. */

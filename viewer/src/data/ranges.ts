@@ -7,7 +7,8 @@
  */
 
 import type { Motion } from "./motion";
-import { fieldsOf, type Field, type FieldKey, type Model } from "./page_data";
+import type { Drape } from "./drape";
+import type { Field, FieldKey, Model } from "./page_data";
 
 /** What a range depends on. */
 export interface Ranging {
@@ -37,24 +38,24 @@ export function hasOrders(field: Field): boolean {
 
 /** The color mode in force, with the scale and range in force. */
 export function fieldInForce(motion: Motion, now: Ranging): Field | undefined {
-  const own = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
+  const find = (drape: Drape) => drape.data.fields.find(({ key }) => key === now.colour);
+  const drape = motion.drape(now.model);
+  const own = find(drape);
   if (own === undefined) return undefined;
-  const other =
-    now.other === null
-      ? undefined
-      : fieldsOf(now.other.data, now.model).find(({ key }) => key === now.colour);
-  const parts: [Motion, Field, number][] = [[motion, own, now.index]];
-  if (now.other !== null && other !== undefined) parts.push([now.other, other, now.otherIndex]);
+  const beside = now.other?.drape(now.model);
+  const other = beside === undefined ? undefined : find(beside);
+  const parts: [Drape, Field, number][] = [[drape, own, now.index]];
+  if (beside !== undefined && other !== undefined) parts.push([beside, other, now.otherIndex]);
   const orders = hasOrders(own) && now.orders;
   if (orders && !now.stepRange) {
     const [low, high] = own.scale === "orders" ? [own.low, own.high] : HEIGHTS;
     return { ...own, scale: "orders", low, high };
   }
   const ends = parts.map(([of, field, index]) => {
-    if (now.stepRange) return extremes(of, now.model, field, index);
+    if (now.stepRange) return extremes(of, field, index);
     // the ends of a scale of orders are no values
     return field.scale === "orders"
-      ? extremesOfAll(of, now.model, field)
+      ? extremesOfAll(of, field)
       : ([field.low, field.high] as [number, number]);
   });
   const low = Math.min(...ends.map(([end]) => end));
@@ -66,11 +67,11 @@ export function fieldInForce(motion: Motion, now: Ranging): Field | undefined {
 }
 
 /** Least and largest value in a step; (∞, −∞) where there is none. */
-function extremes(motion: Motion, model: Model, field: Field, index: number): [number, number] {
+function extremes(drape: Drape, field: Field, index: number): [number, number] {
   let [low, high] = [Infinity, -Infinity];
-  const count = countOf(motion, model, field);
+  const count = drape.countOf(field);
   for (let item = 0; item < count; item++) {
-    const value = valueOf(motion, model, field, index, item);
+    const value = drape.value(field, index, item);
     if (value === null) continue;
     if (value < low) low = value;
     if (value > high) high = value;
@@ -78,39 +79,20 @@ function extremes(motion: Motion, model: Model, field: Field, index: number): [n
   return [low, high];
 }
 
-const found = new WeakMap<Motion, Map<string, [number, number]>>();
+const found = new WeakMap<Drape, Map<string, [number, number]>>();
 
 /** Least and largest value of all steps, computed once. */
-function extremesOfAll(motion: Motion, model: Model, field: Field): [number, number] {
-  const known = found.get(motion) ?? new Map<string, [number, number]>();
-  found.set(motion, known);
-  const key = `${model} ${field.key}`;
-  let ends = known.get(key);
+function extremesOfAll(drape: Drape, field: Field): [number, number] {
+  const known = found.get(drape) ?? new Map<string, [number, number]>();
+  found.set(drape, known);
+  let ends = known.get(field.key);
   if (ends === undefined) {
     ends = [Infinity, -Infinity];
-    for (let index = 0; index < motion.data.steps.length; index++) {
-      const [low, high] = extremes(motion, model, field, index);
+    for (let index = 0; index < drape.data.pictures.length; index++) {
+      const [low, high] = extremes(drape, field, index);
       ends = [Math.min(ends[0], low), Math.max(ends[1], high)];
     }
-    known.set(key, ends);
+    known.set(field.key, ends);
   }
   return ends;
-}
-
-function countOf(motion: Motion, model: Model, field: Field): number {
-  if (model === "sheet" && motion.sheet !== null) return motion.sheet.countOf(field);
-  return field.on === "cell" ? motion.shear.count : motion.surface.count;
-}
-
-/** The value of a color mode at a vertex or cell of a model, in the mode's unit; null where there is none. */
-export function valueOf(
-  motion: Motion,
-  model: Model,
-  field: Field,
-  index: number,
-  item: number,
-): number | null {
-  return model === "sheet" && motion.sheet !== null
-    ? motion.sheet.value(field, index, item)
-    : motion.value(field, index, item);
 }

@@ -103,7 +103,7 @@ async function open(): Promise<void> {
   let hanging: Hanging = answer;
   let setup = wanted;
   const ranges = new Ranges();
-  ranges.widen(hanging.page.fields);
+  ranges.widen(hanging.page.drape.fields);
   const motion = await Motion.unpack(checked(hanging.page));
 
   const state = new State(
@@ -116,7 +116,7 @@ async function open(): Promise<void> {
       diagonals: true,
       mold: true,
       cell: true,
-      forces: true,
+      forces: false,
       paths: false,
       section: null,
       other: null,
@@ -174,8 +174,8 @@ async function open(): Promise<void> {
     if (told.hanging !== null) {
       hanging = told.hanging;
       const page: PageData = checked(hanging.page);
-      if (!told.mold) page.geometry.mold = motion.data.geometry.mold;
-      ranges.widen(page.fields);
+      if (!told.mold) page.mold = motion.data.mold;
+      ranges.widen(page.drape.fields);
       motion.become(await Motion.unpack(page));
       state.set({ answer: state.now.answer + 1 });
       if (told.mold) scene.renew(fit);

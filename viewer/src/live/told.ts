@@ -1,19 +1,12 @@
 /** What the page says of a ply: the verdict, the limits, numbers, and what the solver refused. */
 
 import { quantity } from "../data/number";
-import type { GripperId, Limit, PageData, Place } from "../data/page_data";
+import type { GripperId, Limit, Place } from "../data/page_data";
 import { byId, make, renew } from "../page/dom";
 import { limitCells, sign } from "../page/limits";
 import type { Mark } from "../scene/overlay";
 import type { Scene3d } from "../scene/scene3d";
 import type { Hanging, Refused } from "./solver";
-
-/** Measures that are told beside the limits, the forces first. */
-const MEASURES = ["force_n", "gripper_load_n", "gripper_pull_n", "sag_ratio", "slack_mm", "gap_mm"];
-
-/** The limits of a ply that is held: rates are those of a motion, and here is none. */
-const limitsOf = ({ limits }: PageData): Limit[] =>
-  limits.filter(({ measure }) => measure !== "tilt_rate_deg_s");
 
 /** The limit that is exceeded most; null if all are kept. */
 function worst(limits: Limit[]): Limit | null {
@@ -27,7 +20,7 @@ function worst(limits: Limit[]): Limit | null {
 /** Whether the ply is as it should be, a name for what is wrong with it, and the sentence that says so. */
 export function verdictOf({ page, found }: Hanging): { ok: boolean; name: string; text: string } {
   if (!found) return { ok: false, name: "no equilibrium", text: "No equilibrium found" };
-  const limits = limitsOf(page);
+  const { limits } = page;
   const most = worst(limits);
   if (most === null) return { ok: true, name: "kept", text: `All ${limits.length} limits kept` };
   const { name, value, unit, least, limit, where } = most;
@@ -46,15 +39,16 @@ export function showVerdict(hanging: Hanging): void {
 
 /** The table of limits, and some numbers. */
 export function showNumbers({ page }: Hanging): void {
-  const rows = limitsOf(page).map((limit) =>
+  const rows = page.limits.map((limit) =>
     make("tr", { class: limit.ok ? "pass" : "fail" }, ...limitCells(limit)),
   );
   renew(byId("limits-body"), rows);
-  const told = MEASURES.flatMap((key) => page.measures.filter((measure) => measure.key === key)).flatMap(
-    ({ label, unit, values: [value = null], where: [at = null] }) =>
-      value === null
-        ? []
-        : [make("dt", {}, label), make("dd", {}, `${quantity(value, unit)}, ${at ?? "nowhere"}`)],
+  // what has a limit stands in the table
+  const others = page.drape.measures.filter(({ limit }) => limit === null);
+  const told = others.flatMap(({ label, unit, values: [value = null], where: [at = null] }) =>
+    value === null
+      ? []
+      : [make("dt", {}, label), make("dd", {}, `${quantity(value, unit)}, ${at ?? "nowhere"}`)],
   );
   renew(byId("numbers"), told);
 }
@@ -101,7 +95,7 @@ const ROOM = 64;
  */
 export function forceMarks({ catenaries, page }: Hanging, grippers: Place[], scene: Scene3d): Mark[] {
   const screen = scene.eye.screen();
-  const at = (id: GripperId) => grippers[id[1] * page.grid[0] + id[0]]!;
+  const at = (id: GripperId) => grippers[id[1] * page.drape.catenaries!.grid[0] + id[0]]!;
   return catenaries
     .filter(({ kind }) => kind.startsWith("edge"))
     .filter(({ from, to }) => {

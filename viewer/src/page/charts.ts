@@ -1,5 +1,6 @@
 /**
- * One small chart for each measure over the steps: its line, its limit dashed, and the step in view.
+ * One small chart for each measure over the steps: its line, its limit dashed, and the step in view. Measures, words and units are
+ * those of the data, in their order. They are of the model in view, which is the one that decides unless the reader asks for the other.
  *
  * A click or drag goes to a step. The marker of the step is an element over the drawing, so that moving it
  * draws nothing anew.
@@ -7,7 +8,7 @@
 
 import uPlot from "uplot";
 import { full, quantity, short, ticks, withUnit } from "../data/number";
-import { hasCatenaries, type Measure, type PageData } from "../data/page_data";
+import { drapeOf, isBeside, modelText, type Measure, type Model, type PageData } from "../data/page_data";
 import { byId, make, themeColour } from "./dom";
 import type { State } from "./state";
 
@@ -17,46 +18,54 @@ export interface Beside {
   at: (index: number) => number;
 }
 
-/** What a reader looks for first; then come measures with a limit, then the others, both in the order given. */
-const FIRST = [
-  "slack_mm",
-  "slack_angle_deg",
-  "wrinkle_mm",
-  "gap_mm",
-  "shear_deg",
-  "tilt_deg",
-  "penetration_mm",
-  "overstretch",
-  "force_n",
-];
 const HEIGHT = 104;
 /** Least time between two moves of the markers (ms). */
 const PAUSE = 90;
 
+/** The charts of one model. */
+interface Group {
+  host: HTMLElement;
+  charts: Chart[];
+}
+
 export class Charts {
-  private readonly charts: Chart[];
-  private readonly host = byId("charts");
+  private readonly groups = new Map<Model, Group>();
   private width: number | null = null;
   private last = -Infinity;
   private later = 0;
+  private shown: Model;
 
   constructor(state: State, data: PageData) {
-    if (data.sheet !== null && hasCatenaries(data)) byId("charts-model").textContent = ", by the catenaries";
-    const rank = ({ key, limit }: Measure) => {
-      const place = FIRST.indexOf(key);
-      if (place >= 0) return place;
-      return limit === null ? FIRST.length + 1 : FIRST.length;
-    };
-    const measures = data.measures
-      .filter((m) => m.values.some((value) => value !== null))
-      .sort((a, b) => rank(a) - rank(b));
-    this.charts = measures.map((measure) => new Chart(this.host, measure, data.steps, state));
-    if (measures.length === 0) this.host.append(make("p", { class: "quiet" }, "There is nothing to chart."));
-    new ResizeObserver(() => this.resize()).observe(this.host);
+    const room = byId("charts");
+    for (const { model, measures } of data.also === null ? [data.drape] : [data.drape, data.also]) {
+      const host = make("div", { class: "charts", "data-model": model });
+      room.append(host);
+      const known = measures.filter((m) => m.values.some((value) => value !== null));
+      const charts = known.map((measure) => new Chart(host, measure, data.steps, state));
+      if (charts.length === 0) host.append(make("p", { class: "quiet" }, "There is nothing to chart."));
+      this.groups.set(model, { host, charts });
+    }
+    this.shown = data.drape.model;
+    new ResizeObserver(() => this.resize()).observe(room);
     state.listen((now, before) => {
+      if (now === before || now.model !== before.model) this.show(data, now.model);
       if (now.dark !== before.dark) this.redraw();
-      if (now.index !== before.index || now === before) this.follow(now.index);
+      if (now.index !== before.index || now.model !== before.model || now === before) this.follow(now.index);
     });
+  }
+
+  /** Shows the charts of a model. */
+  private show(data: PageData, model: Model): void {
+    this.shown = drapeOf(data, model).model;
+    for (const [key, { host }] of this.groups) host.hidden = key !== this.shown;
+    const beside = byId("charts-model");
+    beside.hidden = !isBeside(data, model);
+    beside.textContent = modelText(data, model);
+    this.resize();
+  }
+
+  private get charts(): Chart[] {
+    return this.groups.get(this.shown)?.charts ?? [];
   }
 
   /** Moves the markers, at most so often that drawing them does not slow the picture down. */
@@ -73,7 +82,10 @@ export class Charts {
 
   /** Draws the lines of a second result too, or none. */
   compare(beside: Beside | null): void {
-    for (const chart of this.charts) chart.compare(beside);
+    for (const [model, { charts }] of this.groups) {
+      const measures = beside === null ? [] : drapeOf(beside.data, model).measures;
+      for (const chart of charts) chart.compare(measures, beside);
+    }
   }
 
   redraw(): void {
@@ -187,9 +199,9 @@ class Chart {
   }
 
   /** Takes the same measure of a second result, if it has it in the same unit. */
-  compare(beside: Beside | null): void {
+  compare(measures: Measure[], beside: Beside | null): void {
     const { key, unit } = this.measure;
-    const same = beside?.data.measures.find((measure) => measure.key === key && measure.unit === unit);
+    const same = measures.find((measure) => measure.key === key && measure.unit === unit);
     this.other =
       beside === null || same === undefined
         ? null

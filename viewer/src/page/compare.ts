@@ -6,7 +6,7 @@
 import type { Motion } from "../data/motion";
 import { quantity } from "../data/number";
 import { readOther, type Other, type OtherLimit } from "../data/other";
-import { BrokenData, deciding, nearest, type Limit } from "../data/page_data";
+import { BrokenData, nearest, type Limit } from "../data/page_data";
 import { Scene3d } from "../scene/scene3d";
 import type { Charts } from "./charts";
 import { byId, make } from "./dom";
@@ -103,7 +103,7 @@ export class Comparison {
   async take(text: string, name: string): Promise<void> {
     let other: Other;
     try {
-      other = await readOther(text);
+      other = await readOther(text, this.motion.data.result_version);
     } catch (error) {
       const reason = error instanceof BrokenData ? error.message : String(error);
       tell(`${name} cannot be compared: ${reason}.`);
@@ -231,8 +231,8 @@ export class Comparison {
       signed(other.duration - duration, "s"),
     ]);
     const missing: string[] = [];
-    for (const limit of deciding(data)) {
-      const same = partnerOf(data.sheet?.limits.includes(limit) === true ? other.sheet : other.own, limit);
+    for (const limit of data.limits) {
+      const same = partnerOf(other.limits, limit);
       if (same === null) {
         missing.push(limit.name);
         continue;
@@ -304,8 +304,8 @@ function shares(times: number[]): number[] {
 }
 
 /** The limit of another result that is about the same, in the same unit. */
-function partnerOf(list: OtherLimit[] | null, limit: Limit): OtherLimit | null {
-  return list?.find(({ name, unit }) => name === limit.name && unit === limit.unit) ?? null;
+function partnerOf(list: OtherLimit[], limit: Limit): OtherLimit | null {
+  return list.find(({ name, unit }) => name === limit.name && unit === limit.unit) ?? null;
 }
 
 function verdict({ value, unit, ok }: OtherLimit): HTMLElement {

@@ -5,7 +5,7 @@
 import { colourAt, mapOf, shareOf } from "../data/colour_map";
 import type { Motion } from "../data/motion";
 import { bracketed, quantity, short } from "../data/number";
-import { hasSurface, type Field } from "../data/page_data";
+import { modelText, type Field } from "../data/page_data";
 import { fieldInForce } from "../data/ranges";
 import { tell, type Comparison } from "./compare";
 import { byId, themeColour } from "./dom";
@@ -138,9 +138,7 @@ export class Exporter {
 
   /** The colors that are shown, if any are. */
   private field(): Field | null {
-    const { now } = this.state;
-    if (now.model === "catenaries" && !hasSurface(this.motion.data)) return null;
-    return fieldInForce(this.motion, now) ?? null;
+    return fieldInForce(this.motion, this.state.now) ?? null;
   }
 
   /** Pictures, scale and words on one sheet, so many pixels for one of CSS. */
@@ -181,7 +179,7 @@ export class Exporter {
     const field = this.field();
     if (field !== null) this.drawScale(pen, field, this.width() - SCALE + 12, HEAD, tall);
     const step = `Step ${String(data.steps[now.index])} of ${String(data.steps[data.steps.length - 1])}`;
-    const model = now.model === "sheet" ? "sheet" : "catenaries";
+    const model = modelText(data, now.model);
     const foot = `${step}, t = ${quantity(data.times[now.index]!, "s")}, ${model}${compared ? " (step and time of A)" : ""}`;
     const arrow = byId("force-scale");
     const loads = arrow.hidden ? "" : `, ${arrow.querySelector("b")?.textContent ?? ""}`;

@@ -4,8 +4,9 @@
 
 import { Vector3 } from "three";
 import type { FabricLine, LinePoint } from "../data/fabric_line";
+import type { Drape } from "../data/drape";
 import { MICRO, type Motion } from "../data/motion";
-import { fieldsOf, type FieldKey, type Measure, type Model, type Place } from "../data/page_data";
+import type { FieldKey, Measure, Model, Place } from "../data/page_data";
 import { fieldInForce } from "../data/ranges";
 import type { Scene3d } from "../scene/scene3d";
 import type { Comparison } from "./compare";
@@ -33,7 +34,7 @@ export interface FullHandle extends Handle {
   readonly frames: number[];
   /** The model that is shown; can be set. */
   model: Model;
-  /** A node of the sheet in view (m), or null without a sheet. */
+  /** A node of the sheet in view (m), or null where none is shown. */
   node(number: number): Place | null;
   /** Fabric coordinates of a node of the sheet (mm), or null without a sheet. */
   fabric(number: number): [number, number] | null;
@@ -43,7 +44,7 @@ export interface FullHandle extends Handle {
   colour: FieldKey;
   readonly colours: FieldKey[];
   legend(): LegendFacts;
-  /** The charts' numbers. */
+  /** The numbers of the charts in view. */
   readonly measures: Measure[];
   /** Vertex of the surface as drawn (m); u runs fastest. */
   vertex(index: number): Place;
@@ -71,6 +72,7 @@ export function handle(
   comparison: Comparison,
 ): FullHandle {
   const { data } = motion;
+  const shown = () => motion.drape(state.now.model);
   return {
     ready,
     get step() {
@@ -94,11 +96,12 @@ export function handle(
       chooseModel(state, data, model);
     },
     node: (number) => {
-      const shown = motion.sheet?.stateOf(state.now.index) ?? null;
-      return shown === null ? null : motion.sheet!.node(shown, number);
+      const { sheet } = shown();
+      const picture = shown().picture(state.now.index);
+      return sheet === null || picture === null ? null : sheet.node(picture, number);
     },
     fabric: (number) => {
-      const places = motion.sheet?.places;
+      const places = shown().sheet?.places;
       return places === undefined ? null : [places[2 * number]! / 1000, places[2 * number + 1]! / 1000];
     },
     onScreen: (place) => scene?.eye.project(new Vector3(...place)) ?? null,
@@ -109,11 +112,13 @@ export function handle(
       state.set({ colour });
     },
     get colours() {
-      return fieldsOf(data, state.now.model).map((field) => field.key);
+      return shown().data.fields.map((field) => field.key);
     },
     legend: () => legendOf(fieldInForce(motion, state.now)!),
-    measures: data.measures,
-    vertex: (index) => scene?.vertex(index) ?? stored(motion, state.now.index, index),
+    get measures() {
+      return shown().data.measures;
+    },
+    vertex: (index) => scene?.vertex(index) ?? stored(shown(), state.now.index, index),
     get section() {
       return state.now.section;
     },
@@ -134,7 +139,7 @@ export function handle(
   };
 }
 
-function stored(motion: Motion, step: number, index: number): Place {
-  const points = motion.surface.at(step);
+function stored(drape: Drape, step: number, index: number): Place {
+  const points = drape.points(step);
   return [0, 1, 2].map((c) => points[3 * index + c]! * MICRO) as Place;
 }

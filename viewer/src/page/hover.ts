@@ -3,8 +3,10 @@
 import { vertexPlace } from "../data/fabric_line";
 import type { Motion } from "../data/motion";
 import { quantity, short } from "../data/number";
-import { deciding, fieldsOf, gripperName, type Place } from "../data/page_data";
-import { valueOf } from "../data/ranges";
+import type { CatenaryStates } from "../data/catenary_states";
+import type { Drape } from "../data/drape";
+import { gripperName, isBeside, modelText, type Field, type Place } from "../data/page_data";
+import type { SheetStates } from "../data/sheet_states";
 import type { Found, Scene3d } from "../scene/scene3d";
 import { make } from "./dom";
 import type { Choice, State } from "./state";
@@ -31,7 +33,7 @@ export function linkHover(
 ): void {
   const plate = make("div", { class: "hover" });
   plate.hidden = true;
-  const note = make("p", { class: "no-state" }, "There is no state of the sheet in this step.");
+  const note = make("p", { class: "picture-note", role: "note" });
   view.append(plate, note);
   let pointer: [number, number] | null = null;
   let pressed: { at: [number, number]; time: number } | null = null;
@@ -100,7 +102,9 @@ export function linkHover(
     later();
   });
   state.listen((now) => {
-    note.hidden = !isEmpty(motion, now);
+    const said = noteOf(motion, now);
+    note.hidden = said === null;
+    note.textContent = said;
     later();
   });
 }
@@ -109,9 +113,24 @@ function far([x, y]: [number, number], [a, b]: [number, number]): boolean {
   return Math.hypot(x - a, y - b) > TAP.away;
 }
 
-/** Whether the sheet is to be shown in a step in which it has no state. */
+/** Whether the model in view has no ply in a step. */
 function isEmpty(motion: Motion, { model, index }: Choice): boolean {
-  return model === "sheet" && motion.sheet !== null && motion.sheet.stateOf(index) === null;
+  return motion.drape(model).picture(index) === null;
+}
+
+/** What a reader must know of the picture: that it judges nothing, or that the ply is that of another step. */
+function noteOf(motion: Motion, now: Choice): string | null {
+  const { data } = motion;
+  const drape = motion.drape(now.model);
+  const picture = drape.picture(now.index);
+  const said: string[] = [];
+  if (isBeside(data, now.model)) said.push(modelText(data, now.model));
+  if (picture === null) said.push(`there is no state of the ${drape.model} in this step`);
+  else if (drape.data.drawn[picture] !== data.steps[now.index])
+    said.push(`ply as in step ${String(drape.data.drawn[picture])}, the nearest that was kept`);
+  if (said.length === 0) return null;
+  const text = said.join(" · ");
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** Where something is, in millimeters. */
@@ -121,60 +140,64 @@ function position(place: Place): Row {
 }
 
 /** Fabric coordinates of a node or vertex (mm); null where catenaries span no surface. */
-export function fabricPlace(motion: Motion, now: Choice, number: number): [number, number] | null {
-  const { sheet } = motion;
-  if (now.model === "sheet" && sheet !== null)
-    return [sheet.places[2 * number]! / 1000, sheet.places[2 * number + 1]! / 1000];
-  return motion.data.grid.includes(0) ? null : vertexPlace(motion, number);
+export function fabricPlace({ sheet, catenaries }: Drape, number: number): [number, number] | null {
+  if (sheet !== null) return [sheet.places[2 * number]! / 1000, sheet.places[2 * number + 1]! / 1000];
+  if (catenaries === null || catenaries.data.grid.includes(0)) return null;
+  return vertexPlace(catenaries, number);
 }
 
 function ofNode(motion: Motion, now: Choice, { number, place }: Found): [string, Row[]] {
-  const at = fabricPlace(motion, now, number);
+  const drape = motion.drape(now.model);
+  const at = fabricPlace(drape, number);
   const title = at === null ? "ply" : `u ${short(at[0])}, v ${short(at[1])}\u00a0mm`;
+  const picture = drape.picture(now.index)!;
   const rows =
-    now.model === "sheet" && motion.sheet !== null
-      ? ofSheet(motion, now, number)
-      : ofVertex(motion, now, number);
+    drape.sheet !== null
+      ? ofSheet(drape.sheet, drape.data.fields, now.colour, picture, number)
+      : drape.catenaries !== null
+        ? ofVertex(drape.catenaries, drape.data.fields, now.colour, picture, number)
+        : [];
   return [title, [...rows, position(place)]];
 }
 
-function ofSheet(motion: Motion, { index, colour }: Choice, number: number): Row[] {
-  const sheet = motion.sheet!;
-  const state = sheet.stateOf(index)!;
+/** A node of the sheet: what colors tell, of values of cells the largest around it, and what they do not tell. */
+function ofSheet(sheet: SheetStates, fields: Field[], colour: string, state: number, number: number): Row[] {
   const rows: Row[] = [];
-  const add = (key: string, label: string, value: string | null) => {
-    if (value !== null) rows.push({ label, value, coloured: key === colour });
-  };
-  const told = (value: number | null, unit: string) => (value === null ? null : quantity(round(value), unit));
-  add("over_mold", "height over the mold", told(sheet.overMold(state, number), "mm"));
-  const share = motion.data.sample?.share ?? "";
-  add("spread", `kept by ${share} of the cells`, told(sheet.spreadAt(number), "mm"));
-  if (sheet.data.height === null)
-    add("height", "height", told(sheet.positions.at(state)[3 * number + 2]! / 1000, "mm"));
-  add("shear", "shear", told(sheet.shearAt(state, number), "°"));
-  const yarn = sheet.yarnAt(state, number);
-  if (yarn !== null) {
-    add("strain", "yarn strain", quantity(yarn[0], "%"));
-    add("", "yarn tension", quantity(yarn[1], "N/m"));
+  for (const field of fields) {
+    if (field.key === "landing") continue;
+    const value =
+      field.on === "cell" ? sheet.around(field, state, number) : sheet.value(field, state, number);
+    if (value === null) continue;
+    // strains are told in full: most of them are far below a hundredth of a percent
+    const digits = field.scale === "orders" && field.on === "cell" ? value : round(value);
+    rows.push({ label: field.label, value: quantity(digits, field.unit), coloured: field.key === colour });
   }
+  const tension = sheet.tensionAt(state, number);
+  if (tension !== null) rows.push({ label: "yarn tension", value: quantity(tension, "N/m") });
   const step = sheet.data.landing[number]!;
   if (sheet.data.height !== null) {
-    add("", "contact", sheet.touches(state, number) ? "touches the mold" : "none");
-    add("landing", "lands", step === 0 ? "never" : `in step ${String(step)}`);
+    rows.push({ label: "contact", value: sheet.touches(state, number) ? "touches the mold" : "none" });
+    const lands = step === 0 ? "never" : `in step ${String(step)}`;
+    rows.push({ label: "lands", value: lands, coloured: colour === "landing" });
   }
   return rows;
 }
 
 /** A vertex between the catenaries; of values of cells those of the cell it lies in. */
-function ofVertex(motion: Motion, { index, colour }: Choice, number: number): Row[] {
-  const { grid, divisions } = motion.data;
+function ofVertex(
+  catenaries: CatenaryStates,
+  fields: Field[],
+  colour: string,
+  picture: number,
+  number: number,
+): Row[] {
+  const { grid, divisions } = catenaries.data;
   const columns = (grid[0] - 1) * divisions + 1;
   const along = (k: number, count: number) => Math.min(Math.floor(k / divisions), count - 2);
   const cell =
     along(Math.floor(number / columns), grid[1]) * (grid[0] - 1) + along(number % columns, grid[0]);
-  return fieldsOf(motion.data, "catenaries").flatMap((field) => {
-    if (field.on === "cell" && (grid[0] < 2 || grid[1] < 2)) return [];
-    const value = valueOf(motion, "catenaries", field, index, field.on === "cell" ? cell : number);
+  return fields.flatMap((field) => {
+    const value = catenaries.value(field, picture, field.on === "cell" ? cell : number);
     if (value === null) return [];
     return [
       { label: field.label, value: quantity(round(value), field.unit), coloured: field.key === colour },
@@ -183,67 +206,46 @@ function ofVertex(motion: Motion, { index, colour }: Choice, number: number): Ro
 }
 
 function ofGripper(motion: Motion, now: Choice, { number, place }: Found): [string, Row[]] {
-  const { data, sheet } = motion;
-  const title = `gripper ${gripperName(data.ids[number]!)}`;
-  const state = now.model === "sheet" ? (sheet?.stateOf(now.index) ?? null) : null;
-  const normals = state === null ? motion.normals.at(now.index) : sheet!.normals.at(state);
-  const normal = [...normals.subarray(3 * number, 3 * number + 3)] as Place;
-  const rows: Row[] = [{ label: "vacuum", value: vacuum(motion, now, state, number) }];
-  const limit = deciding(data).find(({ name }) => name === "tilt")?.limit ?? null;
-  rows.push({
-    label: "tilt",
-    value: quantity(tilt(motion, now.index, number, normal), "°") + upTo(limit, "°"),
-  });
-  if (state !== null && sheet!.holds(state, number) !== false) {
-    const [along, across] = sheet!.loads(state, number);
-    const { allowed } = sheet!.data;
-    const load = (force: Place, most: number | null) => quantity(Math.hypot(...force), "N") + upTo(most, "N");
+  const { grippers, data } = motion.drape(now.model);
+  const { index } = now;
+  const { allowed } = data;
+  const title = `gripper ${gripperName(motion.data.ids[number]!)}`;
+  const rows: Row[] = [
+    { label: "vacuum", value: vacuum(motion, now, grippers.holds(index, number) === false, number) },
+    { label: "tilt", value: quantity(grippers.tilt(index, number), "°") + upTo(allowed?.tilt, "°") },
+  ];
+  if (grippers.holds(index, number) !== false) {
+    const [along, across] = grippers.loads(index, number);
+    const load = (force: Place, most?: number | null) =>
+      quantity(Math.hypot(...force), "N") + upTo(most, "N");
+    const normal = grippers.normals.at(index).subarray(3 * number, 3 * number + 3);
     const up = across.reduce((sum, f, c) => sum + f * normal[c]!, 0);
     rows.push(
-      { label: "force", value: load(sheet!.force(state, number), allowed.whole) },
-      { label: "along the ply", value: load(along, allowed.along) },
+      { label: "force", value: load(grippers.force(index, number), allowed?.whole) },
+      { label: "along the ply", value: load(along, allowed?.along) },
       up > 0
-        ? { label: "presses the pad", value: load(across, null) }
-        : { label: "draws off the pad", value: load(across, allowed.across) },
+        ? { label: "presses the pad", value: load(across) }
+        : { label: "draws off the pad", value: load(across, allowed?.across) },
     );
   }
   return [title, [...rows, position(place)]];
 }
 
-function upTo(limit: number | null, unit: string): string {
-  return limit === null ? "" : `, ≤\u202f${quantity(limit, unit)} allowed`;
+function upTo(limit: number | null | undefined, unit: string): string {
+  return limit === null || limit === undefined ? "" : `, ≤\u202f${quantity(limit, unit)} allowed`;
 }
 
 /** What the vacuum of a pad does in a step. */
-function vacuum(motion: Motion, { index }: Choice, state: number | null, gripper: number): string {
+function vacuum(motion: Motion, { index }: Choice, gone: boolean, gripper: number): string {
   const name = gripperName(motion.data.ids[gripper]!);
   const events = motion.data.events.filter(({ grippers }) => grippers.includes(name));
   const when = (kind: string) => events.find((event) => event.kind === kind)?.time ?? null;
   const [press, release] = [when("press"), when("release")];
-  if (state !== null && motion.sheet!.holds(state, gripper) === false)
-    return release === null ? "off, has let go" : `off since ${quantity(release, "s")}`;
+  if (gone) return release === null ? "off, has let go" : `off since ${quantity(release, "s")}`;
   const presses = press !== null && motion.data.times[index]! >= press;
   return (
     (presses ? "on, presses" : "on, holds") + (release === null ? "" : ` until ${quantity(release, "s")}`)
   );
-}
-
-/** Angle (°) between a pad's normal and its stem, which is upright unless a tool turns it. */
-function tilt(motion: Motion, index: number, gripper: number, normal: Place): number {
-  let stem: Place = [0, 0, 1];
-  if (motion.cell !== null) {
-    // the stems follow the pads
-    const from = 7 * (motion.grippers.count + gripper);
-    const [x, y, z, w] = [...motion.cell.origins.at(index).subarray(from + 3, from + 7)].map(
-      (c) => c * 1e-6,
-    ) as [number, number, number, number];
-    stem = [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)];
-  }
-  const dot = stem.reduce((sum, c, n) => sum + c * normal[n]!, 0);
-  const cross = [0, 1, 2].map(
-    (n) => stem[(n + 1) % 3]! * normal[(n + 2) % 3]! - stem[(n + 2) % 3]! * normal[(n + 1) % 3]!,
-  );
-  return (Math.atan2(Math.hypot(...cross), dot) * 180) / Math.PI;
 }
 
 /** Whole micrometers, and no zero with a sign. */

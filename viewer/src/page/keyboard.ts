@@ -1,20 +1,20 @@
 /** Keys for everything, and the list of them. */
 
-import { hasCatenaries, type PageData } from "../data/page_data";
+import { fieldsOf, type PageData } from "../data/page_data";
 import type { Eye, StandardView } from "../scene/camera";
 import type { Comparison } from "./compare";
 import { byId, make } from "./dom";
 import type { Player } from "./player";
 import type { Section } from "./section";
 import type { State } from "./state";
-import { chooseModel, modes } from "./toolbar";
+import { chooseModel } from "./toolbar";
 
 const HELP: [string, string][] = [
   ["← →", "step back, step on"],
   ["Home, End", "first step, last step"],
   ["Space", "play, pause"],
-  ["1 – 5", "the colors in their order"],
-  ["C", "sheet or catenaries"],
+  ["1 – 9", "the colors in their order"],
+  ["C", "the model that decides, or the one for comparison"],
   ["T F S I", "view from top, front, side, iso"],
   ["0", "fit into the picture"],
   ["+ −", "nearer, farther"],
@@ -58,8 +58,8 @@ export function linkKeyboard(
       b: () => state.set({ cell: !cell }),
       p: () => state.set({ forces: !forces }),
       c: () => {
-        if (data.sheet !== null && hasCatenaries(data))
-          chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
+        if (data.also === null) return;
+        chooseModel(state, data, model === data.also.model ? data.drape.model : data.also.model);
       },
       Escape: () => state.set({ pointer: null }),
     };
@@ -77,8 +77,8 @@ export function linkKeys(
   linkHelp(help);
   const find = (key: string): (() => void) | undefined => {
     const { stepRange, orders, diagonals, mold, model } = state.now;
-    const mode = modes(data, model)[Number(key) - 1];
-    if (mode !== undefined) return () => state.set({ colour: mode[0] });
+    const mode = fieldsOf(data, model)[Number(key) - 1];
+    if (mode !== undefined) return () => state.set({ colour: mode.key });
     const view = VIEWS[key.toLowerCase()];
     if (view !== undefined) return () => eye?.look(view);
     const acts: Record<string, () => void> = {

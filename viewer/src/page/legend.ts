@@ -4,7 +4,7 @@ import { gradient, mapOf, shareOf } from "../data/colour_map";
 import { bracketed, full, quantity, short, ticks, ticksOfOrders } from "../data/number";
 import type { Motion } from "../data/motion";
 import { USES } from "../scene/forces";
-import { fieldsOf, hasSurface, type Field } from "../data/page_data";
+import { fieldsOf, type Field } from "../data/page_data";
 import { fieldInForce, hasOrders } from "../data/ranges";
 import { byId, make, renew } from "./dom";
 import type { Choice, State } from "./state";
@@ -43,8 +43,8 @@ export function linkLegend(state: State, motion: Motion): void {
     const moved = now.index !== before.index || now.otherIndex !== before.otherIndex;
     if (!changed && !(now.stepRange && moved)) return;
     const field = fieldInForce(motion, now);
-    // A strip of ply has no cells, so nothing is coloured.
-    host.hidden = field === undefined || (now.model === "catenaries" && !hasSurface(motion.data));
+    // a strip of ply has no cells, so nothing is colored
+    host.hidden = field === undefined;
     check.checked = now.stepRange;
     orders.checked = now.orders;
     const given = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
@@ -56,21 +56,24 @@ export function linkLegend(state: State, motion: Motion): void {
 /** What the longest arrow stands for, of a second result too. */
 function showForceScale(motion: Motion, now: Choice): void {
   const note = byId("force-scale");
-  const most = (of: Motion | null, index: number) => {
-    const state = of?.sheet?.stateOf(index) ?? null;
-    return now.model === "sheet" && now.forces && state !== null ? of!.sheet!.mostLoad(state) : 0;
-  };
+  const most = (of: Motion | null, index: number) =>
+    now.forces && of !== null ? of.drape(now.model).grippers.mostLoad(index) : 0;
   const [load, other] = [most(motion, now.index), most(now.other, now.otherIndex)];
   // pads that have let go have no loads
   note.hidden = load === 0 && other === 0;
   if (load === 0 && other === 0) return;
+  // a model that judges nothing has no limits
+  const judged = motion.drape(now.model).data.allowed !== null;
   const uses = USES.map(({ colour, text }) => {
     const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = `var(--${colour})`;
     return make("span", {}, swatch, text);
   });
   const beside = now.other === null ? "" : `, of B ${quantity(other, "N")}`;
-  note.replaceChildren(make("b", {}, `longest arrow ${quantity(load, "N")}${beside}`), ...uses);
+  note.replaceChildren(
+    make("b", {}, `longest arrow ${quantity(load, "N")}${beside}`),
+    ...(judged ? uses : []),
+  );
 }
 
 /** The ends of a scale of orders stand for everything beyond them too. */

@@ -1,39 +1,33 @@
 /** The verdict and the table of limits; a row shows its step and its place on the ply. */
 
 import { full, quantity, withUnit } from "../data/number";
-import { deciding, nearest, type Limit, type Model, type PageData } from "../data/page_data";
+import { nearest, type Limit, type PageData } from "../data/page_data";
 import { byId, make } from "./dom";
 import { colourOf, pointerOf } from "./opening";
 import type { State } from "./state";
 import { chooseModel } from "./toolbar";
 
-/** One line: accepted or not. */
+/** One line: accepted or not, by the model that decides. */
 function verdict(data: PageData): string {
-  const limits = deciding(data);
+  const { limits, sample } = data;
   const failed = limits.filter((limit) => !limit.ok).length;
   const count = limits.length;
-  const by = data.sheet === null ? "" : " by the sheet";
-  const cells =
-    data.sample === null
-      ? ""
-      : `${String(data.sample.accepted)} of ${String(data.sample.cells.length)} cells`;
+  const by = `by the ${data.drape.model}`;
+  const cells = sample === null ? "" : `${String(sample.accepted)} of ${String(sample.cells.length)} cells`;
   if (data.accepted) {
     const kept = count === 0 ? "no limit is set" : `${all(count)} kept`;
-    return `Accepted${by}: ${kept}${cells === "" ? "" : `, in ${cells}`}`;
+    return `Accepted ${by}: ${kept}${cells === "" ? "" : `, in ${cells}`}`;
   }
-  if (failed === 0 && data.sample?.ok === false) {
-    return `Not accepted${by}: ${cells} keep all limits, ${String(data.sample.needed)} must`;
+  if (failed === 0 && sample?.ok === false) {
+    return `Not accepted ${by}: ${cells} keep all limits, ${String(sample.needed)} must`;
   }
-  if (failed === 0) return `Not accepted${by}`;
-  return `Not accepted${by}: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
+  if (failed === 0) return `Not accepted ${by}`;
+  return `Not accepted ${by}: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
 }
 
-/** Why there are fewer steps than planned, if there are. */
-function shortened(data: PageData): string {
-  const ended = data.sheet?.ended ?? null;
-  if (ended !== null) return `. ${ended.charAt(0).toUpperCase()}${ended.slice(1)}`;
-  if (data.stopped !== null) return `. Stopped: ${data.stopped}`;
-  return data.interrupted ? ". Interrupted: fewer steps than planned" : "";
+/** Why the end does not count, if it does not. */
+function shortened({ ended }: PageData): string {
+  return ended === null ? "" : `. ${ended.charAt(0).toUpperCase()}${ended.slice(1)}`;
 }
 
 function all(count: number): string {
@@ -57,30 +51,12 @@ export function sign(ok: boolean): HTMLElement {
 
 export function showLimits(state: State, data: PageData): void {
   const section = byId("limits");
-  if (data.sheet === null) {
-    if (data.limits.length === 0) section.append(make("p", { class: "quiet" }, "The scene sets no limits."));
-    else section.append(limitsTable(state, data, "catenaries", data.limits));
-    return;
-  }
-  const own = data.limits.filter((limit) => !limit.motion);
-  const failed = own.filter((limit) => !limit.ok).length;
-  const word = failed === 0 ? `${all(own.length)} kept` : `${failed} of ${own.length} exceeded`;
-  section.append(
-    make("h3", {}, "Of the sheet, which decides"),
-    limitsTable(state, data, "sheet", deciding(data)),
-  );
-  if (own.length === 0) return;
-  section.append(
-    make(
-      "details",
-      {},
-      make("summary", {}, `Of the catenaries, which do not decide: ${word}`),
-      limitsTable(state, data, "catenaries", own),
-    ),
-  );
+  if (data.limits.length === 0) section.append(make("p", { class: "quiet" }, "The scene sets no limits."));
+  else section.append(limitsTable(state, data, data.limits));
 }
 
-export function limitsTable(state: State, data: PageData, model: Model, limits: Limit[]): HTMLElement {
+/** A table of limits of the model that decides. */
+export function limitsTable(state: State, data: PageData, limits: Limit[]): HTMLElement {
   const heads: [string, string][] = [
     ["Limit", ""],
     ["", ""],
@@ -90,7 +66,7 @@ export function limitsTable(state: State, data: PageData, model: Model, limits: 
     ["At", ""],
   ];
   const body = make("tbody");
-  for (const limit of limits) body.append(row(state, data, model, limit));
+  for (const limit of limits) body.append(row(state, data, limit));
   const head = make("tr");
   for (const [text, kind] of heads) {
     head.append(
@@ -115,7 +91,7 @@ export function limitCells(limit: Limit): HTMLElement[] {
   ];
 }
 
-function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTableRowElement {
+function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
   const index = nearest(data.steps, limit.step);
   const cells = limitCells(limit);
   cells.splice(4, 0, make("td", { class: "number" }, limit.step === null ? "–" : String(limit.step)));
@@ -130,7 +106,7 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
   cells[5]!.replaceChildren(button);
   tr.classList.add("linked");
   tr.addEventListener("click", () => {
-    showLimit(state, data, limit, limit.motion ? state.now.model : model);
+    showLimit(state, data, limit);
     for (const other of document.querySelectorAll("table.limits [aria-current]"))
       other.removeAttribute("aria-current");
     tr.setAttribute("aria-current", "true");
@@ -142,14 +118,10 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
 }
 
 /** Goes to the step of a limit, in the colors that it is about, and marks its place. */
-export function showLimit(
-  state: State,
-  data: PageData,
-  limit: Limit,
-  model: Model = limit.motion ? state.now.model : data.sheet === null ? "catenaries" : "sheet",
-): void {
+export function showLimit(state: State, data: PageData, limit: Limit): void {
+  const { model } = data.drape;
   chooseModel(state, data, model);
-  const colour = colourOf(data, model, limit);
+  const colour = colourOf(data, limit);
   if (colour !== null) state.set({ colour });
   state.goto(nearest(data.steps, limit.step));
   const pointer = pointerOf(data, limit);

@@ -4,29 +4,12 @@
  */
 
 import { quantity } from "../data/number";
-import {
-  deciding,
-  fieldsOf,
-  nearest,
-  type FieldKey,
-  type Limit,
-  type Model,
-  type PageData,
-} from "../data/page_data";
+import { nearest, type FieldKey, type Limit, type Model, type PageData } from "../data/page_data";
 import type { Pointer } from "./state";
 
-/** The color mode that shows what a limit is about. */
-const COLOURS: Record<string, FieldKey> = {
-  height: "over_mold",
-  gap: "gap",
-  shear: "shear",
-  strain: "strain",
-};
-
-/** The color mode of a model that shows what a limit is about; null if none does. */
-export function colourOf(data: PageData, model: Model, limit: Limit): FieldKey | null {
-  const key = COLOURS[limit.name] ?? null;
-  return fieldsOf(data, model).some((field) => field.key === key) ? key : null;
+/** The color mode of the model that decides that shows what a limit is about; null if none does. */
+export function colourOf(data: PageData, limit: Limit): FieldKey | null {
+  return data.drape.fields.find(({ measure }) => measure === limit.key)?.key ?? null;
 }
 
 /** The place of a limit as a marker; null for one without a step or a place. */
@@ -45,8 +28,8 @@ export function pointerOf(data: PageData, limit: Limit): Pointer | null {
 
 /** The limit that the page opens with; null where none has a step. */
 export function worst(data: PageData): Limit | null {
-  const known = deciding(data).filter(({ step }) => step !== null);
-  const last = lastShown(data);
+  const known = data.limits.filter(({ step }) => step !== null);
+  const last = data.steps.length - 1;
   const atEnd = (limit: Limit) => nearest(data.steps, limit.step) === last;
   const failed = known.filter(({ ok }) => !ok);
   const placed = known.filter((limit) => limit.place !== null && !limit.motion && atEnd(limit));
@@ -56,14 +39,6 @@ export function worst(data: PageData): Limit | null {
       return rest.reduce((most, limit) => (limit.ratio > most.ratio ? limit : most), first);
   }
   return null;
-}
-
-/** Index of the last step that shows something: a sheet may end before the motion does. */
-export function lastShown(data: PageData): number {
-  const states = data.sheet?.states ?? [];
-  let last = data.steps.length - 1;
-  while (last > 0 && states[last] === null) last--;
-  return last;
 }
 
 /** What the address asks for behind its #: `step=12&colour=shear`. */
@@ -77,10 +52,10 @@ export function asked(data: PageData): {
   const index = step === null || !/^\d+$/.test(step) ? null : nearest(data.steps, Number(step));
   const model = given.get("model");
   const colour = given.get("colour");
-  const known = [...data.fields, ...(data.sheet?.fields ?? [])].find(({ key }) => key === colour);
+  const known = [...data.drape.fields, ...(data.also?.fields ?? [])].find(({ key }) => key === colour);
   return {
     index,
     colour: known?.key ?? null,
-    model: model === "catenaries" || (model === "sheet" && data.sheet !== null) ? model : null,
+    model: [data.drape, data.also].find((drape) => drape?.model === model)?.model ?? null,
   };
 }

@@ -54,7 +54,7 @@ export function showSample(state: State, motion: Motion): void {
         "details",
         {},
         make("summary", {}, `Limits, by the values that ${sample.share} of the cells keep`),
-        limitsTable(state, motion.data, "sheet", sample.limits),
+        limitsTable(state, motion.data, sample.limits),
       ),
     );
   }
@@ -173,12 +173,14 @@ function highest(state: State, sample: SampleData, pointer: Pointer | null): HTM
 function pointerOf(motion: Motion): Pointer | null {
   const { sample, steps } = motion.data;
   const index = steps.length - 1;
-  const at = motion.sheet?.stateOf(index) ?? null;
+  const { sheet } = motion.deciding;
+  const at = motion.deciding.picture(index);
   const node = sample?.highest?.node ?? null;
-  if (sample === null || at === null || node === null || motion.sheet!.data.spread === null) return null;
+  if (sample === null || sheet === null || at === null || node === null || sheet.data.spread === null)
+    return null;
   const { height_mm, line, gripper } = sample.highest!;
   const label = `Highest: ${quantity(height_mm, "mm")}\n${sample.share} of the cells keep it\nline from ${line}\nnear ${gripper}`;
-  return { index, place: motion.sheet!.node(at, node), label };
+  return { index, place: sheet.node(at, node), label };
 }
 
 /** The colors of the spread are about the end: choosing them goes there and marks the highest place. */

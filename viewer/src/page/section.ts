@@ -8,9 +8,9 @@ import { Vector3 } from "three";
 import uPlot from "uplot";
 import { fabricBounds, pieces, type FabricLine, type LinePoint } from "../data/fabric_line";
 import { MoldBelow } from "../data/mold_below";
+import type { Drape } from "../data/drape";
 import type { Motion } from "../data/motion";
 import { quantity, short, ticks } from "../data/number";
-import { deciding, type Model } from "../data/page_data";
 import type { Found, Scene3d } from "../scene/scene3d";
 import { byId, make, themeColour } from "./dom";
 import { fabricPlace } from "./hover";
@@ -42,7 +42,7 @@ export class Section {
     private readonly motion: Motion,
     private readonly scene: Scene3d | null,
   ) {
-    const limit = deciding(motion.data).find(({ name }) => name === "height")?.limit ?? null;
+    const limit = motion.data.drape.fields.find(({ key }) => key === "over_mold")?.limit ?? null;
     this.profile = new Chart(byId("section-profile"), "Height z of ply and mold (mm)", null, this.point);
     this.height = new Chart(byId("section-height"), "Height over the mold (mm)", limit, this.point);
     const open = byId<HTMLButtonElement>("section-open");
@@ -54,8 +54,8 @@ export class Section {
       });
     }
     this.slider.addEventListener("input", () => {
-      const { section, model } = state.now;
-      const bounds = fabricBounds(motion, model);
+      const { section } = state.now;
+      const bounds = fabricBounds(this.drape);
       if (section === null || bounds === null) return;
       const [low, high] = bounds[section.along === "u" ? 1 : 0];
       this.choose(section.along, low + (Number(this.slider.value) / STEPS) * (high - low));
@@ -65,17 +65,22 @@ export class Section {
     state.listen((now, before) => {
       const keys = ["section", "index", "model", "other", "otherIndex", "dark"] as const;
       if (now !== before && !keys.some((key) => now[key] !== before[key])) return;
-      open.hidden = fabricBounds(motion, now.model) === null;
+      open.hidden = fabricBounds(this.drape) === null;
       open.setAttribute("aria-pressed", String(now.section !== null));
       this.host.hidden = now.section === null;
       if (now.section !== null) this.draw(now.section);
     });
   }
 
+  /** The drape by the model in view. */
+  private get drape(): Drape {
+    return this.motion.drape(this.state.now.model);
+  }
+
   /** Opens the section in the middle of the ply, or closes it. */
   toggle(): void {
     if (this.state.now.section !== null) this.state.set({ section: null });
-    else if (fabricBounds(this.motion, this.state.now.model) !== null) this.choose("u", this.middle("u"));
+    else if (fabricBounds(this.drape) !== null) this.choose("u", this.middle("u"));
   }
 
   /** A click on the ply brings the line there. */
@@ -84,8 +89,8 @@ export class Section {
     if (now.section === null) return;
     const place =
       found.kind === "node"
-        ? fabricPlace(this.motion, now, found.number)
-        : padAt(this.motion, now.model, now.index, found);
+        ? fabricPlace(this.drape, found.number)
+        : padAt(this.motion, this.drape, now.index, found);
     if (place !== null) this.choose(now.section.along, place[now.section.along === "u" ? 1 : 0]);
   }
 
@@ -102,24 +107,24 @@ export class Section {
   private middle(along: "u" | "v"): number {
     const { now } = this.state;
     const across = along === "u" ? 1 : 0;
-    const at = now.pointer === null ? null : nodeAt(this.motion, now.model, now.index, now.pointer.place);
+    const at = now.pointer === null ? null : nodeAt(this.drape, now.index, now.pointer.place);
     if (at !== null) return at[across];
-    const bounds = fabricBounds(this.motion, now.model)!;
+    const bounds = fabricBounds(this.drape)!;
     return (bounds[across][0] + bounds[across][1]) / 2;
   }
 
   private draw(line: FabricLine): void {
     const { model, index, other, otherIndex } = this.state.now;
     const across = line.along === "u" ? "v" : "u";
-    const bounds = fabricBounds(this.motion, model);
+    const bounds = fabricBounds(this.drape);
     if (bounds !== null) {
       const [low, high] = bounds[line.along === "u" ? 1 : 0];
       this.slider.value = String(Math.round((STEPS * (line.at - low)) / Math.max(high - low, 1e-9)));
     }
     byId<HTMLInputElement>(`section-${line.along}`).checked = true;
     this.slider.setAttribute("aria-valuetext", `${across} = ${quantity(line.at, "mm")}`);
-    this.shown = pieces(this.motion, model, index, line, this.moldOf(this.motion));
-    const beside = other === null ? [] : pieces(other, model, otherIndex, line, this.moldOf(other));
+    this.shown = pieces(this.drape, index, line, this.moldOf(this.motion));
+    const beside = other === null ? [] : pieces(other.drape(model), otherIndex, line, this.moldOf(other));
     const heights = this.shown.flat().filter(({ height }) => height !== null);
     const highest = heights.reduce<LinePoint | null>(
       (most, point) => (most === null || point.height! > most.height! ? point : most),
@@ -184,7 +189,7 @@ export class Section {
   private moldOf(motion: Motion): MoldBelow | null {
     let mold = this.molds.get(motion);
     if (mold === undefined) {
-      const given = motion.data.geometry.mold;
+      const given = motion.data.mold;
       mold = given === null ? null : new MoldBelow(given);
       this.molds.set(motion, mold);
     }
@@ -197,34 +202,30 @@ export class Section {
   }
 }
 
-/** Fabric coordinates of the node of the sheet that is nearest to a place (mm). */
-function nodeAt(
-  motion: Motion,
-  model: Model,
-  index: number,
-  place: [number, number, number],
-): [number, number] | null {
-  const { sheet } = motion;
-  const state = sheet?.stateOf(index) ?? null;
-  if (model !== "sheet" || sheet === null || state === null) return null;
+/** Fabric coordinates of the node of the sheet that is nearest to a place (mm); null of catenaries. */
+function nodeAt(drape: Drape, index: number, place: [number, number, number]): [number, number] | null {
+  const { sheet } = drape;
+  const state = drape.picture(index);
+  if (sheet === null || state === null) return null;
   let [best, least] = [-1, Infinity];
   for (let node = 0; node < sheet.data.landing.length; node++) {
     const away = Math.hypot(...sheet.node(state, node).map((c, n) => c - place[n]!));
     if (away < least) [best, least] = [node, away];
   }
-  return best < 0 ? null : [sheet.places[2 * best]! / 1000, sheet.places[2 * best + 1]! / 1000];
+  return best < 0 ? null : fabricPlace(drape, best);
 }
 
 /** Fabric coordinates of a gripper (mm). */
 function padAt(
   motion: Motion,
-  model: Model,
+  drape: Drape,
   index: number,
   { number, place }: Found,
 ): [number, number] | null {
-  if (model === "sheet") return nodeAt(motion, model, index, place);
+  if (drape.catenaries === null) return nodeAt(drape, index, place);
   const [column, row] = motion.data.ids[number]!;
-  return [column * motion.data.pitch[0], row * motion.data.pitch[1]];
+  const { pitch } = drape.catenaries.data;
+  return [column * pitch[0], row * pitch[1]];
 }
 
 interface Course {

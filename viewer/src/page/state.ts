@@ -28,7 +28,7 @@ export interface Choice {
   mold: boolean;
   /** Bodies, obstacles and tool. */
   cell: boolean;
-  /** Forces of the sheet on the pads. */
+  /** Forces of the ply on the pads. */
   forces: boolean;
   /** Lines along which the grippers move. */
   paths: boolean;

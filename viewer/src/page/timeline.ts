@@ -2,7 +2,7 @@
 
 import type { Motion } from "../data/motion";
 import { full, quantity } from "../data/number";
-import { deciding, nearest } from "../data/page_data";
+import { nearest } from "../data/page_data";
 import { byId, make } from "./dom";
 import type { Player } from "./player";
 import type { State } from "./state";
@@ -66,9 +66,9 @@ function addMarks(state: State, motion: Motion): void {
     button.addEventListener("click", () => state.goto(index));
     host.append(button);
   };
-  const contact = motion.sheet === null ? motion.firstContact : motion.sheet.firstContact;
-  if (contact !== null && contact > 0) {
-    mark(contact, "mark-contact", `First contact: step ${data.steps[contact]!}`);
+  const contact = nearest(data.steps, data.first_contact);
+  if (contact > 0) {
+    mark(contact, "mark-contact", `First contact: step ${data.first_contact!}`);
   }
   for (const { time, kind, grippers } of data.events) {
     if (kind === "grip") continue;
@@ -78,7 +78,7 @@ function addMarks(state: State, motion: Motion): void {
     mark(step < 0 ? last : step, "mark-vacuum", `${quantity(time, "s")}: ${who} ${what}`);
   }
   const failed = new Map<number, string[]>();
-  for (const limit of deciding(data)) {
+  for (const limit of data.limits) {
     const index = nearest(data.steps, limit.step);
     if (!limit.ok && index >= 0) failed.set(index, [...(failed.get(index) ?? []), limit.name]);
   }

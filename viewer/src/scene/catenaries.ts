@@ -5,7 +5,8 @@
  */
 
 import { Group } from "three";
-import { MICRO, type Motion } from "../data/motion";
+import type { CatenaryStates } from "../data/catenary_states";
+import { MICRO } from "../data/micro";
 import { Lines } from "./lines";
 
 export class Catenaries {
@@ -16,15 +17,15 @@ export class Catenaries {
   private readonly under: Uint32Array;
 
   constructor(
-    private readonly motion: Motion,
+    private readonly states: CatenaryStates,
     push: number,
     pull: number,
   ) {
-    const [nu, nv] = motion.data.grid;
-    const n = motion.data.divisions;
-    const { fibres } = motion;
-    const columns = fibres === null ? (nu - 1) * n + 1 : 0;
-    const rows = fibres === null ? (nv - 1) * n + 1 : 0;
+    const [nu, nv] = states.data.grid;
+    const n = states.data.divisions;
+    const { fibers } = states;
+    const columns = fibers === null ? (nu - 1) * n + 1 : 0;
+    const rows = fibers === null ? (nv - 1) * n + 1 : 0;
     const under: number[] = [];
     for (let row = 0; row < rows; row += n) {
       for (let k = 0; k < columns; k++) under.push(row * columns + k);
@@ -35,9 +36,9 @@ export class Catenaries {
     this.under = Uint32Array.from(under);
     const along = (count: number, length: number) => new Array<number>(count).fill(length);
     const edges =
-      fibres === null ? [...along(nv, columns), ...along(nu, rows)] : along(fibres.count / (n + 1), n + 1);
+      fibers === null ? [...along(nv, columns), ...along(nu, rows)] : along(fibers.count / (n + 1), n + 1);
     this.edges = new Lines(edges, 1.9, push);
-    this.diagonals = new Lines(along(motion.diagonals.count / (n + 1), n + 1), 1.2, -pull);
+    this.diagonals = new Lines(along(states.diagonals.count / (n + 1), n + 1), 1.2, -pull);
     this.group.add(this.diagonals.mesh, this.edges.mesh);
   }
 
@@ -74,18 +75,18 @@ export class Catenaries {
     return k < 0 ? null : [points[k]!, points[k + 1]!, points[k + 2]!];
   }
 
-  moveTo(step: number): void {
-    const grid = this.motion.surface.at(step);
+  moveTo(picture: number): void {
+    const grid = this.states.positions.at(picture);
     const edges = this.edges.points;
     for (let k = 0; k < this.under.length; k++) {
       const from = 3 * this.under[k]!;
       for (let c = 0; c < 3; c++) edges[3 * k + c] = grid[from + c]! * MICRO;
     }
-    const fibres = this.motion.fibres?.at(step) ?? [];
-    for (let k = 0; k < fibres.length; k++) edges[k] = fibres[k]! * MICRO;
+    const fibers = this.states.fibers?.at(picture) ?? [];
+    for (let k = 0; k < fibers.length; k++) edges[k] = fibers[k]! * MICRO;
     this.edges.changed();
 
-    const given = this.motion.diagonals.at(step);
+    const given = this.states.diagonals.at(picture);
     const diagonals = this.diagonals.points;
     for (let k = 0; k < given.length; k++) diagonals[k] = given[k]! * MICRO;
     this.diagonals.changed();

@@ -16,8 +16,8 @@ import {
   Mesh,
   ShaderMaterial,
 } from "three";
-import { MICRO, type CellFrames } from "../data/motion";
-import type { Solid } from "../data/page_data";
+import { MICRO } from "../data/micro";
+import type { CellData, Solid } from "../data/page_data";
 import { Lines, screenColour } from "./lines";
 import { PROJECT, SHADE } from "./shade";
 
@@ -63,11 +63,11 @@ export class Cell {
   private readonly tool: Lines | null;
 
   constructor(
-    private readonly cell: CellFrames,
+    private readonly cell: CellData,
     private readonly grippers: number,
     push: number,
   ) {
-    const { bodies, obstacles, mounts } = cell.data;
+    const { bodies, obstacles, mounts } = cell;
     const every = Array.from({ length: grippers }, (_, n) => n);
     const origins = {
       pad: every,
@@ -93,11 +93,11 @@ export class Cell {
     this.tool?.ink(line);
   }
 
-  moveTo(index: number): void {
-    const all = this.cell.origins.at(index);
+  /** Places what moves, by the origins of a step. */
+  moveTo(all: Int32Array): void {
     const origin = (n: number) => all.subarray(7 * n, 7 * n + 7);
     this.moving?.place(origin);
-    const { mounts } = this.cell.data;
+    const { mounts } = this.cell;
     if (this.tool === null || mounts === null) return;
     // from the flange to where the frame holds a gripper, and along its axes to the gripper
     const flange = origin(2 * this.grippers);

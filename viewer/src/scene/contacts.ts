@@ -1,7 +1,8 @@
 /** Contact points: open red circles of one size on the screen, as in the paper's figure. */
 
 import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial } from "three";
-import { MICRO, type Motion } from "../data/motion";
+import type { CatenaryStates } from "../data/catenary_states";
+import { MICRO } from "../data/micro";
 import { pixelRatio, screenColour } from "./lines";
 import { PROJECT } from "./shade";
 
@@ -38,11 +39,11 @@ export class Contacts {
   private size = LARGEST;
 
   constructor(
-    private readonly motion: Motion,
+    private readonly states: CatenaryStates,
     push: number,
   ) {
     const geometry = new BufferGeometry();
-    this.position = makeRoom(geometry, motion.mostContacts);
+    this.position = makeRoom(geometry, states.mostContacts);
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -73,8 +74,8 @@ export class Contacts {
     this.size = Math.min(Math.max(apart / 15, SMALLEST), LARGEST);
   }
 
-  moveTo(step: number): void {
-    const points = this.motion.contacts(step);
+  moveTo(picture: number): void {
+    const points = this.states.contacts(picture);
     if (points.length > this.position.array.length)
       this.position = makeRoom(this.points.geometry, points.length / 3);
     const { array } = this.position;

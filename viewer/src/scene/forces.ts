@@ -1,5 +1,5 @@
 /**
- * Loads of the sheet on the grippers: arrows from the middle of each pad, in front of everything, one along the ply and one
+ * Loads of the ply on the grippers: arrows from the middle of each pad, in front of everything, one along the ply and one
  * across it, each in the color of how much of what the gripper holds it uses.
  *
  * The longest arrow of each step has the same length, so that small loads of the air and large ones of the end can both be
@@ -8,7 +8,7 @@
 
 import { Group } from "three";
 import { MICRO } from "../data/micro";
-import type { SheetStates } from "../data/sheet_states";
+import type { GripperFrames } from "../data/gripper_frames";
 import { Lines } from "./lines";
 
 /** Length and half width of an arrow's head, as shares of the longest arrow. */
@@ -33,11 +33,11 @@ export class Forces {
 
   /** `longest` is the length of the longest arrow (m); `pull` how far the arrows are pulled towards the eye (m). */
   constructor(
-    private readonly sheet: SheetStates,
+    count: number,
     private readonly longest: number,
     pull: number,
   ) {
-    this.arrows = USES.map(() => new Arrows(2 * sheet.grippers.count, longest, pull));
+    this.arrows = USES.map(() => new Arrows(2 * count, longest, pull));
     for (const { shafts, heads } of this.arrows) this.group.add(shafts.mesh, heads.mesh);
   }
 
@@ -53,13 +53,14 @@ export class Forces {
     for (const { shafts, heads } of this.arrows) shafts.mesh.renderOrder = heads.mesh.renderOrder = order;
   }
 
-  moveTo(state: number): void {
-    const most = this.sheet.mostLoad(state);
-    const pads = this.sheet.grippers.at(state);
-    for (let k = 0; k < this.sheet.grippers.count; k++) {
+  /** Shows those of a step that was done. */
+  moveTo(grippers: GripperFrames, index: number): void {
+    const most = grippers.mostLoad(index);
+    const pads = grippers.positions.at(index);
+    for (let k = 0; k < grippers.count; k++) {
       const from = [0, 1, 2].map((c) => pads[3 * k + c]! * MICRO);
-      const shares = this.sheet.shares(state, k);
-      this.sheet.loads(state, k).forEach((load, n) => {
+      const shares = grippers.shares(index, k);
+      grippers.loads(index, k).forEach((load, n) => {
         const size = Math.hypot(...load);
         const shown = most > 0 && size >= LEAST * most;
         const use = USES.findIndex(({ upTo }) => (shares[n] ?? 0) <= upTo);

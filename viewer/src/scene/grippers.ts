@@ -14,7 +14,7 @@ import {
   Mesh,
   ShaderMaterial,
 } from "three";
-import { MICRO, type Motion } from "../data/motion";
+import { MICRO } from "../data/micro";
 import { screenColour } from "./lines";
 import { PROJECT } from "./shade";
 
@@ -67,11 +67,10 @@ export class Grippers {
   private readonly quads: number;
 
   constructor(
-    motion: Motion,
+    count: number,
     private readonly radius: number,
     push: number,
   ) {
-    const { count } = motion.grippers;
     const { points, quads, wall } = disc();
     const size = points.length / 3;
     const dynamic = () =>

@@ -11,7 +11,7 @@ import {
   ShaderMaterial,
 } from "three";
 import { mergeVertices, toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
-import type { Geometry } from "../data/page_data";
+import type { MoldData } from "../data/page_data";
 import { Lines, screenColour } from "./lines";
 import { PROJECT, SHADE } from "./shade";
 
@@ -43,7 +43,7 @@ export class Mold {
   private readonly surface: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly outline: Lines | null = null;
 
-  constructor(mold: NonNullable<Geometry["mold"]>, push: number) {
+  constructor(mold: MoldData, push: number) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(Float32Array.from(mold.vertices), 3));
     geometry.setIndex(new BufferAttribute(Uint32Array.from(mold.triangles), 1));

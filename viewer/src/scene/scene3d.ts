@@ -6,24 +6,24 @@
 import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
 import { MICRO, type Motion } from "../data/motion";
 import { pieces } from "../data/fabric_line";
-import { fieldsOf, type Field, type Place } from "../data/page_data";
+import type { Drape } from "../data/drape";
+import type { Field, Model, Place } from "../data/page_data";
 import { fieldInForce } from "../data/ranges";
 import { themeColour } from "../page/dom";
 import type { Choice, State } from "../page/state";
 import { AxesBox } from "./axes_box";
 import { Eye } from "./camera";
-import { Catenaries } from "./catenaries";
+import { CatenaryPicture } from "./catenary_picture";
 import { Cell } from "./cell";
-import { Contacts } from "./contacts";
-import { USES } from "./forces";
+import { Forces, USES } from "./forces";
 import { Grippers } from "./grippers";
 import { pixelRatio, resolution } from "./lines";
 import { Mold } from "./mold";
 import { Overlay } from "./overlay";
 import { Paths } from "./paths";
+import type { PlyPicture } from "./ply_picture";
 import { SectionLine } from "./section_line";
 import { SheetPicture } from "./sheet_picture";
-import { PlySurface } from "./surface";
 
 /** A node or a gripper is found within this distance of the pointer (CSS pixels). */
 const REACH = 16;
@@ -40,24 +40,21 @@ const MOST_PIXELS = 2;
 /** A moving picture with slower frames (ms) gets coarser; one that rests this long (ms) is drawn finely again. */
 const SLOW = 40;
 const REST = 250;
-/** A ply with fewer vertices is drawn with all of them: leaving some out would save nothing. */
-const MANY = 20_000;
 
 /** How far mold and axes box are pushed back, as shares of the size of the scene. */
 const MOLD = 0.02;
 const BOX = 0.03;
 
 export class Scene3d {
-  private readonly surface: PlySurface;
+  /** The ply by each model that was draped. */
+  private readonly pictures = new Map<Model, PlyPicture>();
   readonly eye: Eye;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly catenaries: Catenaries;
   private readonly grippers: Grippers;
-  private readonly contacts: Contacts;
+  private readonly forces: Forces;
   private mold: Mold | null;
   private readonly cell: Cell | null;
-  readonly sheet: SheetPicture | null;
   private readonly paths: Paths;
   private readonly line: SectionLine;
   private bounds: Box3;
@@ -89,34 +86,33 @@ export class Scene3d {
     this.bounds = bounds;
     const size = bounds.getSize(new Vector3()).length();
     this.size = size;
-    const { mold } = motion.data.geometry;
+    const { mold, cell } = motion.data;
+    const { spacing } = motion;
+    const { count } = motion.deciding.grippers;
 
-    this.surface = new PlySurface(motion, 0.003 * size);
-    this.catenaries = new Catenaries(motion, 0.0005 * size, 0.02 * size);
-    this.grippers = new Grippers(motion, Math.min(0.1 * motion.spacing, 0.03 * size), -0.004 * size);
-    this.contacts = new Contacts(motion, -0.003 * size);
+    for (const { model, sheet, catenaries } of motion.drapes) {
+      if (sheet !== null) this.pictures.set(model, new SheetPicture(sheet, size, spacing, count));
+      else if (catenaries !== null) this.pictures.set(model, new CatenaryPicture(catenaries, size, spacing));
+    }
+    this.grippers = new Grippers(count, Math.min(0.1 * spacing, 0.03 * size), -0.004 * size);
+    this.forces = new Forces(count, Math.min(0.8 * spacing, 0.12 * size), 0.5 * size);
     this.mold = mold === null ? null : new Mold(mold, MOLD * size);
-    const { sheet, cell } = motion;
-    this.cell = cell === null ? null : new Cell(cell, motion.grippers.count, 0.001 * size);
-    this.sheet = sheet === null ? null : new SheetPicture(sheet, size, motion.spacing);
+    this.cell = cell === null ? null : new Cell(cell, count, 0.001 * size);
     this.paths = new Paths(motion, -0.001 * size);
     this.line = new SectionLine(-0.006 * size);
     this.box = new AxesBox(bounds, BOX * size);
-    this.catenaries.order = 3;
-    this.contacts.points.renderOrder = 4;
     this.grippers.mesh.renderOrder = 5;
+    this.forces.order = 6;
     this.scene.add(
       this.box.group,
-      this.surface.mesh,
-      this.catenaries.group,
-      this.contacts.points,
+      ...[...this.pictures.values()].map(({ group }) => group),
       this.grippers.mesh,
+      this.forces.group,
       this.paths.lines.mesh,
       this.line.group,
     );
     if (this.mold !== null) this.scene.add(this.mold.group);
     if (this.cell !== null) this.scene.add(this.cell.group);
-    if (this.sheet !== null) this.scene.add(this.sheet.group);
 
     this.eye = new Eye(canvas, bounds, () => this.draw());
     this.overlay = new Overlay(this.box, this.eye);
@@ -129,60 +125,60 @@ export class Scene3d {
     state.listen((now, before) => this.follow(now, before));
   }
 
-  /** The color mode in force, with the range in force. */
-  private field(now: Choice): Field {
-    return fieldInForce(this.motion, now) ?? fieldsOf(this.motion.data, now.model)[0]!;
+  /** The color mode in force, with the range in force; undefined where nothing is colored. */
+  private field(now: Choice): Field | undefined {
+    return fieldInForce(this.motion, now) ?? this.motion.drape(now.model).data.fields[0];
   }
 
   private follow(now: Choice, before: Choice): void {
     const first = now === before;
     const changed = (...keys: (keyof Choice)[]) => first || keys.some((key) => now[key] !== before[key]);
-    const sheet = now.model === "sheet" ? this.sheet : null;
+    const drape = this.motion.drape(now.model);
+    const shown = this.pictures.get(drape.model);
     if (changed("dark")) this.ink();
-    if (changed("model")) this.showModel(sheet !== null);
-    if (changed("colour", "model")) (sheet ?? this.surface).useMap(this.field(now));
-    if (changed("index", "model", "answer")) this.moveTo(now.index, sheet);
-    if (changed("index", "model", "answer", "stepRange", "orders", "colour", "other", "otherIndex")) {
-      (sheet ?? this.surface).colour(this.field(now), now.index);
+    if (changed("index", "model", "answer")) this.moveTo(now.index, drape);
+    const field = this.field(now);
+    const picture = drape.picture(now.index);
+    if (field !== undefined && changed("colour", "model")) shown?.useMap(field);
+    if (
+      field !== undefined &&
+      picture !== null &&
+      changed("index", "model", "answer", "stepRange", "orders", "colour", "other", "otherIndex")
+    ) {
+      shown?.colour(field, picture);
     }
     this.paths.lines.mesh.visible = now.paths;
-    if (now.paths && changed("paths", "index", "model")) this.paths.moveTo(now.index, now.model);
+    if (now.paths && changed("paths", "index", "model")) this.paths.moveTo(now.index, drape);
     if (changed("section", "index", "model")) {
-      this.line.show(
-        now.section === null ? [] : pieces(this.motion, now.model, now.index, now.section, null),
-      );
+      this.line.show(now.section === null ? [] : pieces(drape, now.index, now.section, null));
     }
-    sheet?.showForces(now.forces);
-    this.catenaries.showDiagonals(now.diagonals);
+    const done = now.index < drape.grippers.steps;
+    this.grippers.mesh.visible = done;
+    this.forces.group.visible = done && now.forces;
+    if (done && now.forces && changed("forces", "index", "model", "answer"))
+      this.forces.moveTo(drape.grippers, now.index);
+    shown?.showDiagonals(now.diagonals);
     if (this.mold !== null) this.mold.group.visible = now.mold;
     if (this.cell !== null) this.cell.group.visible = now.cell;
     if (now.pointer !== null && now.pointer !== before.pointer) this.eye.lookAt(now.pointer.place);
     this.draw();
   }
 
-  /** Shows the sheet, or the catenaries. */
-  private showModel(sheet: boolean): void {
-    if (this.sheet !== null) this.sheet.group.visible = sheet;
-    for (const part of [this.surface.mesh, this.catenaries.group, this.contacts.points])
-      part.visible = !sheet;
-  }
-
-  /** Moves what is shown to a step. */
-  private moveTo(index: number, sheet: SheetPicture | null): void {
-    if (sheet === null) {
-      this.surface.moveTo(index);
-      this.catenaries.moveTo(index);
-      this.contacts.moveTo(index);
-    } else sheet.moveTo(index);
-    this.cell?.moveTo(index);
-    this.grippers.moveTo(
-      ...(sheet?.pads() ?? [this.motion.grippers.at(index), this.motion.normals.at(index)]),
-    );
+  /** Moves what is shown to a step of a drape; a step that was not done has neither ply nor grippers. */
+  private moveTo(index: number, drape: Drape): void {
+    const at = drape.picture(index);
+    for (const [model, picture] of this.pictures)
+      picture.group.visible = model === drape.model && at !== null;
+    if (at !== null) this.pictures.get(drape.model)?.moveTo(at);
+    const { grippers, origins } = drape;
+    if (index >= grippers.steps) return;
+    this.grippers.moveTo(grippers.positions.at(index), grippers.normals.at(index));
+    if (origins !== null) this.cell?.moveTo(origins.at(index));
   }
 
   /** Shows the mold that the motion has now, and a box around everything, which the eye looks at anew if it shall `fit`. */
   renew(fit: boolean): void {
-    const { mold } = this.motion.data.geometry;
+    const { mold } = this.motion.data;
     if (this.mold !== null) this.scene.remove(this.mold.group);
     this.mold?.free();
     this.mold = mold === null ? null : new Mold(mold, MOLD * this.size);
@@ -203,9 +199,8 @@ export class Scene3d {
 
   /** Takes the colors of the theme in force. */
   ink(): void {
-    this.catenaries.ink(themeColour("red"));
-    this.contacts.ink(themeColour("red"));
-    this.sheet?.ink(USES.map(({ colour }) => themeColour(colour)));
+    for (const picture of this.pictures.values()) picture.ink(themeColour("red"));
+    this.forces.ink(USES.map(({ colour }) => themeColour(colour)));
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
     this.paths.ink(themeColour("path"), themeColour("path-later"));
     this.line.ink(themeColour("section"));
@@ -244,8 +239,12 @@ export class Scene3d {
 
   /** A vertex of the ply between the catenaries as it is drawn now (m); null where it is not. */
   vertex(at: number): Place | null {
-    if (this.state.now.model === "sheet") return null;
-    return this.surface.vertex(at) ?? this.catenaries.vertex(at);
+    return this.shownPicture?.vertex(at) ?? null;
+  }
+
+  /** The ply of the model in view. */
+  private get shownPicture(): PlyPicture | undefined {
+    return this.pictures.get(this.motion.drape(this.state.now.model).model);
   }
 
   /** Draws before the next repaint. */
@@ -264,11 +263,7 @@ export class Scene3d {
 
   private drawNow(): void {
     const { zoom } = this.eye.camera;
-    const apart = zoom * this.motion.spacing;
-    this.surface.showThreads(apart / this.motion.data.divisions);
-    this.sheet?.suit(zoom);
-    this.catenaries.suit(apart);
-    this.contacts.suit(apart);
+    this.shownPicture?.suit(zoom);
     this.grippers.showWalls(zoom);
     this.render();
   }
@@ -286,19 +281,9 @@ export class Scene3d {
   private setCoarse(coarse: boolean): void {
     this.coarse = coarse;
     this.slowFrames = 0;
-    const stride = coarse ? this.stride() : 1;
-    this.surface.thin(stride);
-    this.catenaries.thin(stride);
+    for (const picture of this.pictures.values()) picture.thin(coarse ? this.eye.camera.zoom : null);
     this.setPixels(this.ratio);
     if (!coarse) this.draw();
-  }
-
-  /** Every second vertex is left out; where cells are small on the screen, all but two or three pieces a side. */
-  private stride(): number {
-    const n = this.motion.data.divisions;
-    if (n % 2 !== 0 || this.motion.surface.count < MANY) return 1;
-    const small = this.eye.camera.zoom * this.motion.spacing < 60;
-    return small ? (n % 3 === 0 ? n / 3 : n / 2) : 2;
   }
 
   private get ratio(): number {
@@ -339,11 +324,8 @@ export class Scene3d {
   /** Nodes of the sheet or vertices of the surface, and the grippers, as they are shown now; three micrometers each. */
   shown(): { points: Int32Array; pads: Int32Array } {
     const { index, model } = this.state.now;
-    const { sheet } = this.motion;
-    const at = model === "sheet" ? (sheet?.stateOf(index) ?? null) : null;
-    return at === null
-      ? { points: this.motion.surface.at(index), pads: this.motion.grippers.at(index) }
-      : { points: sheet!.positions.at(at), pads: sheet!.grippers.at(at) };
+    const drape = this.motion.drape(model);
+    return { points: drape.points(index), pads: drape.pads(index) };
   }
 
   /** Looks at the ply as it is shown, from the corner that is nearest to a place. */
@@ -371,7 +353,7 @@ export class Scene3d {
     const { pads } = this.shown();
     const towards = this.eye.direction();
     // in the middle of a cell that is drawn large something is found too
-    const reach = Math.max(REACH, 0.8 * this.eye.camera.zoom * this.fineness());
+    const reach = Math.max(REACH, 0.8 * this.eye.camera.zoom * (this.shownPicture?.fineness ?? 0));
     const screen = this.eye.screen();
     let found: (Found & { rank: number }) | null = null;
     const look = (kind: Found["kind"], from: Int32Array, near: number, favour: number) => {
@@ -389,13 +371,6 @@ export class Scene3d {
     look("gripper", pads, near, REACH / 3);
     return found;
   }
-
-  /** Distance of neighboring nodes of what is shown (m), about. */
-  private fineness(): number {
-    const { sheet, data, spacing, grippers } = this.motion;
-    if (this.state.now.model === "catenaries" || sheet === null) return spacing / data.divisions;
-    return spacing / Math.max(1, Math.sqrt(sheet.data.cells.length / 4 / Math.max(1, grippers.count)));
-  }
 }
 
 /** The box around the ply over all steps, and as much of the mold as lies near it. */
@@ -406,7 +381,7 @@ function sceneBox(motion: Motion): Box3 {
   const room = 0.35 * Math.max(size.x, size.y);
   const box = ply.clone();
   const near = ply.clone().expandByScalar(room);
-  const vertices = motion.data.geometry.mold?.vertices ?? [];
+  const vertices = motion.data.mold?.vertices ?? [];
   const point = new Vector3();
   for (let k = 0; k + 2 < vertices.length; k += 3) {
     point.set(vertices[k]!, vertices[k + 1]!, vertices[k + 2]);

@@ -113,11 +113,11 @@ export class SheetSurface {
     this.normal.needsUpdate = true;
   }
 
-  /** Colors the sheet by a field in a step of the page. */
-  colour(field: Field, index: number): void {
+  /** Colors the sheet by a field in a state. */
+  colour(field: Field, state: number): void {
     const share = this.share.array;
     const at = (item: number) => {
-      const value = this.sheet.value(field, index, item);
+      const value = this.sheet.value(field, state, item);
       return value === null ? -1 : Math.min(Math.max(shareOf(field, value), 0), 1);
     };
     for (const { nodes, cell, first, count } of this.cells) {

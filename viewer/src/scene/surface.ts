@@ -8,7 +8,8 @@
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type ShaderMaterial } from "three";
 import { shareOf } from "../data/colour_map";
-import { MICRO, type Motion } from "../data/motion";
+import type { CatenaryStates } from "../data/catenary_states";
+import { MICRO } from "../data/micro";
 import type { Field } from "../data/page_data";
 import { clothMaterial, useMap } from "./cloth";
 
@@ -28,11 +29,11 @@ export class PlySurface {
   private readonly share: BufferAttribute;
 
   constructor(
-    private readonly motion: Motion,
+    private readonly states: CatenaryStates,
     push: number,
   ) {
-    const [nu, nv] = motion.data.grid;
-    const n = motion.data.divisions;
+    const [nu, nv] = states.data.grid;
+    const n = states.data.divisions;
     const none = nu === 0;
     this.columns = none ? 0 : (nu - 1) * n + 1;
     this.rows = none ? 0 : (nv - 1) * n + 1;
@@ -85,15 +86,15 @@ export class PlySurface {
   thin(stride: number): void {
     if (stride === this.stride) return;
     this.stride = stride;
-    const n = this.motion.data.divisions;
+    const n = this.states.data.divisions;
     const cells = this.source.length / (n + 1) ** 2;
     const index = stride === 1 ? this.every : new BufferAttribute(triangles(cells, n, stride), 1);
     this.mesh.geometry.setIndex(index);
   }
 
-  /** Moves the surface to a step. */
-  moveTo(step: number): void {
-    const points = this.motion.surface.at(step);
+  /** Moves the surface to a picture. */
+  moveTo(picture: number): void {
+    const points = this.states.positions.at(picture);
     this.findNormals(points);
     const position = this.position.array;
     const normal = this.normal.array;
@@ -108,12 +109,12 @@ export class PlySurface {
     this.normal.needsUpdate = true;
   }
 
-  /** Colors the surface by a field in a step. */
-  colour(field: Field, step: number): void {
+  /** Colors the surface by a field in a picture. */
+  colour(field: Field, picture: number): void {
     const item = field.on === "cell" ? this.cell : this.source;
     const share = this.share.array;
     for (let k = 0; k < item.length; k++) {
-      share[k] = shareOf(field, this.motion.value(field, step, item[k]!));
+      share[k] = shareOf(field, this.states.value(field, picture, item[k]!) ?? 0);
     }
     this.share.needsUpdate = true;
   }

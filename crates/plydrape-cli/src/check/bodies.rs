@@ -2,13 +2,13 @@
 
 use super::Line;
 use crate::numbers::millimetres;
-use plydrape::clearance::{Mount, Shape};
+use plydrape::bodies::{Mount, Shape};
 use plydrape::scene::Scene;
 use plydrape_io::shown;
 
-/// Bodies with their limit, then obstacles; nothing where there are none.
+/// Bodies, then obstacles; nothing where there are none.
 pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
-    let bodies = scene.bodies.bodies().iter().map(|body| {
+    let bodies = scene.layup.bodies.bodies().iter().map(|body| {
         let on = match body.on {
             Mount::Pad => "each pad",
             Mount::Stem => "each stem",
@@ -16,7 +16,7 @@ pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
         };
         format!("{} on {on}: {}", shown::escaped(&body.name), shape(&body.shape))
     });
-    let obstacles = scene.bodies.obstacles().iter().map(|obstacle| {
+    let obstacles = scene.layup.bodies.obstacles().iter().map(|obstacle| {
         let [low, high] = obstacle.bounds();
         let side = |n: usize| format!("{} to {}", millimetres(low[n]), millimetres(high[n]));
         let name = shown::escaped(&obstacle.name);
@@ -29,10 +29,6 @@ pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
         )
     });
     let mut lines = numbered("bodies", bodies);
-    if !lines.is_empty() {
-        let limit = millimetres(scene.limits.clearance);
-        lines.push(("", format!("clear by {limit} mm of mold, obstacles and each other")));
-    }
     lines.extend(numbered("obstacles", obstacles));
     lines
 }

@@ -50,7 +50,7 @@ fn lines(ply: &BookPly) -> Vec<String> {
             format!("plies {}", numbers.join(", "))
         }
     };
-    let heading = scene.target.as_ref().and_then(|target| target.drape.as_ref());
+    let heading = scene.layup.target.as_ref().and_then(|target| target.drape.as_ref());
     let heading = heading.map(|net| {
         format!(
             "u towards {} deg in plan, ideal drape sheared by {} deg at most",
@@ -59,7 +59,7 @@ fn lines(ply: &BookPly) -> Vec<String> {
         )
     });
     let mut lines = vec![
-        format!("{}, {}", shown::ply(&scene.ply), scene.ply.material.name),
+        format!("{}, {}", shown::ply(&scene.layup.ply), scene.layup.ply.material.name),
         format!("{thickness}, lies on {below}"),
     ];
     lines.extend(heading);

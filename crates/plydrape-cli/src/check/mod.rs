@@ -2,6 +2,7 @@
 
 mod bodies;
 mod book;
+mod limits;
 mod mold;
 mod rules;
 mod sheet;
@@ -53,7 +54,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 
 /// The nouns of a scene, each in a line.
 fn summary(scene: &SceneFile) -> Vec<Line> {
-    let ply = &scene.ply;
+    let ply = &scene.layup.ply;
     let mut lines = vec![
         ("ply", shown::ply(ply)),
         ("material", material(&ply.material)),
@@ -66,6 +67,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(rules::release(scene));
     lines.extend(rules::rules(scene));
     lines.extend(sheet::sheet(scene));
+    lines.extend(limits::limits(scene));
     lines.extend(rules::plan(scene));
     lines
 }

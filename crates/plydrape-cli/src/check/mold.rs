@@ -2,12 +2,13 @@
 
 use super::Line;
 use crate::numbers::{degrees, millimetres};
-use plydrape::mold::{Face, MeshReport, Mold, Plane, Pose, Surface};
+use plydrape::geometry::Pose;
+use plydrape::mold::{Face, MeshReport, Mold, Plane, Surface};
 use plydrape_io::scene::SceneFile;
 
 /// The mold, and what was repaired in a mesh: one line each.
 pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
-    let Some(mold) = &scene.mold else {
+    let Some(mold) = &scene.layup.mold else {
         return vec![("mold", "none: the ply just hangs".into())];
     };
     of(mold, scene.mesh.as_ref())

@@ -1,19 +1,22 @@
-//! Rules of the model, limits and the planner, as text.
+//! Rules of the models, contact, release, tool and planner, as text.
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
-use plydrape::measure::angle_of_slack;
-use plydrape::scene::{
-    ContactEnd, Limits, Model, PlanMethod, Release, ReleaseOrder, Scene, SlopeRule, Stepping,
-};
+use plydrape::geometry::Pose;
+use plydrape::layup::{ContactEnd, Model, Release, ReleaseOrder, SlopeRule, Stepping};
+use plydrape::scene::{PlanMethod, Scene};
 
-/// Rules of the model, contact and limits.
-pub(super) fn rules(scene: &Scene) -> [Line; 7] {
-    let settings = &scene.settings;
-    let limits = &scene.limits;
-    let model = match settings.model {
+/// Rules of the models, and of contact.
+pub(super) fn rules(scene: &Scene) -> [Line; 2] {
+    let settings = &scene.layup.settings;
+    let called = |model: Model| match model {
         Model::Sheet => "sheet",
         Model::Catenaries => "catenaries",
+    };
+    let model = called(settings.model);
+    let beside = match scene.also {
+        true => format!(", {} beside", called(settings.model.other())),
+        false => String::new(),
     };
     let slopes = match settings.slopes {
         SlopeRule::MinForce => "min-force",
@@ -27,13 +30,11 @@ pub(super) fn rules(scene: &Scene) -> [Line; 7] {
         ContactEnd::Free => "free slope at its ends",
         ContactEnd::Tangent => "mold's slope at its ends",
     };
-    let force =
-        |limit: Option<f64>| limit.map_or("any".into(), |force| format!("{} N", short(force)));
     [
         (
             "model",
             format!(
-                "{model}; {slopes} slopes, EA {} N, g {} m/s², gripper tilt up to {} deg",
+                "{model}{beside}; {slopes} slopes, EA {} N, g {} m/s², gripper tilt up to {} deg",
                 short(settings.axial_stiffness),
                 short(settings.gravity),
                 degrees(settings.max_tilt)
@@ -43,94 +44,12 @@ pub(super) fn rules(scene: &Scene) -> [Line; 7] {
             "contact",
             format!("within {} mm, {stepping}, {end}", millimetres(settings.contact.tolerance)),
         ),
-        (
-            "limits",
-            format!(
-                "{}, bridging {} mm, overstretch {} %, strain {} %, force {}",
-                slack(scene),
-                millimetres(limits.bridging),
-                short(limits.overstretch * 100.0),
-                short(limits.strain * 100.0),
-                force(limits.force),
-            ),
-        ),
-        (
-            "",
-            format!(
-                "shear {} deg, {} deg after landing; penetration {} mm",
-                degrees(limits.shear),
-                degrees(limits.landing_shear),
-                millimetres(limits.penetration),
-            ),
-        ),
-        (
-            "",
-            format!(
-                "landing within {} mm (contact), {} mm (grippers), fibers within {} deg, {} % in contact",
-                millimetres(limits.landing_contact),
-                millimetres(limits.landing_gripper),
-                degrees(limits.fibre_angle),
-                short(limits.contact_share * 100.0)
-            ),
-        ),
-        (
-            "",
-            format!(
-                "each gripper: tilt {} deg, {} deg/s; load {}, pull {}",
-                degrees(limits.tilt),
-                degrees(limits.tilt_rate),
-                force(Some(limits.gripper_load)),
-                force(limits.gripper_pull),
-            ),
-        ),
-        ("", reach(limits)),
     ]
-}
-
-/// The limits of slack in all units, and the preset that limits come from.
-fn slack(scene: &Scene) -> String {
-    let limits = &scene.limits;
-    let angle = limits.slack_angle.unwrap_or(angle_of_slack(limits.slack_ratio));
-    let preset = limits.preset.map(|preset| format!("preset {}; ", preset.name()));
-    let wrinkle = limits.wrinkle.map(|height| format!(", {} mm high", millimetres(height)));
-    format!(
-        "{}slack {} % (as fiber angle {} deg{})",
-        preset.unwrap_or_default(),
-        short(limits.slack_ratio * 100.0),
-        rounded(angle),
-        wrinkle.unwrap_or_default(),
-    )
-}
-
-/// An angle in degrees, with two digits after the point at most.
-fn rounded(angle: f64) -> String {
-    short((angle.to_degrees() * 100.0).round() / 100.0)
-}
-
-/// Where grippers may be and how fast they may move.
-fn reach(limits: &Limits) -> String {
-    let workspace = match limits.workspace {
-        Some(sides) => {
-            let [x, y, z] = sides.map(|ends| ends.map(millimetres).join(" to "));
-            format!("x {x}, y {y}, z {z} mm")
-        }
-        None => "anywhere".into(),
-    };
-    format!(
-        "grippers {workspace}, {} mm apart, up to {} m/s, {} m/s², {} m/s³{}",
-        millimetres(limits.gripper_distance),
-        short(limits.speed),
-        short(limits.acceleration),
-        short(limits.jerk),
-        limits
-            .duration
-            .map_or(String::new(), |longest| format!("; done within {} s", short(longest)))
-    )
 }
 
 /// How a motion would be planned; nothing where there is nothing to plan.
 pub(super) fn plan(scene: &Scene) -> Option<Line> {
-    let (Some(_), Some(_), plan) = (&scene.mold, &scene.target, &scene.plan) else {
+    let (Some(_), Some(_), plan) = (&scene.layup.mold, &scene.layup.target, &scene.plan) else {
         return None;
     };
     let method = match plan.method {
@@ -151,7 +70,7 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
 
 /// When pads let go, if they do not hold the ply to the end.
 pub(super) fn release(scene: &Scene) -> Option<Line> {
-    let Release { order, dwell, .. } = scene.release.as_ref()?;
+    let Release { order, dwell, .. } = scene.layup.release.as_ref()?;
     let presses = *dwell > 0.0;
     let dwell = short(*dwell);
     let when = match (order, presses) {
@@ -172,7 +91,7 @@ pub(super) fn release(scene: &Scene) -> Option<Line> {
 
 /// What carries the grippers, if they do not move by themselves.
 pub(super) fn tool(scene: &Scene) -> Vec<Line> {
-    let Some(tool) = &scene.tool else { return Vec::new() };
+    let Some(tool) = &scene.layup.tool else { return Vec::new() };
     let axis = |axis: &plydrape::tool::Axis| {
         let [least, most] = axis.stroke.map(millimetres);
         format!("{} {least} to {most} mm", axis.name)
@@ -180,11 +99,11 @@ pub(super) fn tool(scene: &Scene) -> Vec<Line> {
     let axes: Vec<String> = tool.axes.iter().map(axis).collect();
     let axes = if axes.is_empty() { "no axes".into() } else { format!("axes {}", axes.join(", ")) };
     let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
-    let joints = if scene.tilts() { "" } else { ", pads without joints" };
+    let joints = if scene.layup.tilts() { "" } else { ", pads without joints" };
     let residual = tool.residual.map_or(String::new(), |most| {
         format!("; brings grippers to within {} mm", millimetres(most))
     });
-    let place = |pose: &plydrape::mold::Pose, axis: usize| {
+    let place = |pose: &Pose, axis: usize| {
         let [x, y, z] = pose.position.map(millimetres);
         // 0.0 takes the sign off a zero
         let [a, b, c] = pose.axes[axis].map(|c| short((c * 1e4).round() / 1e4 + 0.0));

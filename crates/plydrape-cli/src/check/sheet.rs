@@ -1,28 +1,23 @@
 //! How the ply is draped as a sheet, as text.
 
 use super::Line;
-use crate::numbers::{degrees, millimetres, short};
-use plydrape::scene::{Friction, Limits, Model, Scene, Settings, SheetTime};
+use crate::numbers::{millimetres, short};
+use plydrape::layup::{Friction, Model, Settings, SheetTime};
+use plydrape::scene::Scene;
 use plydrape_io::sheet::SheetSize;
 use plydrape_io::size;
 
-/// Mesh, pads, friction and limits of the sheet; nothing where catenaries drape.
+/// Mesh, pads and friction of the sheet; nothing where catenaries decide.
 pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
-    let (settings, limits) = (&scene.settings, &scene.limits);
+    let settings = &scene.layup.settings;
     if settings.model != Model::Sheet {
         return Vec::new();
     }
-    vec![
-        ("sheet", mesh(scene)),
-        ("", size(scene)),
-        ("", pads(settings)),
-        ("", friction(settings)),
-        ("", accepted(limits)),
-    ]
+    vec![("sheet", mesh(scene)), ("", size(scene)), ("", pads(settings)), ("", friction(settings))]
 }
 
 fn mesh(scene: &Scene) -> String {
-    let sheet = &scene.settings.sheet;
+    let sheet = &scene.layup.settings.sheet;
     let lines = match sheet.mesh {
         Some(mesh) => format!("lines of nodes up to {} mm apart", millimetres(mesh)),
         None => "lines of nodes up to a tenth of a cell apart".into(),
@@ -75,17 +70,4 @@ fn friction(settings: &Settings) -> String {
             format!("friction {}, tack {} Pa", short(coefficient), short(contact.tack))
         }
     }
-}
-
-fn accepted(limits: &Limits) -> String {
-    let force = match limits.gripper_force {
-        Some(force) => format!("{} N", short(force)),
-        None => "any".into(),
-    };
-    format!(
-        "height {} mm, out of plane {} deg, position {} mm, force at each gripper {force}",
-        millimetres(limits.height),
-        degrees(limits.out_of_plane),
-        millimetres(limits.position)
-    )
 }

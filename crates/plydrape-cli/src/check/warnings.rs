@@ -3,6 +3,7 @@
 use super::way::longest;
 use crate::numbers::{millimetres, short};
 use plydrape::material::Section;
+use plydrape::measure::Name;
 use plydrape::mold::{Mesh, Mold};
 use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
@@ -31,7 +32,7 @@ pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
 /// A mesh that seems to lie upside down: an open one whose file says that its other side is the outer one, or a solid that is
 /// flat from above and shaped from below.
 fn upside_down(scene: &SceneFile) -> Option<String> {
-    let (Some(Mold::Mesh(mesh)), Some(report)) = (&scene.mold, &scene.mesh) else {
+    let (Some(Mold::Mesh(mesh)), Some(report)) = (&scene.layup.mold, &scene.mesh) else {
         return None;
     };
     let turn = "turn it with rotation = [\"180 deg\", 0, 0] in [mold]";
@@ -73,12 +74,12 @@ fn relief(mesh: &Mesh, side: f64) -> f64 {
 
 /// A way many times longer than the ply.
 fn far(scene: &Scene) -> Option<String> {
-    let ply = &scene.ply;
+    let ply = &scene.layup.ply;
     let [low, high] = ply.bounds(0.0);
     let sides = [0, 1].map(|n| high[n] - low[n]);
     let diagonal = sides[0].hypot(sides[1]);
     let (gripper, way) = longest(scene).filter(|(_, way)| *way > FAR * diagonal)?;
-    let (to, keys) = match scene.target {
+    let (to, keys) = match scene.layup.target {
         Some(_) => ("its target", "[grippers], [target] and [mold]"),
         None => ("where its motion ends", "the motion's file"),
     };
@@ -93,8 +94,8 @@ fn far(scene: &Scene) -> Option<String> {
 /// A mass per area that no ply has. A mass per length is that of a strip one cell wide, as wide as a square cell of
 /// the same area.
 fn mass(scene: &Scene) -> Option<String> {
-    let [a, b] = scene.ply.cell;
-    let (areal, what, grams) = match scene.ply.material.section {
+    let [a, b] = scene.layup.ply.cell;
+    let (areal, what, grams) = match scene.layup.ply.material.section {
         Section::Areal { mass, .. } => {
             (mass, "the material has".to_string(), format!("{} g/m^2", short(mass)))
         }
@@ -141,21 +142,21 @@ fn deepest(mold: &Mold, grippers: &[[f64; 3]]) -> Option<(usize, f64)> {
 
 /// A target in the mold, and a motion that penetrates deeper than its target.
 fn below(scene: &Scene) -> Vec<String> {
-    let Some(mold) = &scene.mold else {
+    let Some(mold) = &scene.layup.mold else {
         return Vec::new();
     };
     let mut out = Vec::new();
-    let name = |gripper: usize| format!("gripper {}", gripper_name(scene.ply.id(gripper)));
+    let name = |gripper: usize| format!("gripper {}", gripper_name(scene.layup.ply.id(gripper)));
     let mm = |depth: f64| millimetres(rounded(depth));
-    let mut allowed = scene.limits.penetration;
-    let target = scene.target.as_ref().and_then(|target| deepest(mold, &target.grippers));
+    let mut allowed = scene.limits.most(Name::Penetration);
+    let target = scene.layup.target.as_ref().and_then(|target| deepest(mold, &target.grippers));
     if let Some((gripper, depth)) = target.filter(|(_, depth)| *depth > allowed) {
         allowed = depth;
         out.push(format!(
             "the target of {} lies {} mm below the mold, where limits.penetration allows {} mm; raise the target or lower the mold",
             name(gripper),
             mm(depth),
-            mm(scene.limits.penetration)
+            mm(scene.limits.most(Name::Penetration))
         ));
     }
     if let Some((step, gripper, depth)) = dip(scene, mold).filter(|(.., depth)| *depth > allowed) {
@@ -164,7 +165,7 @@ fn below(scene: &Scene) -> Vec<String> {
             step + 1,
             name(gripper),
             mm(depth),
-            mm(scene.limits.penetration)
+            mm(scene.limits.most(Name::Penetration))
         ));
     }
     out
@@ -172,8 +173,8 @@ fn below(scene: &Scene) -> Vec<String> {
 
 /// Where the motion is deepest: step, gripper, depth (m).
 fn dip(scene: &Scene, mold: &Mold) -> Option<(usize, usize, f64)> {
-    let steps = &scene.motion.positions;
-    let stride = (steps.len() * scene.ply.grippers()).div_ceil(LOOKS).max(1);
+    let steps = &scene.layup.motion.positions;
+    let stride = (steps.len() * scene.layup.ply.grippers()).div_ceil(LOOKS).max(1);
     let looks = (0..steps.len()).step_by(stride).chain(steps.len().checked_sub(1));
     let depths = looks.filter_map(|step| {
         deepest(mold, &steps[step]).map(|(gripper, depth)| (step, gripper, depth))

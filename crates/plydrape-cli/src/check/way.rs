@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 pub(super) fn way(scene: &Scene) -> Vec<Line> {
     let mut lines = vec![("motion", motion(scene)), ("start", place(start(scene)))];
     lines.push(("target", target(scene)));
-    if let Some(target) = &scene.target {
+    if let Some(target) = &scene.layup.target {
         lines.push(("", place(&target.grippers)));
     }
     if let Some((gripper, way)) = longest(scene) {
@@ -27,21 +27,21 @@ pub(super) fn way(scene: &Scene) -> Vec<Line> {
 }
 
 fn motion(scene: &Scene) -> String {
-    match scene.motion.times.as_slice() {
+    match scene.layup.motion.times.as_slice() {
         [] | [_] => "held still at the start".into(),
-        [.., last] => format!("{} steps in {} s", scene.motion.positions.len(), short(*last)),
+        [.., last] => format!("{} steps in {} s", scene.layup.motion.positions.len(), short(*last)),
     }
 }
 
 /// Where the grippers start (m).
 fn start(scene: &Scene) -> &[[f64; 3]] {
-    scene.motion.positions.first().map_or(&[], Vec::as_slice)
+    scene.layup.motion.positions.first().map_or(&[], Vec::as_slice)
 }
 
 /// Where they shall end (m): at the target, or else where the motion ends.
 fn end(scene: &Scene) -> &[[f64; 3]] {
-    let last = || scene.motion.positions.last().map_or(&[][..], Vec::as_slice);
-    scene.target.as_ref().map_or_else(last, |target| &target.grippers)
+    let last = || scene.layup.motion.positions.last().map_or(&[][..], Vec::as_slice);
+    scene.layup.target.as_ref().map_or_else(last, |target| &target.grippers)
 }
 
 /// The gripper with the longest straight way from its start to its end, and that way (m); none where all stay.
@@ -51,7 +51,7 @@ pub(super) fn longest(scene: &Scene) -> Option<(GripperId, f64)> {
     };
     let ways = start(scene).iter().zip(end(scene)).map(way).enumerate();
     let (gripper, way) = ways.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (way > 0.0).then(|| (scene.ply.id(gripper), way))
+    (way > 0.0).then(|| (scene.layup.ply.id(gripper), way))
 }
 
 /// The box around some places and its middle.
@@ -70,7 +70,7 @@ fn place(points: &[[f64; 3]]) -> String {
 }
 
 fn target(scene: &Scene) -> String {
-    let Some(target) = &scene.target else {
+    let Some(target) = &scene.layup.target else {
         return "none".into();
     };
     let Some(net) = &target.drape else {

@@ -1,9 +1,9 @@
 use super::*;
 use crate::sample;
-use crate::sheet::SheetSeal;
 use plydrape::layup::Friction;
 use plydrape::material::TensionLaw;
-use plydrape::measure::Verdict;
+use plydrape::measure::{Name, Verdict};
+use plydrape::outcome::CatenaryReport;
 use plydrape::outcome::Stands;
 
 fn read(text: &str) -> Result<ResultFile, ReadError> {
@@ -36,41 +36,84 @@ fn a_cut_text_is_truncated_wherever_it_was_cut() {
 /// A result says which states belong to it, and looks for them in its folder; one without a sheet names none.
 #[test]
 fn a_result_names_the_states_of_its_sheet() {
-    let mut result = sample::draped(3, 2, 3);
-    assert!(read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.is_none());
-    let checksum = "crc32:0123abcd".to_string();
-    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
-    result.summary.sheet = Some(sample::sheet_summary());
-    result.sheet_states = Some(SheetKept::read(seal.clone(), "no/such/folder".into()));
+    assert!(read(&written()).unwrap().sheet_states.is_none());
+    let result = sample::sheet(3, 2, 3);
     let states = read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.unwrap();
-    assert_eq!(states.seal(), &seal);
+    assert_eq!(states.seal(), result.sheet_states.unwrap().seal());
     assert!(matches!(states.open(), Err(ReadError::Unreadable { .. })));
 }
 
-/// An outcome belongs to states and to steps that the result has, even where the check sum was made anew.
+/// An outcome of a sheet belongs to states and to steps that the result has, and has nothing of catenaries, even where the check sum was made
+/// anew.
 #[test]
 fn the_outcome_of_a_sheet_fits_its_result() {
-    let checksum = "crc32:0123abcd".to_string();
-    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
     let refused = |spoil: fn(&mut ResultFile)| {
-        let mut result = sample::draped(3, 2, 3);
-        result.summary.sheet = Some(sample::sheet_summary());
-        result.sheet_states = Some(SheetKept::read(seal.clone(), "folder".into()));
+        let mut result = sample::sheet(3, 2, 3);
         spoil(&mut result);
         read(&ResultFile::text(&result).unwrap()).is_err()
     };
     assert!(!refused(|_| {}));
-    let spoilt: [fn(&mut ResultFile); 6] = [
+    let spoilt: [fn(&mut ResultFile); 9] = [
         |r| r.summary.sheet = None,
         |r| r.sheet_states = None,
-        |r| r.summary.sheet.as_mut().unwrap().steps = 4,
-        |r| r.summary.sheet.as_mut().unwrap().steps = 0,
+        |r| r.summary.steps = 4,
+        |r| r.summary.steps = 2,
         |r| r.summary.sheet.as_mut().unwrap().nodes = 0,
-        |r| r.summary.sheet.as_mut().unwrap().first_contact_step = Some(2),
+        |r| r.summary.sheet.as_mut().unwrap().first_contact_step = Some(4),
+        |r| r.summary.catenaries = Some(CatenaryReport::default()),
+        |r| r.steps[1].catenaries = sample::draped(3, 2, 3).steps[1].catenaries.clone(),
+        |r| r.scene.settings.model = Model::Catenaries,
     ];
     for (n, spoil) in spoilt.into_iter().enumerate() {
         assert!(refused(spoil), "{n}");
     }
+}
+
+/// The model beside is the other one, has steps of its own and was judged with no errors; what is read of it is what was written.
+#[test]
+fn the_drape_beside_is_of_the_other_model() {
+    let both = |spoil: fn(&mut ResultFile)| {
+        let mut result = sample::sheet(3, 2, 3);
+        result.also = Some(sample::also(sample::draped(3, 2, 3)));
+        spoil(&mut result);
+        result
+    };
+    let text = both(|_| {}).text().unwrap();
+    let found = read(&text).unwrap();
+    assert_eq!(found.text().unwrap(), text);
+    let also = found.also.unwrap();
+    assert_eq!(also.summary.model, Model::Catenaries);
+    assert_eq!(also.steps, sample::draped(3, 2, 3).steps);
+
+    let spoilt: [fn(&mut ResultFile); 6] = [
+        |r| r.also = Some(sample::also(sample::sheet(3, 2, 3))),
+        |r| r.also.as_mut().unwrap().steps.truncate(2),
+        |r| r.also.as_mut().unwrap().steps[1].catenaries = None,
+        |r| r.also.as_mut().unwrap().steps[1].grippers.truncate(1),
+        |r| r.also.as_mut().unwrap().summary.sample = Some(sample::sample_verdict()),
+        |r| r.also.as_mut().unwrap().summary.limits[0].step = Some(4),
+    ];
+    for (n, spoil) in spoilt.into_iter().enumerate() {
+        let refused = read(&both(spoil).text().unwrap());
+        assert!(matches!(refused, Err(ReadError::Changed { .. })), "{n}");
+    }
+}
+
+/// Whether a result is accepted follows from its verdicts: a file that says otherwise is refused.
+#[test]
+fn an_acceptance_that_its_limits_contradict_is_refused() {
+    let text = written();
+    let with_sum = |text: &str| {
+        let start = text.rfind("\"crc32:").unwrap() + 1;
+        let mut sum = crc32fast::Hasher::new();
+        sum.update(&text.as_bytes()[..start - 1]);
+        format!("{}{}\"}}\n", &text[..start], shown(sum))
+    };
+    assert_eq!(with_sum(&text), text);
+    let forged = with_sum(&text.replacen("\"accepted\":true", "\"accepted\":false", 1));
+    let refused = read(&forged).unwrap_err();
+    assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
+    assert!(refused.to_string().contains("`accepted` is false"), "{refused}");
 }
 
 /// A forged check sum does not help a material whose tension is no table, nor settings that no scene has.
@@ -124,8 +167,8 @@ fn only_white_space_at_the_end_may_change() {
 fn a_result_must_have_all_of_its_ply() {
     let spoilt: [fn(&mut ResultFile); 4] = [
         |r| r.steps[1].grippers.truncate(1),
-        |r| r.steps[0].cells.truncate(1),
-        |r| r.steps[2].catenaries.truncate(1),
+        |r| r.steps[0].catenaries.as_mut().unwrap().cells.truncate(1),
+        |r| sample::lines(r, 2).truncate(1),
         |r| r.scene.ply.grid.nu = 0,
     ];
     for spoil in spoilt {
@@ -168,13 +211,12 @@ fn an_interrupted_plan_is_read() {
     let mut result = sample::draped(3, 2, 3);
     result.summary.steps_planned = 5;
     let limit = result.summary.limits[0].clone();
-    let judged = [3, 5].map(|step| Verdict { step: Some(step), ..limit.clone() });
+    let judged = [(Name::Speed, 3), (Name::Jerk, 5)];
+    let judged = judged.map(|(name, step)| Verdict { name, step: Some(step), ..limit.clone() });
     result.summary.judge_also(judged);
     let read = read(&result.text().unwrap()).unwrap();
-    assert_eq!(
-        read.summary.limits[1..].iter().map(|v| v.step).collect::<Vec<_>>(),
-        [Some(3), None]
-    );
+    let steps: Vec<_> = read.summary.limits[1..].iter().map(|v| v.step).collect();
+    assert_eq!(steps, [Some(3), None]);
 }
 
 /// JSON of another program, a list, text, bytes, nothing: none is a result.
@@ -200,15 +242,10 @@ fn what_others_wrote_is_foreign() {
 /// sheet is refused even where the check sum was made anew.
 #[test]
 fn the_sample_of_a_result_fits_its_scene() {
-    let checksum = "crc32:0123abcd".to_string();
-    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
     let changed = |change: fn(&mut ResultFile)| {
-        let mut result = sample::draped(3, 2, 3);
-        result.summary.decide_by(sample::sheet_summary());
-        result.sheet_states = Some(SheetKept::read(seal.clone(), "folder".into()));
+        let mut result = sample::sheet(3, 2, 3);
         let verdict = sample::sample_verdict();
         result.scene.errors = Some(verdict.errors);
-        result.summary.accepted = verdict.ok;
         let position = verdict.errors.gripper.position.scaled(0.5);
         let stands = Stands { factor: 0.5, at_least: false, position, tried: 4 };
         (result.summary.sample, result.summary.stands) = (Some(verdict), Some(stands));
@@ -219,8 +256,7 @@ fn the_sample_of_a_result_fits_its_scene() {
     let found = read(&ResultFile::text(&whole).unwrap()).unwrap().summary;
     assert_eq!((found.sample, found.stands), (whole.summary.sample, whole.summary.stands));
 
-    let spoilt: [fn(&mut ResultFile); 8] = [
-        |r| r.summary.accepted = true,
+    let spoilt: [fn(&mut ResultFile); 7] = [
         |r| r.scene.errors = None,
         |r| r.summary.sample.as_mut().unwrap().ok = true,
         |r| r.summary.sample.as_mut().unwrap().needed = 2,

@@ -97,16 +97,23 @@ pub fn read_for(
 ) -> Result<SceneFile, SceneError> {
     let (document, base) = open(path)?;
     let mut file = keys(&document)?;
+    choose_models(&mut file, model, also);
+    let mut scene = check::scene(&file, None, &document, base)?;
+    scene.files.push(path.into());
+    Ok(scene)
+}
+
+/// Puts a model in place of the scene's, if one is given, and another one beside it (`also`).
+fn choose_models(file: &mut file::SceneKeys, model: Option<Model>, also: Option<Model>) {
     let key = |model: Model| Located { value: file::ModelKey::from(model), span: 0..0 };
     if let Some(kind) = model.map(key) {
         // what the scene has beside its own model may be the one that decides now
         file.model.also.take_if(|also| also.value == kind.value);
         file.model.kind = Some(kind);
     }
-    file.model.also = also.map(key).or(file.model.also);
-    let mut scene = check::scene(&file, None, &document, base)?;
-    scene.files.push(path.into());
-    Ok(scene)
+    if let Some(also) = also.map(key) {
+        file.model.also = Some(also);
+    }
 }
 
 /// Reads of a scene file what its ideal drape needs, `[ply]`, `[mold]`, `[target]` and `[limits]`, and
@@ -184,20 +191,28 @@ pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, SceneError>
     check::ply(&keys.ply, keys.grippers.as_ref().map(|table| &table.value), &document, base)
 }
 
-/// As [`parse`], on a mold that a program has made; the text has no `[mold]` then.
+/// As [`parse`], on a mold that a program has made if one is given, the text having no `[mold]` then, and for models as [`read_for`].
 ///
 /// # Errors
-/// As [`parse`], and if the text has a mold of its own.
-pub fn parse_on(mold: Mold, text: &str, base: &Path, name: &str) -> Result<SceneFile, SceneError> {
+/// As [`parse`], and if the text has a mold of its own beside a given one.
+pub fn parse_for(
+    text: &str,
+    base: &Path,
+    name: &str,
+    made: Option<Mold>,
+    model: Option<Model>,
+    also: Option<Model>,
+) -> Result<SceneFile, SceneError> {
     let document = error::Document::new(name, text);
     let mut file = keys(&document)?;
-    match file.mold.take() {
-        None => check::scene(&file, Some(mold), &document, base),
-        Some(table) => Err(document.error(
-            table.span,
+    choose_models(&mut file, model, also);
+    match (&file.mold, &made) {
+        (Some(table), Some(_)) => Err(document.error(
+            table.span.clone(),
             "the scene has two molds",
             "leave out [mold], or give no other mold",
         )),
+        _ => check::scene(&file, made, &document, base),
     }
 }
 

@@ -14,13 +14,8 @@ use plydrape::layup::Target;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;
 use plydrape::ply::{Grid, Ply, directions, gripper_name};
+use plydrape::scene::start_above;
 use std::ops::Range;
-
-/// Distance of neighbors at the start as a share of the fabric between them, unless given: that of Krogh
-/// et al. 2018.
-const CLOSER: f64 = 0.98;
-/// Height of the start above the drape's highest point, in cells, unless given.
-const CLEAR: f64 = 0.5;
 
 /// Checks where the table `[grippers]` puts the grippers.
 pub(super) fn start(
@@ -63,21 +58,10 @@ pub(super) fn is_open(keys: &GrippersTable) -> bool {
         && other_key(keys).is_none()
 }
 
-/// The start of a scene that only says where the ply is to lie: a level rectangle above the middle of the
-/// ideal drape, a little closer than the fabric, half a cell above the drape's highest point. `span` is
-/// the place in the scene that faults of it are shown at.
+/// The start of a scene that only says where the ply is to lie, see [`start_above`]; `span` is the place in the scene that faults of it are
+/// shown at.
 pub(super) fn above(net: &Net, span: &Range<usize>, around: &Surroundings) -> Places {
-    let ply = around.ply;
-    let ends: Vec<[f64; 3]> = net.nodes.iter().flatten().copied().collect();
-    let top = ends.iter().map(|place| place[2]).fold(f64::NEG_INFINITY, f64::max);
-    let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
-    let spacing = ply.cell.map(|side| CLOSER * side);
-    let spread = |corner| Rectangle::on(&level, corner, net.layup.heading);
-    let (here, there) = (middle(&spread([0.0; 2]).grippers(ply, spacing)), middle(&ends));
-    let mut points = spread([0, 1].map(|n| there[n] - here[n])).grippers(ply, spacing);
-    for point in &mut points {
-        point[2] = top + CLEAR * ply.cell[0].min(ply.cell[1]);
-    }
+    let points = start_above(around.ply, net);
     Places { points, document: around.document.clone(), spans: vec![span.clone()], height: None }
 }
 

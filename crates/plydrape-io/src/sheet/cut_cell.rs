@@ -78,7 +78,7 @@ mod tests {
             grippers = [3, 2]\ncell = [0.12, 0.12]\narray = { partly = \"leave-off\" }\nmaterial = \"krogh2018\"\n\
             [grippers]\nspacing = [0.118, 0.118]\nheight = 0.05\n";
         let scene = crate::scene::parse(text, Path::new(""), "scene").unwrap().scene;
-        let fabric = Fabric::of(&scene.ply, &scene.settings).unwrap();
+        let fabric = Fabric::of(&scene.layup.ply, &scene.layup.settings).unwrap();
         let mesh = SheetMesh {
             places: fabric.places.clone().into(),
             areas: fabric.areas.clone().into(),
@@ -89,10 +89,10 @@ mod tests {
                 .filter(|cell| cell.is_ply())
                 .map(|cell| cell.nodes)
                 .collect(),
-            grippers: scene.ply.grippers(),
+            grippers: scene.layup.ply.grippers(),
             releases: false,
         };
-        let cut = CutCell::all(&scene.ply, &scene.settings, &mesh);
+        let cut = CutCell::all(&scene.layup.ply, &scene.layup.settings, &mesh);
         assert!(cut.iter().any(|cell| cell.rings.len() == 2), "a cell with a hole in it");
         let size = |nodes: [u32; 4]| {
             let [low, high] = [nodes[0], nodes[2]].map(|n| fabric.places[n as usize]);
@@ -106,7 +106,7 @@ mod tests {
         let whole = whole.filter(|nodes| cut.iter().all(|other| other.nodes != *nodes));
         let whole: f64 = whole.map(size).sum();
         let parts: f64 = cut.iter().map(|cell| share(&cell.polygon()) * size(cell.nodes)).sum();
-        let area = scene.ply.cut.as_ref().unwrap().outline.area();
+        let area = scene.layup.ply.cut.as_ref().unwrap().outline.area();
         assert!((1.0 - (whole + parts) / area).abs() < 2e-3, "{whole} + {parts} of {area} m²");
         for cell in &cut {
             let rings: f64 = cell.rings.iter().map(|ring| share(ring)).sum();

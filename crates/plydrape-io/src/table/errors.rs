@@ -21,7 +21,7 @@ pub(super) fn errors(result: &ResultFile) -> String {
         (None, _) => {}
     }
     if let Some(stands) = &summary.stands {
-        lines.push(tolerance_in_words(result, stands));
+        lines.push(stands_in_words(result, stands));
     }
     lines.iter().map(|line| shown::excerpt(line, WIDTH) + "\n").collect()
 }
@@ -56,7 +56,7 @@ pub(crate) fn share(sample: &SampleVerdict) -> String {
 
 /// What a plan tolerates, as in `tolerates errors of 0.41 mm (standard deviation of each gripper's position along each axis)`.
 #[must_use]
-pub(crate) fn tolerance_in_words(result: &ResultFile, stands: &Stands) -> String {
+pub(crate) fn stands_in_words(result: &ResultFile, stands: &Stands) -> String {
     if stands.tried == 0 {
         return "tolerates no errors: it is not accepted without any".into();
     }
@@ -101,7 +101,7 @@ mod tests {
 
     fn said(result: &ResultFile, factor: f64, at_least: bool) -> String {
         let position = Term::NONE;
-        tolerance_in_words(result, &Stands { factor, at_least, position, tried: 16 })
+        stands_in_words(result, &Stands { factor, at_least, position, tried: 16 })
     }
 
     /// The fabric between the grippers of the sample is 100 mm long: without errors of the scene a factor is one of 0.1 mm.
@@ -126,7 +126,7 @@ mod tests {
         errors.gripper.position = Term::NONE;
         result.scene.errors = Some(errors);
         assert_eq!(said(&result, 1.4, false), "tolerates 1.4 times the errors of the scene");
-        let nothing = tolerance_in_words(&result, &Stands::nothing(&errors));
+        let nothing = stands_in_words(&result, &Stands::nothing(&errors));
         assert_eq!(nothing, "tolerates no errors: it is not accepted without any");
     }
 

@@ -2,11 +2,12 @@
 
 use crate::common::{drape, example};
 use plydrape::clearance::{self, Body, Mount, Poses, Shape};
-use plydrape::draping::record::Verdict;
+use plydrape::measure::{Verdict};
 use plydrape::measure::Name;
 use plydrape::mold::Pose;
 use plydrape::planner;
-use plydrape::scene::{Model, Scene};
+use plydrape::layup::{Model};
+use plydrape::scene::{Scene};
 use plydrape_io::result::ResultFile;
 use plydrape_io::scene::{self, SceneError};
 use std::ops::ControlFlow;
@@ -47,7 +48,7 @@ fn an_obstacle_between_two_steps_is_met_and_named() {
     let result = drape(&read(&passing(&format!("{CUP}{wall}"))));
     let found = verdict(&result).unwrap();
     assert!(!found.ok && found.value <= 0.0 && found.limit == 5.0 && found.is_least(), "{found:?}");
-    assert!(!result.summary.accepted && !result.summary.motion_accepted());
+    assert!(!result.summary.accepted() && !result.summary.motion_accepted());
     assert!(found.at.starts_with("cup of g"), "{found:?}");
     assert!(
         found.at.contains(" and obstacle wall at ") && found.at.contains(" s near ("),
@@ -144,16 +145,16 @@ fn a_result_keeps_bodies_and_obstacles() {
         Path::new("result.json"),
     )
     .unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(read.scene.bodies, scene.bodies);
+    assert_eq!(read.scene.bodies, scene.layup.bodies);
     assert_eq!((read.scene.limits.clearance, read.summary.limits), (0.012, result.summary.limits));
     let cup = Shape::Cylinder { radius: 0.015, from: 0.0, to: 0.03 };
-    assert_eq!(scene.bodies.bodies()[0], Body { name: "cup".into(), on: Mount::Pad, shape: cup });
+    assert_eq!(scene.layup.bodies.bodies()[0], Body { name: "cup".into(), on: Mount::Pad, shape: cup });
     let stem = Shape::Box { size: [0.01, 0.02, 0.1], at: [0.0, 0.0, 0.09] };
     assert_eq!(
-        scene.bodies.bodies()[1],
+        scene.layup.bodies.bodies()[1],
         Body { name: "stem".into(), on: Mount::Stem, shape: stem }
     );
-    assert_eq!(scene.bodies.obstacles()[0].pose, Pose::new([0.2, 0.1, 0.0], [0.1, 0.0, 0.0]));
+    assert_eq!(scene.layup.bodies.obstacles()[0].pose, Pose::new([0.2, 0.1, 0.0], [0.1, 0.0, 0.0]));
 }
 
 /// A damaged result whose body has no shape, or whose obstacle is askew, is no result.
@@ -192,7 +193,7 @@ fn a_ply_without_catenaries_is_judged_too() {
          [[obstacles]]\nname = \"beam\"\nbox = {{ size = [2, 2, 0.02] }}\nposition = [0, 0, 0.04]\n"
     );
     let scene = read(&text);
-    assert!(!scene.ply.has_lines());
+    assert!(!scene.layup.ply.has_lines());
     let result = drape(&scene);
     let found = verdict(&result).unwrap();
     assert!(!found.ok && found.at.contains("beam"), "{found:?}");
@@ -203,7 +204,7 @@ fn a_ply_without_catenaries_is_judged_too() {
 #[test]
 fn a_plan_goes_over_a_fixture_that_straight_paths_run_into() {
     let mut scene = example("16_fixture");
-    scene.settings.model = Model::Catenaries;
+    scene.layup.settings.model = Model::Catenaries;
     let straight = drape(&scene);
     let found = verdict(&straight).unwrap();
     assert!(!found.ok && found.at.contains("obstacle fixture"), "{found:?}");

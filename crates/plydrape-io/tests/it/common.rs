@@ -1,12 +1,15 @@
 //! What several of these tests need: shipped scenes, their drapes, and the ply of the paper.
 
 use plydrape::catenary::{EndCondition, Profile};
-use plydrape::draping::simulate;
+use plydrape::draping::record::{CatenaryState, CatenaryStep};
 use plydrape::equilibrium::{End, SlopeSource, Solver};
 use plydrape::material::{Material, Section};
 use plydrape::ply::{ContactSegment, Grid, Ply};
-use plydrape::scene::{ContactEnd, ContactSettings, Scene, Settings, SlopeRule, Stepping};
-use plydrape_io::ResultFile;
+use plydrape::layup::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
+use plydrape::scene::{Scene};
+use plydrape::layup::Model;
+use plydrape::outcome::{self, DrapeWatch, Step};
+use plydrape_io::{ResultFile, sheet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -25,9 +28,33 @@ pub fn example(name: &str) -> Scene {
     plydrape_io::scene::read(&path).unwrap_or_else(|error| panic!("{error}")).scene
 }
 
-/// The result of a scene along its own motion.
+/// The result of a scene along its own motion, by the catenaries whichever model the scene chooses.
 pub fn drape(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
+    let mut scene = scene.clone();
+    scene.layup.settings.model = Model::Catenaries;
+    drape_until(&scene, usize::MAX)
+}
+
+/// The result of a scene by the model that decides, broken off after a step; states of a sheet are kept in the folder of temporary files.
+pub fn drape_until(scene: &Scene, last: usize) -> ResultFile {
+    let mut see = |step: usize, _: Option<&_>| match step < last {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    let watch = &mut DrapeWatch { stop: &|| false, see: &mut see };
+    let drape = outcome::drape(scene, scene.layup.settings.model, watch);
+    let drape = drape.unwrap_or_else(|fault| panic!("{fault}"));
+    ResultFile::new(scene, None, sheet::keep(drape, &std::env::temp_dir()).unwrap())
+}
+
+/// What the catenaries of a step are.
+pub fn hung(step: &Step) -> &CatenaryStep {
+    step.catenaries.as_ref().expect("catenaries drape")
+}
+
+/// The catenaries of a step.
+pub fn lines(step: &Step) -> &[CatenaryState] {
+    &hung(step).catenaries
 }
 
 pub fn distance(a: Point, b: Point) -> f64 {

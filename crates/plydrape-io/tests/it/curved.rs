@@ -5,7 +5,9 @@ use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::net::{Layup, Net};
 use plydrape::ply::{Fibres, Grid, Kind};
-use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
+use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape_io::ResultFile;
 use std::sync::Arc;
 
@@ -17,13 +19,13 @@ fn strip(
     positions: Vec<Vec<[f64; 3]>>,
 ) -> Scene {
     let mut scene = example("02_hanging_strip");
-    scene.ply.grid = Grid { nu: grippers, nv: 1 };
-    scene.ply.cell = [0.1; 2];
-    scene.mold = Some(mold);
-    scene.target = None;
-    scene.settings.contact = contact;
+    scene.layup.ply.grid = Grid { nu: grippers, nv: 1 };
+    scene.layup.ply.cell = [0.1; 2];
+    scene.layup.mold = Some(mold);
+    scene.layup.target = None;
+    scene.layup.settings.contact = contact;
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    scene.motion = Motion { times, positions };
+    scene.layup.motion = Motion { times, positions };
     scene
 }
 
@@ -156,8 +158,8 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
         let mut scene = strip(2, trough, contact, positions);
         // a parabola longer than its chord by a part e sags by √(3e/8) of it
         let (length, excess) = (2.0 * half, 1e-8_f64);
-        scene.ply.cell = [length * (1.0 + excess); 2];
-        scene.settings.axial_stiffness = f64::INFINITY;
+        scene.layup.ply.cell = [length * (1.0 + excess); 2];
+        scene.layup.settings.axial_stiffness = f64::INFINITY;
         let sag = (0.375 * excess).sqrt() * length;
         let result = drape(&scene);
         let last = result.steps.last().expect("steps");
@@ -224,12 +226,12 @@ fn a_mesh_of_a_sphere_drapes_like_the_sphere() {
 #[test]
 fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
     let scene = example("04_dome");
-    let (first, last) = (&scene.motion.positions[0], &scene.motion.positions[29]);
+    let (first, last) = (&scene.layup.motion.positions[0], &scene.layup.motion.positions[29]);
     // share of the edges in contact, and landing error of the edges (mm)
     let landed = |steps: usize, tolerance: f64| -> [f64; 2] {
         let mut scene = scene.clone();
         let stepping = Stepping::Cut;
-        scene.settings.contact = ContactSettings {
+        scene.layup.settings.contact = ContactSettings {
             tolerance,
             stepping,
             end: ContactEnd::Tangent,
@@ -240,7 +242,7 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
             first.iter().zip(last).map(mix).collect()
         };
         let part = |n: usize| 0.96 * n as f64 / (steps - 1) as f64;
-        scene.motion = Motion {
+        scene.layup.motion = Motion {
             times: (0..steps).map(|n| n as f64).collect(),
             positions: (0..steps).map(|n| at(part(n))).collect(),
         };
@@ -318,7 +320,7 @@ fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
 #[test]
 fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it() {
     let mut scene = example("04_dome");
-    let target = scene.target.clone().expect("a target");
+    let target = scene.layup.target.clone().expect("a target");
     let layup = target.drape.as_ref().expect("an ideal drape").layup;
     let axis: Vec<f64> = (0..121).map(|n| -0.3 + 0.005 * f64::from(n)).collect();
     let grippers = |front: f64| -> Vec<[f64; 3]> {
@@ -340,11 +342,11 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
     let mut positions: Vec<_> = (0..60).map(|n| grippers(0.25 * f64::from(n) / 59.0)).collect();
     positions[59] = target.grippers.clone();
     let straight = drape(&scene);
-    scene.motion = Motion { times: (0..60).map(f64::from).collect(), positions };
+    scene.layup.motion = Motion { times: (0..60).map(f64::from).collect(), positions };
     let rolled = drape(&scene);
 
     let bow = (0.15_f64 / 0.6).tan() / 0.6 * 0.1 * 0.1 / 8.0 * 1e3;
-    let lines = scene.ply.lines();
+    let lines = scene.layup.ply.lines();
     let mut worst = 0.0_f64;
     for edge in 0..lines.edges() {
         let c = lines.catenary(edge);

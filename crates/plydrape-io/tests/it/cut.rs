@@ -47,8 +47,8 @@ fn the_cups_bear_the_weight_of_what_is_cut_out() {
         grippers = [3, 2]\ncell = [0.1, 0.1]\narray = { holds = [\"###\", \"##.\"], middle = [0.12, 0.07] }";
     for (ply, pad, cups) in [(turned, "pad_radius = 0.015\n", 8), (notched, "", 5)] {
         let scene = parse(ply, pad);
-        assert_eq!(scene.ply.grippers(), cups);
-        let outline = &scene.ply.cut.as_ref().unwrap().outline;
+        assert_eq!(scene.layup.ply.grippers(), cups);
+        let outline = &scene.layup.ply.cut.as_ref().unwrap().outline;
         let drape = drape(&scene);
         assert_eq!(drape.summary.status, Status::Converged);
         let carried: f64 = -drape.last.forces.iter().map(|force| force[2]).sum::<f64>();
@@ -101,20 +101,20 @@ fn a_drawing_may_lie_anywhere() {
 fn a_ply_at_45_degrees_is_laid_on_a_cylinder_without_shear() {
     let ply = "size = [0.36, 0.26]\nwarp = \"45 deg\"\ngrippers = [4, 3]\ncell = [0.1, 0.1]";
     let scene = parse(ply, &format!("{CYLINDER}direction = \"45 deg\"\n"));
-    let target = scene.target.as_ref().unwrap();
+    let target = scene.layup.target.as_ref().unwrap();
     let net = target.drape.as_ref().unwrap();
     assert!(net.report.largest_shear.is_some_and(|(shear, _)| shear < 1e-6));
     for n in 0..12 {
-        let [i, j] = scene.ply.id(n).map(|k| k as f64);
+        let [i, j] = scene.layup.ply.id(n).map(|k| k as f64);
         let (x, arc) = (0.1 * (i - 1.5), 0.1 * (j - 1.0));
         let (sin, cos) = (arc / 0.5).sin_cos();
         let expected = [x, 0.5 * sin, 0.5 * cos - 0.5];
         let found = target.grippers[n];
         assert!(distance(found, expected) < 1e-6, "{found:?} {expected:?}");
     }
-    assert_eq!(scene.ply.grid, Grid::NONE);
+    assert_eq!(scene.layup.ply.grid, Grid::NONE);
     // the start lies in rows along the array too
-    let start = &scene.motion.positions[0];
+    let start = &scene.layup.motion.positions[0];
     assert!((distance(start[0], start[1]) - 0.098).abs() < 1e-12);
     assert!((start[0][1] - start[3][1]).abs() < 1e-9, "{start:?}");
 }
@@ -148,7 +148,7 @@ fn cups_hold_where_there_is_ply_around_them() {
         )
     };
     let scene = parse(&ply(", partly = \"leave-off\""), "");
-    let ids: Vec<_> = (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect();
+    let ids: Vec<_> = (0..scene.ply.grippers()).map(|n| scene.layup.ply.id(n)).collect();
     assert_eq!(ids, [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [0, 2]]);
     let text = format!("[ply]\n{}\nmaterial = \"krogh2018\"\n", ply(""));
     let refused = scene::parse(&text, Path::new(""), "scene").unwrap_err();
@@ -173,7 +173,7 @@ fn a_cut_ply_is_written_to_every_file() {
     let results = folder.path().join("results");
     plydrape_io::write_all(&result, &results).unwrap_or_else(|error| panic!("{error}"));
     let read = plydrape_io::read::read(&results.join("result.json")).unwrap();
-    assert_eq!(read.scene.ply, scene.ply);
+    assert_eq!(read.scene.ply, scene.layup.ply);
     let any = export::Options { even_if_rejected: true, ..export::Options::default() };
     for format in
         [Format::Csv, Format::Svg, Format::Ros2, Format::Vtk, Format::Pattern, Format::Boundary]
@@ -192,11 +192,11 @@ fn a_cut_ply_is_written_to_every_file() {
     let layers = Some(vec!["CUT".into(), "HOLES".into()]);
     let again =
         outline::read_dxf("pattern.dxf", &pattern[0].1, &Options { layers, ..options }).unwrap();
-    let cut = scene.ply.cut.as_ref().unwrap();
+    let cut = scene.layup.ply.cut.as_ref().unwrap();
     assert!((again.area() - cut.outline.area()).abs() < 1e-9);
     assert!((again.bounds()[1][0] - 0.22).abs() < 1e-9 && again.holes().len() == 1);
 
-    let (mold, net) = (scene.mold.as_ref().unwrap(), scene.target.as_ref().unwrap());
+    let (mold, net) = (scene.layup.mold.as_ref().unwrap(), scene.layup.target.as_ref().unwrap());
     let net = net.drape.as_ref().unwrap();
     let boundary = export::files(&read, Format::Boundary, &any).unwrap();
     let text = String::from_utf8(boundary[0].1.clone()).unwrap();

@@ -295,8 +295,8 @@ fn a_plan_is_refused_for_its_sheet_too() {
     let sheets = PlanSheets { nodes: 9e4, coarse_nodes: 1e3, keep: 40 };
     assert!(size::sheet(sheets.nodes, sheets.keep).is_ok());
     let plan = Plan { steps: 10_000, ..scene.plan };
-    assert!(size::plan(&scene.ply, &plan, None).is_ok());
-    let refused = size::plan(&scene.ply, &plan, Some(sheets)).unwrap_err().to_string();
+    assert!(size::plan(&scene.layup.ply, &plan, None).is_ok());
+    let refused = size::plan(&scene.layup.ply, &plan, Some(sheets)).unwrap_err().to_string();
     assert!(
         refused.contains("with 4 grippers") && refused.contains("a sheet of 90000 nodes"),
         "{refused}"

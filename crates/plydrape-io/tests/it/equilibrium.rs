@@ -6,7 +6,7 @@ use plydrape::catenary::Profile;
 use plydrape::equilibrium::{Direction, Property, Solver, Status};
 use plydrape::material::Section;
 use plydrape::ply::{Grid, Kind, Lines, Ply};
-use plydrape::scene::{Settings, SlopeRule};
+use plydrape::layup::{Settings, SlopeRule};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

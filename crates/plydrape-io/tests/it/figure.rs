@@ -4,7 +4,9 @@ use plydrape::draping::simulate;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface};
 use plydrape::net::{EdgeRule, Generators, Layup, Net};
 use plydrape::ply::Grid;
-use plydrape::scene::{Motion, Scene, Target};
+use plydrape::layup::{Target};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape_io::ResultFile;
 use plydrape_io::net::{Findings, write_all};
 use plydrape_io::{self, figure};
@@ -24,12 +26,12 @@ fn lowered(grid: Grid, mold: Mold, target: &[[f64; 3]], height: f64, steps: usiz
         target.iter().map(down).collect()
     };
     scene.title = "A ply let down".into();
-    scene.ply.grid = grid;
-    scene.ply.cell = [0.1; 2];
-    scene.mold = Some(mold);
-    scene.target = Some(Target { grippers: target.to_vec(), drape: None });
+    scene.layup.ply.grid = grid;
+    scene.layup.ply.cell = [0.1; 2];
+    scene.layup.mold = Some(mold);
+    scene.layup.target = Some(Target { grippers: target.to_vec(), drape: None });
     let last = steps - 1;
-    scene.motion = Motion {
+    scene.layup.motion = Motion {
         times: (0..steps).map(|n| n as f64).collect(),
         positions: (0..steps).map(|n| at(1.0 - n as f64 / last as f64)).collect(),
     };

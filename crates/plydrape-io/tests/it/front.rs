@@ -64,15 +64,15 @@ fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
         let heights = MoldHeights::new(&scene).expect("a mold");
         let formation = Formation::new(&scene, &heights, RING).expect("a target");
         let (lines, targets) =
-            (scene.ply.lines(), &scene.target.as_ref().expect("a target").grippers);
-        let mold = scene.mold.as_ref().expect("a mold");
+            (scene.layup.ply.lines(), &scene.layup.target.as_ref().expect("a target").grippers);
+        let mold = scene.layup.mold.as_ref().expect("a mold");
         for k in 0..=10 {
             let front = formation.reach() * f64::from(k) / 10.0;
             let grippers = formation.grippers(front);
             for edge in 0..lines.edges() {
                 let c = lines.catenary(edge);
                 let [a, b] = lines.ends(edge).map(|gripper| grippers[gripper]);
-                let most = scene.ply.flat_length(edge) * (1.0 + 2e-4);
+                let most = scene.layup.ply.flat_length(edge) * (1.0 + 2e-4);
                 assert!(distance(a, b) < most, "{name}: {c:?} is {} m long", distance(a, b));
             }
             for (place, target) in grippers.iter().zip(targets) {
@@ -98,8 +98,8 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
         scene.plan.steps = steps;
         let positions = trajectory(&scene, &heights, RING).expect("a target");
         assert_eq!(positions.len(), steps);
-        assert_eq!(positions[0], scene.motion.positions[0]);
-        assert_eq!(positions[steps - 1], scene.target.as_ref().expect("a target").grippers);
+        assert_eq!(positions[0], scene.layup.motion.positions[0]);
+        assert_eq!(positions[steps - 1], scene.layup.target.as_ref().expect("a target").grippers);
     }
     let longest = |positions: &[Vec<[f64; 3]>]| {
         let pairs = positions.windows(2).flat_map(|pair| pair[0].iter().zip(&pair[1]));

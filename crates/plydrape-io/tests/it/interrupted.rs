@@ -2,7 +2,7 @@
 
 use crate::common::examples;
 use plydrape::planner::{self, Planned, Progress};
-use plydrape::scene::Model;
+use plydrape::layup::{Model};
 use plydrape::sheet::Status;
 use plydrape_io::scene::{self, SceneFile};
 use std::ops::ControlFlow;
@@ -10,8 +10,8 @@ use std::ops::ControlFlow;
 /// The dome with a coarse sheet, and a search that only somebody ends.
 fn dome() -> SceneFile {
     let mut scene = scene::read(&examples().join("04_dome/scene.toml")).unwrap();
-    scene.settings.model = Model::Sheet;
-    scene.settings.sheet.mesh = Some(0.05);
+    scene.layup.settings.model = Model::Sheet;
+    scene.layup.settings.sheet.mesh = Some(0.05);
     scene.limits.height = 1e-6;
     (scene.plan.steps, scene.plan.evaluations) = (20, 1_000_000);
     scene
@@ -79,7 +79,7 @@ fn an_accepted_plan_is_only_replaced_by_an_accepted_one() {
     let planned = planner::plan(&scene, None, watcher).unwrap();
     assert!(accepted.is_sorted() && accepted.last() == Some(&true));
     let sheet = planned.sheet.as_ref().expect("the sheet decides");
-    assert!(sheet.drape.summary.accepted && !planned.interrupted);
+    assert!(sheet.drape.summary.accepted() && !planned.interrupted);
     let ranked = planned.record.evaluations - planned.decisions;
     assert!((32..=40).contains(&ranked), "{ranked}");
 }

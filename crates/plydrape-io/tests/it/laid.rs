@@ -50,7 +50,7 @@ fn a_searched_seed_is_the_same_for_the_net_and_for_the_drape() {
     let ideal = laid(home.path(), &text);
     let scene =
         scene::read(&home.path().join("scene.toml")).unwrap_or_else(|e| panic!("{e}")).scene;
-    let net: &Net = scene.target.as_ref().unwrap().drape.as_ref().unwrap();
+    let net: &Net = scene.layup.target.as_ref().unwrap().drape.as_ref().unwrap();
     assert_eq!(net, &ideal.net);
 
     // the middle lies at the origin, turned as asked
@@ -141,7 +141,7 @@ fn what_hangs_over_between_nodes_is_not_accepted() {
     assert!(ideal.net.missing.is_empty());
     let findings = Findings::of(&ideal.net, &ideal.mold, None, None);
     let summary = Summary::of(&ideal.net, &findings, None);
-    assert!(!summary.accepted);
+    assert!(!summary.accepted());
     assert!(summary.verdict().contains("4 mm beyond the mold's boundary"), "{}", summary.verdict());
     let boundary = summary.boundary.unwrap();
     assert!((boundary.off_mold_length - 0.228).abs() < 1e-6, "{boundary:?}");

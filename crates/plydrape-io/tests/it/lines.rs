@@ -5,7 +5,8 @@ use plydrape::catenary::{EndCondition, Profile, Span};
 use plydrape::draping::simulate;
 use plydrape::equilibrium::Solver;
 use plydrape::ply::{Kind, Ply};
-use plydrape::scene::{Scene, SlopeRule};
+use plydrape::layup::{SlopeRule};
+use plydrape::scene::{Scene};
 use plydrape_io::scene;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -57,13 +58,13 @@ fn a_whole_rectangle_that_is_cut_has_the_states_of_its_array() {
 }
 
 fn solved(scene: &Scene, spacing: f64) -> (Solver, Vec<[f64; 3]>) {
-    let ply = &scene.ply;
+    let ply = &scene.layup.ply;
     let at = |n: usize| {
         let [i, j] = ply.id(n).map(|k| spacing * k as f64);
         [i, j, 0.05]
     };
     let positions: Vec<_> = (0..ply.grippers()).map(at).collect();
-    let mut solver = Solver::new(ply, &scene.settings);
+    let mut solver = Solver::new(ply, &scene.layup.settings);
     let contacts = vec![None; ply.lines().catenaries()];
     let equilibrium = solver.solve(&positions, &contacts);
     assert_eq!(equilibrium.status, plydrape::equilibrium::Status::Converged);
@@ -89,7 +90,7 @@ fn borne(ply: &Ply, solver: &Solver) -> f64 {
 #[test]
 fn a_span_over_a_missing_cup_hangs_as_one_of_twice_the_length() {
     let scene = parse(&array([3, 3], "array = { holds = [\"###\", \"#.#\", \"###\"] }"), "");
-    let (ply, settings) = (&scene.ply, &scene.settings);
+    let (ply, settings) = (&scene.layup.ply, &scene.layup.settings);
     assert_eq!([ply.grippers(), ply.lines().catenaries()], [8, 10]);
     let (solver, _) = solved(&scene, 0.098);
     let line = ply.line(Kind::EdgeU);
@@ -149,8 +150,8 @@ fn contact_and_free_lengths_add_up_to_the_set_lengths() {
 fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
     for (warp, slopes) in [("45 deg", SlopeRule::MinForce), ("-45 deg", SlopeRule::MomentBalance)] {
         let mut scene = parse(&array([3, 3], &format!("warp = \"{warp}\"")), "");
-        scene.settings.slopes = slopes;
-        let (ply, lines) = (&scene.ply, scene.ply.lines());
+        scene.layup.settings.slopes = slopes;
+        let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
         let d = 0.1 * f64::sqrt(2.0);
         let (long, short) = (0.108, f64::sqrt(d * d - 0.108 * 0.108));
         // a little less across, so that fibres and columns hang
@@ -160,7 +161,7 @@ fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
             [long * i, short_now * j, 0.05]
         };
         let positions: Vec<_> = (0..9).map(at).collect();
-        let mut solver = Solver::new(ply, &scene.settings);
+        let mut solver = Solver::new(ply, &scene.layup.settings);
         solver.solve(&positions, &vec![None; lines.catenaries()]);
         let problem = solver.problem();
         let (mut columns, mut rows) = (0, 0);
@@ -192,8 +193,8 @@ fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
 fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
     let rest = CYLINDER.replace("seed = \"middle\"", "seed = \"middle\"\ndirection = \"45 deg\"");
     let scene = parse(&array([4, 3], "warp = \"45 deg\""), &rest);
-    let (ply, lines) = (&scene.ply, scene.ply.lines());
-    let (mold, target) = (scene.mold.as_ref().unwrap(), &scene.target.as_ref().unwrap().grippers);
+    let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
+    let (mold, target) = (scene.layup.mold.as_ref().unwrap(), &scene.layup.target.as_ref().unwrap().grippers);
     for n in 0..lines.catenaries() {
         let [a, b] = lines.ends(n).map(|gripper| target[gripper]);
         let length = lines.flat_length(n, 1.0);
@@ -202,7 +203,7 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
         // rows run along the axis; fibres wind around it
         assert!(n >= lines.edges() || distance(a, b) < length);
     }
-    let mut solver = Solver::new(ply, &scene.settings);
+    let mut solver = Solver::new(ply, &scene.layup.settings);
     solver.solve(target, &vec![None; lines.catenaries()]);
     for (cell, shearing) in lines.cells().iter().zip(&solver.problem().shearing) {
         let angle =
@@ -215,7 +216,7 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
 #[test]
 fn a_slack_ply_at_45_degrees_hangs_in_all_of_its_lines() {
     let scene = parse(&array([4, 3], "warp = \"45 deg\""), "");
-    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
     let (solver, _) = solved(&scene, 0.098);
     assert_eq!(solver.problem().elements.len(), lines.catenaries());
     let weights = solver.problem().elements.iter().filter(|e| e.catenary < lines.edges());
@@ -250,14 +251,14 @@ fn rows_at_30_degrees_have_no_catenaries() {
 #[test]
 fn a_side_of_two_cells_has_the_mean_of_what_they_leave_it() {
     let scene = parse(&array([3, 2], "warp = \"45 deg\""), "");
-    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
     let short = f64::sqrt(2.0 * 0.1 * 0.1 - 0.108 * 0.108);
     let at = |n: usize| {
         let [i, j] = ply.id(n);
         [[0.0, 0.108, 0.108 + 0.099][i], (short - 5e-4) * j as f64, 0.05]
     };
     let positions: Vec<_> = (0..6).map(at).collect();
-    let mut solver = Solver::new(ply, &scene.settings);
+    let mut solver = Solver::new(ply, &scene.layup.settings);
     solver.solve(&positions, &vec![None; lines.catenaries()]);
     assert!(solver.problem().shearing[0].is_some() && solver.problem().shearing[1].is_none());
     let mean = f64::sqrt(0.5 * (short * short + 0.1 * 0.1));

@@ -456,7 +456,7 @@ fn a_scene_follows_the_dense_table() {
     let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 4]\ncell = [0.12, 0.12]\nmaterial = \"krogh2018\"\n\
         [motion]\nkind = \"file\"\nfile = \"motion.csv\"\n";
     let scene = scene::parse(text, folder.path(), "scene").unwrap_or_else(|e| panic!("{e}")).scene;
-    assert_eq!(scene.motion, motion.sampled(100.0).unwrap());
+    assert_eq!(scene.layup.motion, motion.sampled(100.0).unwrap());
 
     let other = paper_ply(4, 3);
     let refused = csv::motion(&motion, &attitudes, &other, 100.0);

@@ -3,10 +3,11 @@
 
 use crate::common::examples;
 use crate::scaled::scaled;
-use plydrape::draping::record::Verdict;
+use plydrape::measure::{Verdict};
 use plydrape::measure::Name;
 use plydrape::planner::{self, Planned};
-use plydrape::scene::{Motion, Scene};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape::sheet;
 use plydrape_io::result::ResultFile;
 use plydrape_io::scene;
@@ -86,7 +87,7 @@ fn verdict<'a>(result: &'a ResultFile, name: &str) -> &'a Verdict {
 /// The sheet along a motion over the mold of a scene, with lines every tenth of a cell.
 fn draped(scene: &Scene, motion: Motion) -> sheet::Summary {
     let mut scene = Scene { motion, ..scene.clone() };
-    scene.settings.sheet.mesh = Some(0.1 * scene.ply.cell[0].min(scene.ply.cell[1]));
+    scene.layup.settings.sheet.mesh = Some(0.1 * scene.layup.ply.cell[0].min(scene.layup.ply.cell[1]));
     let tuning = sheet::Tuning::default();
     let drape = sheet::drape(&scene, tuning, &|| false, |_| ControlFlow::Continue(()));
     drape.expect("a sheet").summary
@@ -106,7 +107,7 @@ fn keeps_what_counts(summary: &sheet::Summary, s: f64, position: f64, what: &str
 
 /// From a step on, that of the first contact, no gripper rises off the mold by more than `rise` (m).
 fn only_comes_down(scene: &Scene, positions: &[Vec<[f64; 3]>], rise: f64, what: &str) {
-    let mold = scene.mold.as_ref().expect("a mold");
+    let mold = scene.layup.mold.as_ref().expect("a mold");
     for n in 0..scene.ply.grid.grippers() {
         let mut lowest = f64::INFINITY;
         for (step, grippers) in positions.iter().enumerate() {
@@ -193,26 +194,26 @@ fn is_draped(scene: &Scene, s: f64, made: Option<PathBuf>, position: f64, what: 
     let table = |name: &str| poses(&std::fs::read_to_string(made.join(name)).unwrap());
     let (steps, samples) = (table("trajectory.csv"), table("motion.csv"));
     let along = motion(&steps, 1);
-    let targets = &scene.target.as_ref().expect("targets").grippers;
+    let targets = &scene.layup.target.as_ref().expect("targets").grippers;
     assert!(along.positions.last() == Some(targets), "{what}: it ends beside its target");
     let summary = draped(scene, along.clone());
     keeps_what_counts(&summary, s, position, &format!("{what}, trajectory.csv"));
     let first = summary.first_contact_step.expect("contact") - 1;
-    only_comes_down(scene, &along.positions[first..], scene.settings.contact.tolerance, what);
+    only_comes_down(scene, &along.positions[first..], scene.layup.settings.contact.tolerance, what);
     // as it moves between the steps
     let between = motion(&samples, samples.len() / (2 * steps.len()));
     let summary = draped(scene, between);
     keeps_what_counts(&summary, s, position, &format!("{what}, motion.csv"));
     let result = read::read(&made.join("result.json")).unwrap();
     let (motion, attitudes) = result.motion().unwrap().expect("a plan");
-    let dense = csv::motion(&motion, &attitudes, &scene.ply, 1000.0).unwrap();
+    let dense = csv::motion(&motion, &attitudes, &scene.layup.ply, 1000.0).unwrap();
     moves_within_its_rates(&poses(&dense), s, 1000.0, what);
 }
 
 /// An example as it is shipped, planned once for all that needs its plan.
 fn example_is_draped(example: &Example, position: f64) {
     let scene = example.scene();
-    assert!(!draped(&scene, scene.motion.clone()).accepted, "straight paths will do");
+    assert!(!draped(&scene, scene.layup.motion.clone()).accepted, "straight paths will do");
     is_draped(&scene, 1.0, example.plan_made_before(), position, &scene.title);
 }
 
@@ -294,7 +295,7 @@ fn one_thread_and_two_write_the_same_bytes() {
 fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
     let plan = planned(scene);
     let result = ResultFile::planned(scene, None, &plan);
-    assert!(!result.summary.accepted);
+    assert!(!result.summary.accepted());
     assert_eq!(result.summary.steps, result.summary.steps_planned);
     let folder = tempfile::tempdir().unwrap();
     let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();

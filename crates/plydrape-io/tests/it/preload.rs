@@ -3,11 +3,13 @@
 
 use crate::common::{distance, example, examples};
 use plydrape::equilibrium::Status;
-use plydrape::errors::{Errors, Term, Watch};
+use plydrape::errors::{Errors, Term};
+use plydrape::outcome::{Watch};
 use plydrape::planner;
 use plydrape::planner::path::Strategy;
 use plydrape::planner::path::preload::{Preload, ends};
-use plydrape::scene::{Scene, Stepping};
+use plydrape::layup::{Stepping};
+use plydrape::scene::{Scene};
 use plydrape::sheet;
 use plydrape_io::scene;
 use std::ops::ControlFlow;
@@ -28,7 +30,7 @@ fn strategy(press: f64, pull: f64) -> Strategy {
 }
 
 fn targets(scene: &Scene) -> Vec<[f64; 3]> {
-    scene.target.as_ref().expect("a target").grippers.clone()
+    scene.layup.target.as_ref().expect("a target").grippers.clone()
 }
 
 /// On a flat array the pulls of free lines balance each other inside: an inner gripper is commanded to its place, one in the
@@ -40,7 +42,7 @@ fn pulls_of_a_flat_array_are_in_balance() {
     let preload = Preload::new(&scene, &strategy).expect("mounts");
     let raised: Vec<[f64; 3]> = targets(&scene).iter().map(|[x, y, z]| [*x, *y, z + 0.2]).collect();
     let commanded = preload.commanded(&raised, 1.0);
-    let grid = scene.ply.grid;
+    let grid = scene.layup.ply.grid;
     let off = |id: [usize; 2]| {
         let n = grid.index(id);
         [0, 1, 2].map(|c| commanded[n][c] - raised[n][c])
@@ -70,11 +72,11 @@ fn a_gripper_presses_with_its_share_of_the_load() {
     let strategy = strategy(1.0, 0.0);
     let depth = |scene: &Scene| targets(scene)[0][2] - ends(scene, &strategy)[0][2];
     let soft = depth(&scene);
-    scene.settings.pad.axial_stiffness = Some(1e4);
+    scene.layup.settings.pad.axial_stiffness = Some(1e4);
     let stiff = depth(&scene);
     assert!(soft > 0.0 && (soft / stiff - 2.0).abs() < 1e-9, "{soft} {stiff}");
     assert!(5e3 * soft <= scene.limits.gripper_load, "{soft}");
-    scene.settings.pad.axial_stiffness = None;
+    scene.layup.settings.pad.axial_stiffness = None;
     assert_eq!(depth(&scene), 0.0, "a rigid axis is not commanded beyond");
 }
 
@@ -101,8 +103,8 @@ fn catenaries_and_sheet_load_the_mounts_of_a_taut_array_alike() {
     let mut scene = on_mounts("kind = \"plane\"");
     let raised: Vec<[f64; 3]> = targets(&scene).iter().map(|[x, y, _]| [*x, *y, 0.3]).collect();
     let apart = |share: f64| raised.iter().map(|[x, y, z]| [share * x, share * y, *z]).collect();
-    scene.motion.positions = [0.99, 1.0, 1.01, 1.02, 1.03, 1.04].map(apart).to_vec();
-    scene.motion.times = (0..6).map(f64::from).collect();
+    scene.layup.motion.positions = [0.99, 1.0, 1.01, 1.02, 1.03, 1.04].map(apart).to_vec();
+    scene.layup.motion.times = (0..6).map(f64::from).collect();
     let catenaries = plydrape::simulate(&scene, |_| ControlFlow::Continue(()));
     let along = |_: &sheet::State| ControlFlow::Continue(());
     let sheet = sheet::drape(&scene, sheet::Tuning::default(), &|| false, along).expect("a sheet");
@@ -152,8 +154,8 @@ fn mounts_stand_ten_times_the_errors_of_rigid_grippers() {
         let go = &mut |_: &planner::Progress| ControlFlow::Continue(());
         let planned = planner::plan(scene, None, go).expect("a plan");
         let mut scene = scene.clone();
-        scene.motion = planned.motion.steps();
-        scene.settings.contact.stepping = Stepping::Cut;
+        scene.layup.motion = planned.motion.steps();
+        scene.layup.settings.contact.stepping = Stepping::Cut;
         let errors = Errors { samples: 4, ..Errors::of_grippers(&scene) };
         let watch = Watch { stop: &|| false, done: &|_, _| {} };
         errors.stands(&scene, &watch).expect("not stopped").factor

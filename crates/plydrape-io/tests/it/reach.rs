@@ -1,6 +1,6 @@
 //! Where grippers may be: the smallest distance between them and their workspace, over all steps.
 
-use plydrape::draping::record::Verdict;
+use plydrape::measure::{Verdict};
 use plydrape::draping::simulate;
 use plydrape::measure::Name;
 use plydrape_io::result::ResultFile;
@@ -31,7 +31,7 @@ fn the_distance_of_grippers_counts_where_it_is_smallest() {
         assert!((verdict.value - 80.0).abs() < 1e-9, "{verdict:?}");
         assert_eq!((verdict.ok, verdict.step), (ok, Some(10)), "{verdict:?}");
         assert_eq!(verdict.at, "grippers g0_0 and g1_0");
-        assert_eq!(result.summary.accepted, ok);
+        assert_eq!(result.summary.accepted(), ok);
     }
 }
 
@@ -55,11 +55,11 @@ fn the_workspace_counts_in_every_step() {
 #[test]
 fn a_limit_that_is_added_later_takes_part_in_the_verdict() {
     let mut summary = closing("").summary;
-    assert!(summary.accepted);
+    assert!(summary.accepted());
     let (count, kept) = (summary.limits.len(), summary.limits[0].clone());
     summary.judge_also([kept.clone()]);
-    assert!(summary.accepted);
+    assert!(summary.accepted());
     summary.judge_also([Verdict { ok: false, ..kept.clone() }, kept]);
-    assert!(!summary.accepted);
+    assert!(!summary.accepted());
     assert_eq!(summary.limits.len(), count + 3);
 }

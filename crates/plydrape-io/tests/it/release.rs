@@ -2,7 +2,8 @@
 
 use plydrape::draping::simulate;
 use plydrape::measure::Name;
-use plydrape::scene::{Release, ReleaseOrder, Scene};
+use plydrape::layup::{Release, ReleaseOrder};
+use plydrape::scene::{Scene};
 use plydrape::sheet::{Event, EventKind, Status};
 use plydrape_io::{ResultFile, csv, read, scene, write_all};
 use std::ops::ControlFlow;
@@ -90,7 +91,7 @@ fn the_duration_of_a_motion_ends_with_the_release() {
         (found.value, found.ok)
     };
     assert_eq!(verdict(&result), (9.0, false));
-    assert!(!result.summary.motion_accepted() && !result.summary.accepted);
+    assert!(!result.summary.motion_accepted() && !result.summary.accepted());
     let summary = &result.summary;
     let both = [&summary.worst, &summary.last].map(|numbers| numbers.value(Name::Duration));
     assert_eq!(both, [Some(9.0); 2]);

@@ -5,7 +5,8 @@ use plydrape::draping::simulate;
 use plydrape::errors::{Errors, GripperErrors, MoldErrors, Term};
 use plydrape::measure::Name;
 use plydrape::planner;
-use plydrape::scene::{Motion, Scene};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape_io::scene::{self, SceneFile};
 use plydrape_io::{Content, ResultFile};
 use plydrape_io::{csv, figure, page, read};
@@ -29,8 +30,8 @@ fn examples() -> impl Iterator<Item = SceneFile> {
 /// The last three steps of a scene: all there is to see, in little time.
 fn short(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    let from = scene.motion.times.len().saturating_sub(3);
-    let Motion { times, positions } = &mut scene.motion;
+    let from = scene.layup.motion.times.len().saturating_sub(3);
+    let Motion { times, positions } = &mut scene.layup.motion;
     times.drain(..from);
     positions.drain(..from);
     scene
@@ -84,7 +85,7 @@ fn a_result_says_the_errors_of_its_scene_and_holds_no_waves() {
         ResultFile::new(&scene, None, simulate(&short(&scene), |_| ControlFlow::Continue(())));
     assert_eq!(again(&result).scene.errors, Some(errors));
 
-    let real = errors.draw(0, scene.ply.grid.grippers()).apply(&short(&scene));
+    let real = errors.draw(0, scene.layup.ply.grid.grippers()).apply(&short(&scene));
     let result = ResultFile::new(&real, None, simulate(&real, |_| ControlFlow::Continue(())));
     let refused = result.text().unwrap_err().to_string();
     assert!(refused.contains("waves of one draw") && refused.contains("waviness"), "{refused}");
@@ -94,9 +95,9 @@ fn a_result_says_the_errors_of_its_scene_and_holds_no_waves() {
 #[test]
 fn molds_survive_the_file() {
     for scene in examples() {
-        let Some(mold) = &scene.mold else { continue };
+        let Some(mold) = &scene.layup.mold else { continue };
         let back = again(&drape(&scene)).scene.mold.unwrap();
-        for p in scene.motion.positions.iter().flatten() {
+        for p in scene.layup.motion.positions.iter().flatten() {
             assert_eq!(back.closest_point(*p), mold.closest_point(*p), "{} at {p:?}", scene.title);
         }
     }
@@ -117,7 +118,7 @@ fn the_sheet_of_a_plan_is_kept_as_if_draped_along_it() {
     let mut kept = ResultFile::planned(&scene, None, &planned);
     let mut draped = kept.clone();
     kept.keep_sheet(planned.sheet.take().expect("a sheet"), dir.path()).unwrap();
-    scene.motion = planned.motion.steps();
+    scene.layup.motion = planned.motion.steps();
     draped.drape_sheet(&scene, dir.path(), &|| false, |_| {}).unwrap().expect("a sheet");
 
     assert_eq!(kept.text().unwrap(), draped.text().unwrap());

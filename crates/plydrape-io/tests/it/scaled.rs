@@ -7,7 +7,9 @@
 use plydrape::material::{Material, Section};
 use plydrape::mold::{Graph, HeightGrid, Mesh, Mold, Plane, Pose, Saddle, Surface};
 use plydrape::net::{Layup, Net};
-use plydrape::scene::{Motion, Scene, Target};
+use plydrape::layup::{Target};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use std::sync::Arc;
 
 type Point = [f64; 3];
@@ -15,14 +17,14 @@ type Point = [f64; 3];
 /// A scene with lengths multiplied by `s`. A mold that is a formula has none.
 pub fn scaled(scene: &Scene, s: f64) -> Scene {
     let mut out = scene.clone();
-    let mold = scene.mold.as_ref().map(|mold| scaled_mold(mold, s));
-    out.ply.cell = scene.ply.cell.map(|side| s * side);
-    out.ply.material = scaled_material(&scene.ply.material, s);
+    let mold = scene.layup.mold.as_ref().map(|mold| scaled_mold(mold, s));
+    out.ply.cell = scene.layup.ply.cell.map(|side| s * side);
+    out.ply.material = scaled_material(&scene.layup.ply.material, s);
     out.motion = Motion {
-        times: scene.motion.times.clone(),
-        positions: scene.motion.positions.iter().map(|places| points(places, s)).collect(),
+        times: scene.layup.motion.times.clone(),
+        positions: scene.layup.motion.positions.iter().map(|places| points(places, s)).collect(),
     };
-    out.target = scene.target.as_ref().map(|target| Target {
+    out.target = scene.layup.target.as_ref().map(|target| Target {
         grippers: points(&target.grippers, s),
         drape: target.drape.as_ref().zip(mold.as_ref()).map(|(net, mold)| {
             let Layup { mesh, place, .. } = net.layup;

@@ -2,9 +2,9 @@
 
 use plydrape::errors::{Errors, GripperErrors, Term};
 use plydrape::material::{Section, ShearCurve, TensionLaw};
-use plydrape::scene::{
-    Friction, Limits, Model, PadSettings, Scene, Settings, SheetSettings, SheetTime,
-};
+use plydrape::layup::{Friction, Model, PadSettings, Settings, SheetSettings, SheetTime};
+use plydrape::measure::Limits;
+use plydrape::scene::{Scene};
 use plydrape_io::scene::{self, SceneError, SceneFile};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,8 @@ fn parse(text: &str) -> Result<SceneFile, SceneError> {
 #[test]
 fn the_template_passes_its_own_check() {
     let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(scene.ply.grid.grippers(), 12);
-    assert_eq!(scene.motion.positions.len(), 30);
+    assert_eq!(scene.layup.ply.grid.grippers(), 12);
+    assert_eq!(scene.layup.motion.positions.len(), 30);
     assert_eq!(scene.limits.shear, 45f64.to_radians());
 }
 
@@ -50,21 +50,21 @@ fn every_example_passes_the_check() {
 #[test]
 fn the_first_example_is_the_papers() {
     let scene = scene::read(&root().join("examples/01_flat_sheared_mold/scene.toml")).unwrap();
-    let line = scene.ply.line(plydrape::ply::Kind::EdgeU);
-    assert_eq!((line.mass, scene.settings.gravity), (0.3143, 9.8));
+    let line = scene.layup.ply.line(plydrape::ply::Kind::EdgeU);
+    assert_eq!((line.mass, scene.layup.settings.gravity), (0.3143, 9.8));
     // E·I of the table.
     assert!((line.flexural_rigidity - 1.0e8 * 9.0e-14).abs() < 1e-20);
-    assert_eq!(scene.motion.times.len(), 30);
-    let start = &scene.motion.positions[0];
+    assert_eq!(scene.layup.motion.times.len(), 30);
+    let start = &scene.layup.motion.positions[0];
     assert!((start[7][0] - 0.294).abs() < 1e-15 && (start[7][1] - 0.098).abs() < 1e-15);
     // Sides of 100 mm, v leaning 20 degrees towards u.
-    let end = scene.motion.positions.last().unwrap();
+    let end = scene.layup.motion.positions.last().unwrap();
     let (sin, cos) = 20f64.to_radians().sin_cos();
     let corner = [0.3 + 0.1 * sin, 0.1 * cos, 0.0];
     for (found, expected) in end[7].iter().zip(corner) {
         assert!((found - expected).abs() < 1e-15, "{found} {expected}");
     }
-    assert_eq!(*end, scene.target.as_ref().unwrap().grippers);
+    assert_eq!(*end, scene.layup.target.as_ref().unwrap().grippers);
 }
 
 /// The rectangle of [`START`] as spacing, as a table and in a CSV file.
@@ -165,7 +165,7 @@ fn an_inextensible_ply_is_written_as_infinity() {
     for stiffness in ["inf", "\"inf\"", "\"inf N\""] {
         let text = scene::TEMPLATE.replace("\"100 kN\"", stiffness);
         let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(scene.settings.axial_stiffness, f64::INFINITY);
+        assert_eq!(scene.layup.settings.axial_stiffness, f64::INFINITY);
     }
 }
 
@@ -415,7 +415,7 @@ fn a_scene_with_a_duration_says_why_it_is_not_planned() {
     assert!(scene.plan_refusal.is_none());
     let text = scene::TEMPLATE.replace("# duration = \"29 s\"", "duration = \"8 s\"");
     let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(scene.motion.times.last(), Some(&8.0));
+    assert_eq!(scene.layup.motion.times.last(), Some(&8.0));
     let refusal = scene.plan_refusal.as_ref().expect("a plan would ignore the duration");
     let refusal = format!("{}; {}", refusal.message, refusal.help);
     assert!(refusal.contains("\"8 s\"") && refusal.contains("[limits]"), "{refusal}");
@@ -433,11 +433,11 @@ fn the_committed_schema_is_current() {
 
 /// Positions, times and settings of a scene that passed are finite.
 fn assert_finite(scene: &Scene) {
-    assert!(scene.motion.times.iter().all(|t| t.is_finite()));
-    assert!(scene.motion.times.windows(2).all(|pair| pair[0] < pair[1]));
-    assert!(scene.motion.positions.iter().flatten().flatten().all(|x| x.is_finite()));
-    assert!(scene.ply.cell.iter().all(|x| x.is_finite() && *x > 0.0));
-    assert!(!scene.settings.axial_stiffness.is_nan() && scene.settings.gravity > 0.0);
+    assert!(scene.layup.motion.times.iter().all(|t| t.is_finite()));
+    assert!(scene.layup.motion.times.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(scene.layup.motion.positions.iter().flatten().flatten().all(|x| x.is_finite()));
+    assert!(scene.layup.ply.cell.iter().all(|x| x.is_finite() && *x > 0.0));
+    assert!(!scene.layup.settings.axial_stiffness.is_nan() && scene.layup.settings.gravity > 0.0);
 }
 
 /// Values a careless or hostile hand might put in the place of another.

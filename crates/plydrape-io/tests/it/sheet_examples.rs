@@ -24,7 +24,7 @@ fn straight_paths_end_with_ridges_of_millimetres() {
         let draped =
             drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(())).unwrap();
         let summary = draped.summary;
-        assert!(summary.converged && !summary.accepted, "{name}: {:?}", summary.status);
+        assert!(summary.converged && !summary.accepted(), "{name}: {:?}", summary.status);
         let highest = summary.ridge_max_mm.unwrap();
         assert!(highest > ridge[0] && highest < ridge[1], "{name}: {highest}");
         let first = summary.first_contact_step.unwrap();

@@ -2,7 +2,9 @@
 
 use crate::common::example;
 use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
-use plydrape::scene::{Friction, Motion, Scene};
+use plydrape::layup::{Friction};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape::sheet::{Tuning, drape};
 use std::ops::ControlFlow;
 
@@ -10,8 +12,8 @@ use std::ops::ControlFlow;
 /// are not made taut: so are the fronts of the references.
 fn front(a: f64, slope: f64) -> Scene {
     let mut scene = example("04_dome");
-    scene.settings.sheet.mesh = Some(0.02);
-    let curvature = a * scene.ply.cell[0];
+    scene.layup.settings.sheet.mesh = Some(0.02);
+    let curvature = a * scene.layup.ply.cell[0];
     let strategy = Strategy {
         start: [0.5; 2],
         ratio: 1.0,
@@ -24,13 +26,13 @@ fn front(a: f64, slope: f64) -> Scene {
     };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
-    scene.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    scene.layup.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
     scene
 }
 
 /// Largest height at the end of a drape, which comes to rest (mm).
 fn height(mut scene: Scene, friction: Friction) -> f64 {
-    scene.settings.contact.friction = friction;
+    scene.layup.settings.contact.friction = friction;
     let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
     let summary = draped.expect("the scene has a sheet").summary;
     assert!(summary.converged, "{:?}", summary.status);
@@ -71,10 +73,10 @@ fn with_little_friction_every_path_ends_flat() {
 #[test]
 fn the_paper_s_straight_path_touches_first_in_the_middle_of_an_outer_cell() {
     let mut scene = example("01_flat_sheared_mold");
-    scene.settings.sheet.mesh = Some(0.01);
+    scene.layup.settings.sheet.mesh = Some(0.01);
     // contact is all that is asked
-    scene.motion.positions.truncate(23);
-    scene.motion.times.truncate(23);
+    scene.layup.motion.positions.truncate(23);
+    scene.layup.motion.times.truncate(23);
     let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
     let summary = draped.expect("the scene has a sheet").summary;
     assert_eq!(summary.first_contact_step, Some(22));

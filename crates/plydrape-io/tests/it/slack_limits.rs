@@ -3,7 +3,8 @@
 use crate::common::{drape, example};
 use plydrape::measure::{Name, Verdict};
 use plydrape::preset::Preset;
-use plydrape::scene::{Limits, Scene};
+use plydrape::measure::Limits;
+use plydrape::scene::{Scene};
 use plydrape_io::result::ResultFile;
 use std::path::Path;
 
@@ -117,8 +118,8 @@ fn single_keys_stand_over_a_preset() {
 #[test]
 fn a_result_that_is_read_back_has_its_preset_and_its_limits_of_slack() {
     let mut scene = scene("preset = \"low-wrinkle\"\nslack_angle = \"3 deg\"");
-    scene.motion.times.truncate(2);
-    scene.motion.positions.truncate(2);
+    scene.layup.motion.times.truncate(2);
+    scene.layup.motion.positions.truncate(2);
     let result = drape(&scene);
     let dir = tempfile::tempdir().expect("a folder");
     plydrape_io::write_all(&result, dir.path()).expect("written");

@@ -5,7 +5,7 @@ use plydrape::catenary::{EndCondition, Profile};
 use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
 use plydrape::material::Section;
 use plydrape::ply::{Grid, Ply};
-use plydrape::scene::{Settings, SlopeRule};
+use plydrape::layup::{Settings, SlopeRule};
 
 /// A ply of cells of another size, mass (kg/m) and rigidity (N m²).
 fn ply(nu: usize, nv: usize, cell: f64, mass: f64, flexural_rigidity: f64) -> Ply {

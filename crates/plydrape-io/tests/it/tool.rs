@@ -57,7 +57,7 @@ fn what_the_axes_cannot_follow_is_not_done() {
     let off = apart(places[0], asked[0]);
     assert!((record.residual_mm - 1e3 * off).abs() < 1e-6 && off > 5e-3, "{record:?} {off}");
     let verdict = result.summary.limits.iter().find(|v| v.name == Name::ToolResidual).unwrap();
-    assert!(!verdict.ok && !result.summary.accepted && verdict.step == Some(10), "{verdict:?}");
+    assert!(!verdict.ok && !result.summary.accepted() && verdict.step == Some(10), "{verdict:?}");
 
     let both = closing(
         "[tool]\nresidual = \"1 mm\"\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }, { direction = \"x\", stroke = [-0.02, 0.02] }]",
@@ -77,7 +77,7 @@ fn both_models_hang_from_where_the_tool_brings_the_grippers() {
     let drape =
         sheet::drape(&scene, sheet::Tuning::default(), &|| false, |_| ControlFlow::Continue(()))
             .unwrap();
-    let tool = scene.tool.as_ref().unwrap();
+    let tool = scene.layup.tool.as_ref().unwrap();
     let places: Vec<[f64; 3]> = result.steps[9].grippers.iter().map(|g| g.position).collect();
     let stem = tool.direction(&places);
     assert!(stem[2] < 0.96, "{stem:?}");
@@ -173,7 +173,7 @@ fn flange_and_strokes_of_a_program_bring_the_pads_to_their_places() {
     assert_eq!(program.frames.mold.position, [1.0, 0.0, 0.5]);
     let names: Vec<&str> = program.axes.iter().map(|axis| axis.name.as_str()).collect();
     assert_eq!(names, ["g0_0_z", "g1_0_z", "g0_1_z", "g1_1_z"]);
-    let (flange, mounts) = (program.flange.as_ref().unwrap(), &scene.tool.as_ref().unwrap().mounts);
+    let (flange, mounts) = (program.flange.as_ref().unwrap(), &scene.layup.tool.as_ref().unwrap().mounts);
     // passive joints, apart from what the tool does
     let tilts = result.steps.iter().map(|step| step.grippers.iter().map(|g| g.tilt_deg));
     for (k, step) in tilts.enumerate() {

@@ -6,7 +6,8 @@ use plydrape::measure::Name;
 use plydrape::motion::{Bounds, TimedMotion};
 use plydrape::planner::path::tuning::TUNING;
 use plydrape::planner::path::{Formation, MoldHeights, Strategy, trajectory, transport};
-use plydrape::scene::{Motion, Scene};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -102,7 +103,7 @@ fn a_carried_array_is_rigid() {
         assert!(count > 8 || steps < 90, "{degrees}: {count} steps");
         let spline = rounded(&positions[..count], 1);
         for (k, places) in spline[..count - 1].iter().enumerate() {
-            let change = change_of_shape(&scene.motion.positions[0], places);
+            let change = change_of_shape(&scene.layup.motion.positions[0], places);
             assert!(change < 1e-4, "{degrees}: {change} in step {k} of {count}");
         }
     }
@@ -120,7 +121,7 @@ fn a_timed_motion_keeps_a_carried_array_within_its_fabric() {
     let count = carried(&transport, steps);
     let positions = trajectory(&scene, &heights, RING).expect("a target");
     let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits)).expect("a motion");
-    let start = &scene.motion.positions[0];
+    let start = &scene.layup.motion.positions[0];
     let timed = motion.steps().positions;
     let largest = timed[..count - 1].iter().map(|p| change_of_shape(start, p));
     let largest = largest.fold(0.0, f64::max);
@@ -153,7 +154,7 @@ fn boundary(scene: &Scene, mold: &str) -> Vec<Point> {
     if ![BOWL, SADDLE].contains(&mold) {
         return Vec::new();
     }
-    let top = |x: f64, y: f64| scene.mold.as_ref().expect("a mold").highest_point([x, y]);
+    let top = |x: f64, y: f64| scene.layup.mold.as_ref().expect("a mold").highest_point([x, y]);
     let place = |k: i32| {
         let angle = f64::from(k) / 2400.0 * std::f64::consts::TAU;
         let (x, y) = (angle.cos(), angle.sin());
@@ -185,8 +186,8 @@ fn over_boundary(places: &[Point], sag: f64, boundary: &[Point]) -> f64 {
 /// lowest height; and whether the mold is below all of it: five points along each side of a cell, below which the ply hangs by
 /// the sags of its two longest edges.
 fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> ([f64; 2], bool) {
-    let mold = scene.mold.as_ref().expect("a mold");
-    let grid = scene.ply.grid;
+    let mold = scene.layup.mold.as_ref().expect("a mold");
+    let grid = scene.layup.ply.grid;
     let (mut least, mut whole) = ([f64::INFINITY; 2], true);
     for a in 0..=(5 * (grid.nu - 1)) {
         for b in 0..=(5 * (grid.nv - 1)) {
@@ -301,11 +302,11 @@ fn a_start_right_above_keeps_its_straight_way() {
     let scene = on(DOME, "spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"");
     let (formation, positions) = to_ring(&scene, 90);
     assert_eq!(carried(&positions, 90), 1);
-    let start = &scene.motion.positions[0];
+    let start = &scene.layup.motion.positions[0];
     let forming = (TUNING.transport.forming * 90.0).round() as usize;
     let height = TUNING.transport.formed_height * 0.1;
     let above: Vec<Point> = formation.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
-    let lines = scene.ply.lines();
+    let lines = scene.layup.ply.lines();
     for (k, places) in positions[..=forming].iter().enumerate() {
         let t = k as f64 / forming as f64;
         for ((p, a), b) in places.iter().zip(start).zip(&above) {
@@ -354,7 +355,7 @@ fn a_transport_is_scaled_and_turned_with_its_scene() {
         // a formation of its own, because the net on the lifted mold differs by a millionth of a cell
         let formation: Vec<Point> = (0..12)
             .map(|n| {
-                let [i, j] = scene.ply.grid.id(n).map(|k| k as f64);
+                let [i, j] = scene.layup.ply.grid.id(n).map(|k| k as f64);
                 let (u, v) = (0.1 * (i - 1.5), 0.1 * (j - 1.0));
                 let [x, y] = place(u + 0.02 * v, v);
                 [x, y, scale * (0.02 - 0.5 * v * v)]
@@ -380,7 +381,7 @@ fn a_transport_is_scaled_and_turned_with_its_scene() {
 #[test]
 fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     let beside = |scene: &Scene| -> Vec<Point> {
-        let start = &scene.motion.positions[0];
+        let start = &scene.layup.motion.positions[0];
         let (middle, half) = (centre(start), 45_f64.to_radians());
         let (sin, cos) = half.sin_cos();
         let place = |p: &Point| {
@@ -391,7 +392,7 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     };
     let mut scene = example("04_dome");
     let start = beside(&scene);
-    scene.motion = Motion { times: vec![0.0], positions: vec![start.clone()] };
+    scene.layup.motion = Motion { times: vec![0.0], positions: vec![start.clone()] };
     let (formation, positions) = to_ring(&scene, 90);
     let along = |positions: Vec<Vec<Point>>| {
         let times = (0..positions.len()).map(|k| k as f64).collect();

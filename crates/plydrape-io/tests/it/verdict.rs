@@ -3,12 +3,14 @@
 
 use crate::common::{Point, drape, example};
 use plydrape::draping::ContactStatus;
-use plydrape::draping::record::Step;
+use plydrape::outcome::{Step};
 use plydrape::equilibrium::Status;
 use plydrape::material::Section;
 use plydrape::measure::{Name, Verdict};
 use plydrape::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface};
-use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
+use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
+use plydrape::motion::Motion;
+use plydrape::scene::{Scene};
 use plydrape_io::result::ResultFile;
 use std::path::Path;
 use std::sync::Arc;
@@ -30,12 +32,12 @@ fn motion(positions: Vec<Vec<Point>>) -> Motion {
 
 /// A motion cut into other steps of the same straight ways.
 fn in_steps(scene: &Scene, steps: usize) -> Motion {
-    let (first, last) = (&scene.motion.positions[0], scene.motion.positions.last().expect("steps"));
+    let (first, last) = (&scene.layup.motion.positions[0], scene.layup.motion.positions.last().expect("steps"));
     let at = |t: f64| -> Vec<Point> {
         let mix = |(a, b): (&Point, &Point)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
         first.iter().zip(last).map(mix).collect()
     };
-    let duration = scene.motion.times.last().expect("steps");
+    let duration = scene.layup.motion.times.last().expect("steps");
     Motion {
         times: (0..steps).map(|n| duration * n as f64 / (steps - 1) as f64).collect(),
         positions: (0..steps).map(|n| at(n as f64 / (steps - 1) as f64)).collect(),
@@ -47,12 +49,12 @@ fn in_steps(scene: &Scene, steps: usize) -> Motion {
 #[test]
 fn grippers_below_the_mold_are_named_by_their_depth() {
     let mut scene = example("01_flat_sheared_mold");
-    let goal = scene.target.as_ref().expect("a target").grippers.clone();
+    let goal = scene.layup.target.as_ref().expect("a target").grippers.clone();
     let lifted = |z: f64| goal.iter().map(|p| [p[0], p[1], z]).collect::<Vec<Point>>();
-    scene.motion = motion([0.02, 0.01, 0.0, -0.02, -0.01, 0.0].map(lifted).to_vec());
+    scene.layup.motion = motion([0.02, 0.01, 0.0, -0.02, -0.01, 0.0].map(lifted).to_vec());
     let result = drape(&scene);
     let found = verdict(&result, Name::Penetration);
-    assert!(!result.summary.accepted && !found.ok);
+    assert!(!result.summary.accepted() && !found.ok);
     assert!((found.value - 20.0).abs() < 1e-9 && found.step == Some(4), "{found:?}");
     assert!(
         (found.limit - 1.0).abs() < 1e-12,
@@ -65,7 +67,7 @@ fn grippers_below_the_mold_are_named_by_their_depth() {
     let places: Vec<Point> =
         (0..16).map(|n| [0.098 * f64::from(n % 4), 0.098 * f64::from(n / 4), 0.01]).collect();
     let aside = |x: f64| places.iter().map(|p| [p[0] + x, p[1] - 0.147, p[2] - 0.2]).collect();
-    scene.motion = motion(vec![aside(-1.2), aside(0.9)]);
+    scene.layup.motion = motion(vec![aside(-1.2), aside(0.9)]);
     let found = drape(&scene);
     let found = verdict(&found, Name::Penetration);
     // the rows nearest to the middle pass 49 mm beside it, 190 mm below the top of a ball of 600 mm
@@ -78,9 +80,9 @@ fn grippers_below_the_mold_are_named_by_their_depth() {
 #[test]
 fn a_gripper_that_has_passed_its_contact_makes_a_fold_and_no_stretch() {
     let mut scene = example("02_hanging_strip");
-    scene.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
+    scene.layup.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
     let tolerance = 1e-4;
-    scene.settings.contact = ContactSettings {
+    scene.layup.settings.contact = ContactSettings {
         tolerance,
         stepping: Stepping::Cut,
         end: ContactEnd::Free,
@@ -201,11 +203,11 @@ fn a_cell_is_judged_by_the_shear_that_it_landed_with_in_both_senses() {
 fn verdicts_converge_in_steps_and_tolerance() {
     for name in ["01_flat_sheared_mold", "04_dome", "06_saddle"] {
         let mut scene = example(name);
-        scene.settings.contact.stepping = Stepping::Cut;
+        scene.layup.settings.contact.stepping = Stepping::Cut;
         let outcome = |steps: usize, tolerance: f64| {
             let mut scene = scene.clone();
-            scene.settings.contact.tolerance = tolerance;
-            scene.motion = in_steps(&scene, steps);
+            scene.layup.settings.contact.tolerance = tolerance;
+            scene.layup.motion = in_steps(&scene, steps);
             drape(&scene)
         };
         let steps = [30, 60, 120, 240];
@@ -275,10 +277,10 @@ fn a_scaled_scene_has_the_same_verdict() {
 #[test]
 fn the_loads_of_the_grippers_add_up_to_the_weight_of_the_ply() {
     let mut scene = example("01_flat_sheared_mold");
-    scene.motion = motion(vec![scene.motion.positions[0].clone()]);
+    scene.layup.motion = motion(vec![scene.layup.motion.positions[0].clone()]);
     let result = drape(&scene);
     // corners hold the least: the largest is an inner gripper's, more than an eighth of the ply and less than a half
-    let weight = 0.3143 / 0.1 * 0.3 * 0.1 * scene.settings.gravity;
+    let weight = 0.3143 / 0.1 * 0.3 * 0.1 * scene.layup.settings.gravity;
     let most = result.summary.last.value(Name::GripperLoad).expect("a load");
     assert!(most > weight / 8.0 && most < weight / 4.0, "{most} {weight}");
     let mut strip = example("02_hanging_strip");
@@ -297,15 +299,15 @@ fn the_loads_of_the_grippers_add_up_to_the_weight_of_the_ply() {
 #[test]
 fn a_drape_that_no_ply_survives_ends_with_advice() {
     let mut scene = example("04_dome");
-    for place in &mut scene.motion.positions[0] {
+    for place in &mut scene.layup.motion.positions[0] {
         *place = [place[0] - 0.7, place[1], place[2] - 0.2];
     }
-    scene.motion = in_steps(&scene, 30);
+    scene.layup.motion = in_steps(&scene, 30);
     let result = drape(&scene);
     let summary = &result.summary;
     let why = summary.stopped.as_deref().expect("it is overstretched");
     assert!(why.contains("no ply survives") && why.contains("come from above"), "{why}");
-    assert!(summary.steps < summary.steps_planned && !summary.accepted && !summary.interrupted());
+    assert!(summary.steps < summary.steps_planned && !summary.accepted() && !summary.interrupted());
     assert!(!verdict(&result, Name::Overstretch).ok);
     // the paper's example overstretches by more than a per cent and goes on, as printed there
     assert_eq!(drape(&example("01_flat_sheared_mold")).summary.stopped, None);
@@ -316,12 +318,12 @@ fn a_drape_that_no_ply_survives_ends_with_advice() {
 #[test]
 fn a_step_without_an_equilibrium_is_never_accepted() {
     let mut scene = example("01_flat_sheared_mold");
-    scene.mold = None;
-    scene.target = None;
-    scene.settings.axial_stiffness = f64::INFINITY;
-    let Section::Line { flexural_rigidity, .. } = &mut scene.ply.material.section else { panic!() };
+    scene.layup.mold = None;
+    scene.layup.target = None;
+    scene.layup.settings.axial_stiffness = f64::INFINITY;
+    let Section::Line { flexural_rigidity, .. } = &mut scene.layup.ply.material.section else { panic!() };
     *flexural_rigidity = 1e6;
-    let start = scene.motion.positions[0].clone();
+    let start = scene.layup.motion.positions[0].clone();
     let mut unsolved = 0;
     for turn in 0..12 {
         // heights that no two grippers share
@@ -329,7 +331,7 @@ fn a_step_without_an_equilibrium_is_never_accepted() {
             let height = 4e-3 * (1.0 + 2.3 * (n as f64 + 0.7 * f64::from(turn))).sin();
             [p[0], p[1], p[2] + height]
         };
-        scene.motion = motion(vec![start.iter().enumerate().map(lift).collect()]);
+        scene.layup.motion = motion(vec![start.iter().enumerate().map(lift).collect()]);
         let result = drape(&scene);
         if result.steps[0].solver.status == Status::Converged {
             continue;
@@ -338,7 +340,7 @@ fn a_step_without_an_equilibrium_is_never_accepted() {
         assert!(!result.steps[0].solver.found());
         let found = verdict(&result, Name::Equilibrium);
         assert!(!found.ok && found.step == Some(1), "{found:?}");
-        assert!(!result.summary.accepted);
+        assert!(!result.summary.accepted());
     }
     assert!(unsolved > 0, "no ply of this test is beyond floating point");
 }

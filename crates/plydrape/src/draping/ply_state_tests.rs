@@ -7,7 +7,7 @@ use crate::ply::Grid;
 use crate::state::{LineState, PlyState, Site};
 use std::ops::ControlFlow;
 
-/// A ply that comes down to a plane with 1 % of slack along u and v, which it keeps in part.
+/// A ply that comes down to a plane with 2 % of slack along u and v, of which it keeps a quarter.
 fn layup() -> Layup {
     lowered(Grid { nu: 4, nv: 3 }, PadSettings::default(), &down(0.0, 20), [0.098, 0.0995])
 }

@@ -15,7 +15,7 @@ use crate::tool::{Axis, Tool};
 use rayon::prelude::*;
 
 /// Every term has an error.
-fn budget() -> Errors {
+pub(crate) fn budget() -> Errors {
     let (deviation, bound) = (Term::Deviation, Term::Bound);
     Errors {
         seed: 11,

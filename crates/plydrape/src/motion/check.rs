@@ -1,10 +1,10 @@
-//! Checks of positions, bounds and rates before a motion is made.
+//! Checks of a given motion, and of positions, bounds and rates before one is made.
 
 use super::path::Vector;
 use super::spacing::farthest;
 use super::tuning::TUNING;
-use super::{Bounds, MotionError};
-use crate::ply::{FARTHEST, is_near};
+use super::{Bounds, Motion, MotionError};
+use crate::ply::{FARTHEST, PlaceError, Ply, is_near};
 
 /// Most steps of a motion.
 pub const MOST_STEPS: usize = 1_000_000;
@@ -14,6 +14,29 @@ pub const MOST_POSITIONS: usize = 50_000_000;
 
 /// Range of each bound (SI).
 const RANGE: [f64; 2] = [1e-6, 1e9];
+
+impl Ply {
+    /// Refuses a motion that has no step, times that do not ascend, or positions as [`Ply::check_places`] does.
+    ///
+    /// # Errors
+    /// [`PlaceError`]: the first fault, with its step.
+    pub fn check_motion(&self, motion: &Motion) -> Result<(), PlaceError> {
+        let (times, steps) = (motion.times.len(), motion.positions.len());
+        if times != steps || times == 0 {
+            return Err(PlaceError::Steps { times, steps });
+        }
+        let mut before: Option<f64> = None;
+        for (k, (&time, positions)) in motion.times.iter().zip(&motion.positions).enumerate() {
+            if !time.is_finite() || before.is_some_and(|before| time <= before) {
+                return Err(PlaceError::Time { step: k + 1, time, before });
+            }
+            before = Some(time);
+            self.check_places(positions).map_err(|fault| fault.at_step(k + 1))?;
+        }
+        Ok(())
+    }
+}
+
 /// Refuses steps with different numbers of grippers, and positions that are not finite or too far away.
 pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), MotionError> {
     let expected = planned.first().map_or(0, Vec::len);

@@ -5,7 +5,7 @@ use super::{ModelError, Status, Step, Summary};
 use crate::draping::spans::Shape;
 use crate::draping::{self, Draping, Follow};
 use crate::layup::{Layup, Model};
-use crate::measure::{Judge, Limits, Name, Verdict};
+use crate::measure::{Judge, Limits, Name, Scope, Verdict};
 use crate::scene::Scene;
 use crate::sheet::{self, HandOver};
 use std::ops::ControlFlow;
@@ -67,13 +67,14 @@ impl Judged {
         self.complete && self.limits.iter().all(|verdict| verdict.ok)
     }
 
-    /// A recorded drape as a search sees it.
+    /// A recorded drape as a search sees it: without the limits of a motion in time, which gets its least time after the search.
     #[must_use]
     pub fn of(summary: &Summary, steps: &[Step]) -> Self {
         let solved = |status| matches!(status, Status::Converged | Status::Torn);
         let unsolved = steps.iter().filter(|step| !step.is_solved()).count();
+        let timeless = |verdict: &&Verdict| verdict.name.measure().scope() != Scope::Time;
         Judged {
-            limits: summary.limits.clone(),
+            limits: summary.limits.iter().filter(timeless).cloned().collect(),
             complete: summary.status == Status::Converged,
             missing: 1.0 - summary.steps as f64 / summary.steps_planned.max(1) as f64,
             unsolved: unsolved + usize::from(!solved(summary.status)),

@@ -18,6 +18,8 @@ mod sample;
 mod sample_tests;
 mod step;
 mod summary;
+#[cfg(test)]
+mod summary_tests;
 
 pub(crate) use drape::drape_catenaries;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};

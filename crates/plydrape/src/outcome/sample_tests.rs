@@ -184,8 +184,9 @@ fn nothing_is_accepted_that_was_not_draped() {
     assert!(summary.accepted() && summary.sample.as_ref().is_some_and(|sample| sample.ok));
     let stop = Watch { stop: &|| true, done: &|_, _| {} };
     assert!(!with_errors.judge_stands(&mut summary, &stop) && summary.accepted());
-    assert!(!with_errors.judge_sample(&mut summary, &stop));
-    assert!(!summary.accepted() && summary.sample.is_none() && summary.accepted_without_errors());
+    let mut broken_off = summary.clone();
+    assert!(!with_errors.judge_sample(&mut broken_off, &stop));
+    assert!(!broken_off.accepted() && broken_off.sample.is_none() && broken_off.interrupted());
 
     scene.errors = Some(of_grippers(0, 1e-5));
     let off = Robustness::of_planned(&scene, scene.layup.motion.clone());

@@ -127,7 +127,8 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let (drape, between) = rayon::join(
         || {
             let drape = draped(scene, &followed, state);
-            let accepted = drape.as_ref().is_ok_and(|drape| drape.summary.accepted());
+            let drape = drape.map(|drape| (Judged::of(&drape.summary, &drape.steps), drape));
+            let accepted = drape.as_ref().is_ok_and(|(judged, _)| judged.accepted());
             refused.store(!accepted, Ordering::Relaxed);
             drape
         },
@@ -137,7 +138,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
             })
         },
     );
-    let mut drape = drape?;
+    let (_, mut drape) = drape?;
     let attitudes = Attitudes::of(&drape.steps)?;
     let clearance = clearance(scene, motion, &attitudes);
     drape.summary.judge_also(clearance.clone());

@@ -16,7 +16,11 @@
 mod checkpoint;
 pub mod comparison;
 mod decision;
+#[cfg(test)]
+mod decision_tests;
 mod evaluation;
+#[cfg(test)]
+mod evaluation_tests;
 pub mod infeasible_limits;
 pub mod path;
 mod plan;

@@ -129,24 +129,4 @@ impl Ply {
             Err(PlaceError::Steep { step: None, a, b, run, length })
         })
     }
-
-    /// Refuses a motion that has no step, times that do not ascend, or positions as [`Self::check_places`] does.
-    ///
-    /// # Errors
-    /// [`PlaceError`]: the first fault, with its step.
-    pub fn check_motion(&self, motion: &crate::motion::Motion) -> Result<(), PlaceError> {
-        let (times, steps) = (motion.times.len(), motion.positions.len());
-        if times != steps || times == 0 {
-            return Err(PlaceError::Steps { times, steps });
-        }
-        let mut before: Option<f64> = None;
-        for (k, (&time, positions)) in motion.times.iter().zip(&motion.positions).enumerate() {
-            if !time.is_finite() || before.is_some_and(|before| time <= before) {
-                return Err(PlaceError::Time { step: k + 1, time, before });
-            }
-            before = Some(time);
-            self.check_places(positions).map_err(|fault| fault.at_step(k + 1))?;
-        }
-        Ok(())
-    }
 }

@@ -6,11 +6,11 @@ use crate::layup::{Settings, Target};
 use crate::mold::Mold;
 use crate::motion::Motion;
 use crate::net::{EdgeRule, Generators, Layup as NetLayup, LayupError, Net};
-use crate::ply::Ply;
+use crate::ply::{Grid, Ply};
 use std::sync::Arc;
 
-/// Meshes of the ideal drape along each side of a cell: an even number, so that the middle of every ply is a node.
-const MESHES: usize = 4;
+/// Widest mesh of the ideal drape on a curved mold, as a share of the shorter side of a cell.
+const MESH: f64 = 0.1;
 /// Distance of neighbors at the start as a share of the fabric between them: that of Krogh et al. 2018.
 const CLOSER: f64 = 0.98;
 /// Height of the start above the highest point of the drape, in cells.
@@ -46,8 +46,9 @@ impl Scene {
     pub fn above(ply: Ply, mold: Mold, place: [f64; 2]) -> Result<Self, AboveError> {
         let seed = mold.highest_point(place).ok_or(AboveError::NoPoint { place })?;
         let [low, high] = ply.held_bounds();
-        let mesh = ply.cell.map(|side| side / MESHES as f64);
-        // an array of one row has meshes across as long as those along
+        let meshes = meshes(&ply, &mold);
+        let mesh = [0, 1].map(|n| ply.cell[n] / meshes[n] as f64);
+        // a strip has no cells across, and meshes there as long as those along
         let mesh = [mesh[0], if mesh[1] > 0.0 { mesh[1] } else { mesh[0] }];
         let count = [0, 1].map(|n| (0.5 * (high[n] - low[n]) / mesh[n]).round() as usize);
         let net = NetLayup {
@@ -79,19 +80,52 @@ impl Scene {
     }
 }
 
-/// Positions of the grippers (m) level above the middle of an ideal drape, u along its heading.
-fn start_above(ply: &Ply, net: &Net) -> Vec<Point> {
-    let nodes: Vec<Point> = net.nodes.iter().flatten().copied().collect();
-    let count = nodes.len().max(1) as f64;
-    let middle = [0, 1].map(|n| nodes.iter().map(|node| node[n]).sum::<f64>() / count);
-    let top = nodes.iter().map(|node| node[2]).fold(f64::NEG_INFINITY, f64::max);
-    let side = if ply.cell[1] > 0.0 { ply.cell[0].min(ply.cell[1]) } else { ply.cell[0] };
-    let [low, high] = ply.held_bounds();
-    let (sin, cos) = net.layup.heading.sin_cos();
-    let position = |n: usize| {
-        let place = ply.place(n);
-        let [u, v] = [0, 1].map(|c| CLOSER * (place[c] - 0.5 * (low[c] + high[c])));
-        [middle[0] + cos * u - sin * v, middle[1] + sin * u + cos * v, top + CLEAR * side]
+/// The fewest meshes of an ideal drape along each side of a cell that are no wider than [`MESH`] and put a node in the middle of the
+/// ply; a plane needs none.
+fn meshes(ply: &Ply, mold: &Mold) -> [usize; 2] {
+    let widest = match mold {
+        Mold::Plane(_) => f64::INFINITY,
+        _ => MESH * shorter_side(ply),
     };
-    (0..ply.grippers()).map(position).collect()
+    let [low, high] = ply.held_bounds();
+    [0, 1].map(|n| {
+        // a quotient of decimal lengths that is all but whole is whole
+        let least = (ply.cell[n] / widest * (1.0 - 1e-9)).ceil().max(1.0) as usize;
+        let odd = ((high[n] - low[n]) / ply.cell[n]).round() as usize % 2 == 1;
+        if odd { least.next_multiple_of(2) } else { least }
+    })
+}
+
+/// Shorter side of a cell (m), of a strip its length.
+fn shorter_side(ply: &Ply) -> f64 {
+    if ply.cell[1] > 0.0 { ply.cell[0].min(ply.cell[1]) } else { ply.cell[0] }
+}
+
+/// Positions of the grippers (m) at the start unless a scene says others: level above the middle of an ideal drape with u along its
+/// heading, 2 % closer to each other than the fabric between them, and half a cell above its highest point.
+#[must_use]
+pub fn start_above(ply: &Ply, net: &Net) -> Vec<Point> {
+    let middle = |points: &[Point]| -> [f64; 2] {
+        let count = points.len().max(1) as f64;
+        [0, 1].map(|n| points.iter().map(|point| point[n]).sum::<f64>() / count)
+    };
+    let nodes: Vec<Point> = net.nodes.iter().flatten().copied().collect();
+    let top = nodes.iter().map(|node| node[2]).fold(f64::NEG_INFINITY, f64::max);
+    let (sin, cos) = net.layup.heading.sin_cos();
+    let placed = |[x, y]: [f64; 2]| -> Vec<Point> {
+        let position = |n: usize| {
+            let [u, v] = match ply.grid {
+                Grid::NONE => ply.place(n).map(|c| CLOSER * c),
+                grid => {
+                    let [i, j] = grid.id(n).map(|c| c as f64);
+                    [i * (CLOSER * ply.cell[0]), j * (CLOSER * ply.cell[1])]
+                }
+            };
+            let z = top + CLEAR * shorter_side(ply);
+            [x + u * cos + v * -sin, y + u * sin + v * cos, z]
+        };
+        (0..ply.grippers()).map(position).collect()
+    };
+    let (here, there) = (middle(&placed([0.0; 2])), middle(&nodes));
+    placed([there[0] - here[0], there[1] - here[1]])
 }

@@ -2,7 +2,7 @@
 
 use super::cell::{DURATION, IDS, cell, product, rejected, text};
 use plydrape::mold::Pose;
-use plydrape::mold::vector::distance;
+use plydrape::geometry::vector::distance;
 use plydrape::ply::gripper_name;
 use plydrape_io::program::sampling::Deviation;
 use plydrape_io::program::{Program, Tolerance};

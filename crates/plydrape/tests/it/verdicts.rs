@@ -1,0 +1,194 @@
+//! Every limit of a scene is judged by the model that decides, along a motion that is given and along one that is planned.
+
+use plydrape::bodies::{Bodies, Body, Mount, Obstacle, Shape};
+use plydrape::layup::{Layup, Model};
+use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
+use plydrape::measure::{Name, Scope, Verdict};
+use plydrape::mold::{Face, Mold, Pose, Sphere};
+use plydrape::outcome::{Summary, judge};
+use plydrape::ply::{Grid, Ply};
+use plydrape::tool::{Axis, Tool};
+use plydrape::{Limits, Motion, Scene, Settings, plan, simulate};
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+
+fn ply(nu: usize, nv: usize) -> Ply {
+    let material = Material {
+        name: "paper".into(),
+        source: "Krogh et al. 2018, per area".into(),
+        section: Section::Areal { mass: 3.143, warp_rigidity: 9e-5, weft_rigidity: 9e-5 },
+        shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0] }),
+        tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
+        locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
+    };
+    Ply::of_array(Grid { nu, nv }, [0.1; 2], material)
+}
+
+/// Cups and a frame with axes that lay a ply on a dome beside a post, and a limit of everything that a scene may bound. The mounts of the
+/// cups give, or are rigid; cups on rigid mounts do not slip.
+fn scene(model: Model, gives: bool) -> Scene {
+    let sphere = Sphere { pose: Pose::upright([0.0, 0.0, -1.0]), radius: 1.0, face: Face::Outside };
+    let mut scene = Scene::above(ply(2, 2), Mold::Sphere(sphere), [0.0; 2]).unwrap();
+    let Layup { motion, settings, target, tool, bodies, .. } = &mut scene.layup;
+    settings.model = model;
+    (settings.sheet.mesh, settings.sheet.overhang) = (Some(0.03), 0.02);
+    settings.pad.radius = 0.01;
+    settings.pad.holding_force = Some(50.0);
+    if gives {
+        settings.pad.lateral_stiffness = Some(2e3);
+        settings.pad.slip_force = Some(50.0);
+    }
+    let start = motion.positions[0].clone();
+    let end = &target.as_ref().unwrap().grippers;
+    let between = |share: f64| {
+        let pairs = start.iter().zip(end);
+        pairs.map(|(a, b)| [0, 1, 2].map(|c| a[c] + share * (b[c] - a[c]))).collect()
+    };
+    let positions = (0..=8).map(|k| between(f64::from(k) / 8.0)).collect();
+    *motion = Motion { times: (0..=8).map(|k| 0.2 * f64::from(k)).collect(), positions };
+    let direction = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let axis = |n: usize| Axis {
+        name: ["x", "y", "z"][n].into(),
+        direction: direction[n],
+        stroke: [-0.1, 0.1],
+        speed: 0.5,
+    };
+    *tool = Some(Tool { residual: Some(1e-3), ..Tool::new(&start, (0..3).map(axis).collect()) });
+    let cylinder = Shape::Cylinder { radius: 0.01, from: 0.0, to: 0.03 };
+    let cup = Body { name: "cup".into(), on: Mount::Pad, shape: cylinder };
+    let pose = Pose::upright([0.5, 0.0, 0.0]);
+    let shape = Shape::Box { size: [0.1; 3], at: [0.0; 3] };
+    *bodies = Bodies::new(vec![cup], vec![Obstacle { name: "post".into(), pose, shape }]);
+
+    scene.limits = Limits::of(&scene.layup);
+    scene.limits.workspace = Some([[-2.0, 2.0]; 3]);
+    for name in Name::ALL {
+        let measure = name.measure();
+        if let (Some(bound), None) = (measure.bound(), measure.refusal(&scene.layup)) {
+            scene.limits.set(*name, Some(bound.example));
+        }
+    }
+    scene
+}
+
+/// The limits that apply to a scene, of measures that count at these times and that its model follows.
+fn applying(scene: &Scene, scopes: &[Scope]) -> BTreeSet<Name> {
+    let Scene { layup, limits, .. } = scene;
+    let applies = |name: &Name| {
+        let measure = name.measure();
+        let follows = measure.description().model.is_none_or(|own| own == layup.settings.model);
+        follows && scopes.contains(&measure.scope()) && measure.limit(layup, limits).is_some()
+    };
+    Name::ALL.iter().copied().filter(applies).collect()
+}
+
+fn names(limits: &[Verdict]) -> BTreeSet<Name> {
+    let names: BTreeSet<Name> = limits.iter().map(|verdict| verdict.name).collect();
+    assert_eq!(names.len(), limits.len(), "judged twice: {limits:?}");
+    names
+}
+
+/// Whatever decides, what the pads and the joints bear counts.
+fn assert_cups_are_judged(summary: &Summary) {
+    let names = names(&summary.limits);
+    for name in [Name::Tilt, Name::TiltRate, Name::GripperLoad, Name::GripperPull, Name::Strain] {
+        assert!(names.contains(&name), "{:?} {name:?}", summary.model);
+    }
+}
+
+const SCENES: [(Model, bool); 4] = [
+    (Model::Sheet, false),
+    (Model::Sheet, true),
+    (Model::Catenaries, false),
+    (Model::Catenaries, true),
+];
+
+/// A limit that applies has a verdict, and no other one has: none is left out, and none is of what the model does not follow.
+#[test]
+fn every_limit_is_judged_along_a_given_motion() {
+    for (model, gives) in SCENES {
+        let scene = scene(model, gives);
+        let mut expected = applying(&scene, &[Scope::EveryStep, Scope::End]);
+        let go_on = || false;
+        let found = judge(&scene.layup, &scene.limits, usize::MAX, &go_on).unwrap();
+        assert_eq!(names(&found.limits), expected, "{model:?} {gives}, as a search judges");
+
+        let summary = simulate(&scene, |_| ControlFlow::Continue(())).unwrap().drape.summary;
+        expected.extend(applying(&scene, &[Scope::Time]));
+        expected.insert(Name::ToolResidual);
+        assert_eq!(names(&summary.limits), expected, "{model:?} {gives}");
+        assert_cups_are_judged(&summary);
+    }
+}
+
+/// Of a planned motion every limit is judged, those of the motion in time too.
+#[test]
+fn every_limit_is_judged_along_a_planned_motion() {
+    for (model, gives) in SCENES {
+        let mut scene = scene(model, gives);
+        scene.layup.motion.positions.truncate(1);
+        scene.layup.motion.times.truncate(1);
+        (scene.plan.steps, scene.plan.evaluations) = (12, 1);
+        let planned = plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+        let summary = &planned.outcome.drape.summary;
+        let all = [Scope::EveryStep, Scope::End, Scope::Time, Scope::Whole];
+        assert_eq!(names(&summary.limits), applying(&scene, &all), "{model:?} {gives}");
+        assert_cups_are_judged(summary);
+    }
+}
+
+/// 100 mm of fabric on 80 mm hang from four grippers as steep as a catenary does: tan α = sinh x with sinh x / x = 1.25, so 56° at the grippers, and
+/// more than 45° over the cup around them.
+fn steep(max_tilt_deg: f64, radius: f64) -> Scene {
+    let mut settings = Settings { max_tilt: max_tilt_deg.to_radians(), ..Settings::default() };
+    (settings.sheet.mesh, settings.sheet.overhang) = (Some(0.01), radius);
+    settings.pad.radius = radius;
+    let ply = ply(2, 2);
+    let place = |n: usize| {
+        let [u, v] = ply.place(n);
+        [0.8 * u, v, 0.2]
+    };
+    let positions = vec![(0..4).map(place).collect()];
+    Scene::new(ply.clone(), settings, Motion { times: vec![0.0], positions })
+}
+
+fn summary(scene: &Scene) -> Summary {
+    simulate(scene, |_| ControlFlow::Continue(())).unwrap().drape.summary
+}
+
+/// Ball joints that tilt by 40° do not hold a ply that hangs by 45°, those that tilt by 70° do.
+#[test]
+fn a_sheet_that_tilts_its_grippers_too_far_is_refused() {
+    for (max_tilt_deg, holds) in [(40.0, false), (70.0, true)] {
+        let summary = summary(&steep(max_tilt_deg, 0.0));
+        let tilt = summary.limits.iter().find(|verdict| verdict.name == Name::Tilt).unwrap();
+        assert!(tilt.value > 45.0 && tilt.value < 56.0 && tilt.limit == max_tilt_deg, "{tilt:?}");
+        assert_eq!(tilt.ok, holds);
+        assert!(holds || !summary.accepted());
+    }
+}
+
+/// A pad that holds its fabric flat tilts with it up to the end of its joint, and no farther.
+#[test]
+fn a_pad_stops_at_the_end_of_its_joint() {
+    let tilt = |max_tilt_deg: f64| summary(&steep(max_tilt_deg, 0.01)).worst.value(Name::Tilt);
+    let [free, stopped] = [70.0, 20.0].map(|most| tilt(most).unwrap());
+    assert!(free > 25.0 && free < 70.0, "{free}");
+    assert!((stopped - 20.0).abs() < 0.5, "{stopped}");
+}
+
+#[test]
+fn zz_debug() {
+    for gives in [false, true] {
+        let scene = scene(Model::Sheet, gives);
+        let outcome = simulate(&scene, |_| ControlFlow::Continue(())).unwrap();
+        let s = &outcome.drape.summary;
+        println!("{gives} {:?} steps {} rms {:?} last {:?}", s.status, s.steps, s.height_rms_mm, s.last);
+        let drape = outcome.drape.sheet.as_ref().unwrap();
+        println!("{:?}", drape.drape.last.heights);
+        println!("{:?}", drape.drape.last.contact);
+        for g in &outcome.drape.steps.last().unwrap().grippers { println!("{g:?}"); }
+    }
+}
