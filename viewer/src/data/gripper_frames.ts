@@ -1,17 +1,25 @@
 /** The grippers over the steps of one model: places, turns, and what the ply does to them. */
 
 import { unpack, type Frames } from "./block";
-import type { GrippersData, Place } from "./page_data";
+import type { GrippersData, Place, ReadingData } from "./page_data";
+
+/** A measure of a gripper in a step. */
+export interface Reading {
+  label: string;
+  unit: string;
+  value: number;
+  limit: number | null;
+}
 
 export class GripperFrames {
   private constructor(
     private readonly unit: number,
     readonly positions: Frames,
     readonly normals: Frames,
-    private readonly tilts: Frames,
     private readonly forces: Frames,
     private readonly held: Frames | null,
-    private readonly used: Frames,
+    private readonly read: [ReadingData, Frames][],
+    private readonly used: Frames | null,
   ) {}
 
   static async unpack(data: GrippersData): Promise<GripperFrames> {
@@ -19,10 +27,14 @@ export class GripperFrames {
       data.force_unit,
       await unpack(data.positions, "grippers"),
       await unpack(data.normals, "normals of the pads"),
-      await unpack(data.tilts, "tilts of the pads"),
       await unpack(data.forces, "forces"),
       data.holds === null ? null : await unpack(data.holds, "pads that hold"),
-      await unpack(data.used, "margins of the grippers"),
+      await Promise.all(
+        data.readings.map(async (reading): Promise<[ReadingData, Frames]> => {
+          return [reading, await unpack(reading.values, `${reading.label} of the grippers`)];
+        }),
+      ),
+      data.used === null ? null : await unpack(data.used, "margins of the grippers"),
     );
   }
 
@@ -40,9 +52,16 @@ export class GripperFrames {
     return this.held === null ? null : this.held.at(index)[gripper] !== 0;
   }
 
-  /** Angle between a pad and its stem (°). */
-  tilt(index: number, gripper: number): number {
-    return this.tilts.at(index)[gripper]! / 100;
+  /** What is measured of a gripper in a step. */
+  readings(index: number, gripper: number): Reading[] {
+    return this.read.map(([{ label, unit, limit, fine }, values]) => {
+      return { label, unit, limit, value: values.at(index)[gripper]! / fine };
+    });
+  }
+
+  /** Whether its loads are judged. */
+  get isJudged(): boolean {
+    return this.used !== null;
   }
 
   /** Force of the ply on a pad (N). */
@@ -64,8 +83,9 @@ export class GripperFrames {
     ];
   }
 
-  /** Shares of what a gripper may bear that the loads on it use, along the ply and across it; null without a limit. */
+  /** Shares of the limits that the loads on a gripper use, along the ply and across it; null without a limit. */
   shares(index: number, gripper: number): [along: number | null, across: number | null] {
+    if (this.used === null) return [null, null];
     const used = this.used.at(index);
     const share = (c: number) => (used[2 * gripper + c]! < 0 ? null : used[2 * gripper + c]! / 1000);
     return [share(0), share(1)];

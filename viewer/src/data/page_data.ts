@@ -108,28 +108,33 @@ export interface VacuumEvent {
   grippers: string[];
 }
 
-/** The grippers over the steps: micrometers, ten-thousandths, and hundredths of a degree. */
+/** A measure of every gripper in every step. */
+export interface ReadingData {
+  label: string;
+  unit: string;
+  /** The most that is allowed; null where nothing is judged by it. */
+  limit: number | null;
+  /** Values in one of the unit. */
+  fine: number;
+  values: Block;
+}
+
+/** The grippers over the steps: micrometers and ten-thousandths. */
 export interface GrippersData {
   positions: Block;
   normals: Block;
-  /** Angles between pads and their stems. */
-  tilts: Block;
   /** What the numbers of `forces` count (N). */
   force_unit: number;
   /** Of the ply on the grippers. */
   forces: Block;
   /** Whether each pad holds the ply, 1 or 0; null where all of them always do. */
   holds: Block | null;
-  /** Thousandths of the allowed loads that are used along the ply and across it; -1 without a limit. */
-  used: Block;
-}
-
-/** The largest loads that a gripper may have (N), along the ply, off the pad, and as a whole, and its largest tilt (°). */
-export interface Allowed {
-  along: number | null;
-  across: number | null;
-  whole: number | null;
-  tilt: number | null;
+  readings: ReadingData[];
+  /**
+   * Thousandths of the limits that the loads use, along the ply and across it, -1 without a limit; null of a model that judges
+   * nothing.
+   */
+  used: Block | null;
 }
 
 /** The ply as a net of catenaries. Micrometers and hundredths of a degree. */
@@ -187,8 +192,6 @@ export interface DrapeData {
   measures: Measure[];
   fields: Field[];
   grippers: GrippersData;
-  /** Null of a model that judges nothing. */
-  allowed: Allowed | null;
   /** The pads, the stems, and of a tool the flange: a place in micrometers and a quaternion in millionths. */
   origins: Block | null;
   catenaries: CatenariesData | null;
@@ -325,10 +328,10 @@ function checkDrape(data: PageData, drape: Partial<DrapeData> | undefined): void
   const pads = grippers && [
     grippers.positions,
     grippers.normals,
-    grippers.tilts,
     grippers.forces,
     grippers.holds,
     grippers.used,
+    ...grippers.readings.map(({ values }) => values),
   ];
   const whole =
     pads?.every((block) => fits(block, steps, data.ids.length)) === true && grippers!.force_unit > 0;

@@ -307,10 +307,9 @@ class Chart {
 
   fit(given: number | null): void {
     const width = given ?? this.room.clientWidth;
-    if (width > 0 && width !== this.plot.width) {
-      this.plot.setSize({ width, height: HEIGHT });
-      this.mark(this.index);
-    }
+    if (width <= 0) return;
+    if (width !== this.plot.width) this.plot.setSize({ width, height: HEIGHT });
+    this.mark(this.index);
   }
 }
 

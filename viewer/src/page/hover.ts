@@ -206,33 +206,16 @@ function ofVertex(
 }
 
 function ofGripper(motion: Motion, now: Choice, { number, place }: Found): [string, Row[]] {
-  const { grippers, data } = motion.drape(now.model);
+  const { grippers } = motion.drape(now.model);
   const { index } = now;
-  const { allowed } = data;
-  const title = `gripper ${gripperName(motion.data.ids[number]!)}`;
-  const rows: Row[] = [
-    { label: "vacuum", value: vacuum(motion, now, grippers.holds(index, number) === false, number) },
-    { label: "tilt", value: quantity(grippers.tilt(index, number), "°") + upTo(allowed?.tilt, "°") },
-  ];
-  if (grippers.holds(index, number) !== false) {
-    const [along, across] = grippers.loads(index, number);
-    const load = (force: Place, most?: number | null) =>
-      quantity(Math.hypot(...force), "N") + upTo(most, "N");
-    const normal = grippers.normals.at(index).subarray(3 * number, 3 * number + 3);
-    const up = across.reduce((sum, f, c) => sum + f * normal[c]!, 0);
-    rows.push(
-      { label: "force", value: load(grippers.force(index, number), allowed?.whole) },
-      { label: "along the ply", value: load(along, allowed?.along) },
-      up > 0
-        ? { label: "presses the pad", value: load(across) }
-        : { label: "draws off the pad", value: load(across, allowed?.across) },
-    );
+  const gone = grippers.holds(index, number) === false;
+  const rows: Row[] = [{ label: "vacuum", value: vacuum(motion, now, gone, number) }];
+  // a pad that has let go has no loads
+  for (const { label, unit, value, limit } of gone ? [] : grippers.readings(index, number)) {
+    const allowed = limit === null ? "" : `, ≤\u202f${quantity(limit, unit)} allowed`;
+    rows.push({ label, value: quantity(value, unit) + allowed });
   }
-  return [title, [...rows, position(place)]];
-}
-
-function upTo(limit: number | null | undefined, unit: string): string {
-  return limit === null || limit === undefined ? "" : `, ≤\u202f${quantity(limit, unit)} allowed`;
+  return [`gripper ${gripperName(motion.data.ids[number]!)}`, [...rows, position(place)]];
 }
 
 /** What the vacuum of a pad does in a step. */

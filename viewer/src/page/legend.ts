@@ -63,7 +63,7 @@ function showForceScale(motion: Motion, now: Choice): void {
   note.hidden = load === 0 && other === 0;
   if (load === 0 && other === 0) return;
   // a model that judges nothing has no limits
-  const judged = motion.drape(now.model).data.allowed !== null;
+  const judged = motion.drape(now.model).grippers.isJudged;
   const uses = USES.map(({ colour, text }) => {
     const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = `var(--${colour})`;

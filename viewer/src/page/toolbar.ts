@@ -12,11 +12,11 @@ const VIEWS: [StandardView, string, string][] = [
   ["side", "Side", "S"],
 ];
 
-/** Shows a model, in the same color mode if it has it. */
+/** Shows a model, in the same color mode if it has it; what is marked on the other one's ply goes. */
 export function chooseModel(state: State, data: PageData, model: Model): void {
   const known = fieldsOf(data, model);
   const colour = known.find(({ key }) => key === state.now.colour)?.key ?? known[0]?.key ?? state.now.colour;
-  state.set({ model, colour });
+  state.set({ model, colour, pointer: model === state.now.model ? state.now.pointer : null });
 }
 
 export function linkToolbar(state: State, data: PageData, eye: Eye | null): void {

@@ -4,7 +4,6 @@ use super::catenaries::{Catenaries, Detail};
 use super::course::{Course, courses};
 use super::field::Field;
 use super::grippers::Grippers;
-use super::margin::Allowed;
 use super::sheet::{KeptStates, Sheet};
 use super::{Form, block::Block, cell};
 use crate::OutputError;
@@ -24,8 +23,6 @@ pub(super) struct Drape<'a> {
     pub measures: Vec<Course<'a>>,
     pub fields: Vec<Field>,
     grippers: Grippers,
-    /// The largest loads that a gripper may have; `None` of a model that judges nothing.
-    allowed: Option<Allowed>,
     /// Where bodies are that move with grippers and robot.
     origins: Option<Block>,
     catenaries: Option<Catenaries>,
@@ -86,15 +83,13 @@ impl<'a> Source<'a> {
         };
 
         let pictures = steps.iter().filter_map(|step| nearest(&drawn, step.step)).collect();
-        let allowed = decides.then(|| Allowed::new(result));
         Ok(Drape {
             model: summary.model,
             pictures,
             drawn,
             measures: courses(&steps, numbers.len(), judged),
             fields,
-            grippers: Grippers::new(&steps, &released, allowed.unwrap_or_default(), form),
-            allowed,
+            grippers: Grippers::new(&steps, &released, decides.then_some(judged), form),
             origins: cell::origins(&result.scene, &steps, form),
             catenaries,
             sheet,

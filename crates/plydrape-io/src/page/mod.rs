@@ -9,8 +9,8 @@
 //! limit in it.
 //!
 //! 1. `limit`, `course`, `field`: limits, measures over the steps, and what colors tell;
-//! 2. `drape`: the drape by one model; `grippers`, `catenaries`, `sheet`: what is drawn of it;
-//! 3. `cell`, `mold`, `margin`: what is the same for both models;
+//! 2. `drape`: the drape by one model; `grippers`, `reading`, `catenaries`, `sheet`: what is shown of it;
+//! 3. `cell`, `mold`: what is the same for both models;
 //! 4. `sample`, `facts`: the verdict over a sample of cells, and what was draped;
 //! 5. `block`, `packing`: integers in little text.
 
@@ -23,9 +23,9 @@ mod facts;
 mod field;
 mod grippers;
 mod limit;
-mod margin;
 mod mold;
 mod packing;
+mod reading;
 mod sample;
 mod sheet;
 
@@ -263,10 +263,11 @@ mod tests {
             assert_eq!(alone[key], both[key], "{key}");
         }
         let also = &both["also"];
-        assert!(also["allowed"].is_null() && !also["measures"].as_array().unwrap().is_empty());
-        for list in ["measures", "fields"] {
-            let limits = also[list].as_array().unwrap().iter().map(|entry| &entry["limit"]);
-            assert!(limits.into_iter().all(serde_json::Value::is_null), "{list}");
+        let grippers = &also["grippers"];
+        assert!(grippers["used"].is_null());
+        for list in [&also["measures"], &also["fields"], &grippers["readings"]] {
+            let list = list.as_array().unwrap();
+            assert!(!list.is_empty() && list.iter().all(|entry| entry["limit"].is_null()));
         }
     }
 
