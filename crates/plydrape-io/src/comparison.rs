@@ -1,6 +1,6 @@
 //! The files of a comparison: `comparison.csv` with all limits of all strategies, and `comparison.svg` with how each one ends.
 
-use crate::sheet::{SheetDrapeError, ended};
+use crate::sheet::{self, SheetDrapeError, ended};
 use crate::{Content, Folder, OutputError, ResultFile, csv, figure};
 use ::csv::Writer;
 use plydrape::measure::{Name, Verdict};
@@ -61,20 +61,12 @@ impl Row {
         let owned = |limits: Vec<&Verdict>| limits.into_iter().cloned().collect();
         let (limits, broken) = (owned(draped.limits()), owned(draped.broken()));
         let (accepted, time_s) = (draped.is_accepted(), Some(draped.time));
-        let mut result = ResultFile::new(scene, None, draped.drape);
-        if let Some(sheet) = draped.sheet {
-            result.keep_sheet(sheet, dir)?;
-        }
-        let summary = &result.summary;
-        let ended = match &summary.sheet {
-            Some(sheet) => ended(sheet, summary.steps_planned),
-            None => summary.stopped.as_ref().map(ToString::to_string),
-        };
-        let (note, result) = (ended, Some(result));
+        let result = ResultFile::new(scene, None, sheet::keep(draped.drape, dir)?);
+        let (note, result) = (ended(&result.summary), Some(result));
         Ok(Row { strategy, accepted, time_s, not_draped: false, note, limits, broken, result })
     }
 
-    /// The verdict on one limit; the first, where several models judge it.
+    /// The verdict on one limit.
     #[must_use]
     pub fn limit(&self, name: Name) -> Option<&Verdict> {
         self.limits.iter().find(|verdict| verdict.name == name)

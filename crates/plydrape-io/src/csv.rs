@@ -1,63 +1,67 @@
 //! The tables `steps.csv`, `trajectory.csv` and `motion.csv`, units in their headers.
 //!
-//! Numbers are in the shortest form that reads back to the same double. A measure without a meaning in
-//! a step leaves its cells empty.
+//! Numbers are in the shortest form that reads back to the same double. All of them are of the model that decides: a measure that it does
+//! not evaluate has no column, and one without a meaning in a step leaves its cells empty. How the solver ended is there where catenaries
+//! decide.
 //!
-//! Beside the poses stand the expected loads of the ply on the grippers where they are known, and where mounts yield their
-//! preload and stiffness, see `loads.rs`. Where the scene says when pads let go, the column `vacuum` is 1 as long as a gripper
+//! Beside the poses stand the expected loads of the ply on the grippers, and where mounts yield their preload and stiffness, see `loads.rs`. Where the scene says when pads let go, the column `vacuum` is 1 as long as a gripper
 //! holds and 0 from its release on; the tables then end with the last release.
 
 use super::OutputError;
 use super::loads::{Load, Loads, Stiffness};
-use crate::result::ResultFile;
+use crate::result::{ResultFile, Turned};
 use ::csv::{Error, Writer};
-use plydrape::draping::record::Step;
-use plydrape::measure::{Name, Scope};
+use plydrape::draping::record::CatenaryStep;
+use plydrape::layup::Model;
+use plydrape::measure::Name;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
+use plydrape::outcome::Step;
 use plydrape::ply::{GripperId, Ply, gripper_name};
 use plydrape::sheet::Event;
 use plydrape::sheet::event::{holds, last_release};
 
-/// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
+/// One row a step: time (s), every measure of the model that decides and where it is, of catenaries how the solver ended.
 ///
 /// # Errors
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn steps(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     let mut header = vec!["step", "t (s)"];
-    let columns = measured(result).map(|m| [header_of(m), format!("{} at", m.measure().label())]);
+    let measured = measured(&result.steps);
+    let columns = measured.iter().map(|m| [header_of(*m), format!("{} at", m.measure().label())]);
     let columns: Vec<String> = columns.flatten().collect();
     header.extend(columns.iter().map(String::as_str));
-    header.extend(["solver status", "iterations", "residual", "equilibria", "contact status"]);
+    if result.model() == Model::Catenaries {
+        header.extend(["solver status", "iterations", "residual", "equilibria", "contact status"]);
+    }
     table.write_record(&header)?;
     for step in &result.steps {
-        table.write_record(step_row(result, step))?;
+        table.write_record(step_row(&measured, step))?;
     }
     text(table)
 }
 
-fn step_row(result: &ResultFile, step: &Step) -> Vec<String> {
+fn step_row(measured: &[Name], step: &Step) -> Vec<String> {
     let mut row = vec![step.step.to_string(), number(step.time)];
-    for name in measured(result) {
-        let worst = step.measures.get(name);
+    for name in measured {
+        let worst = step.measures.get(*name);
         row.push(worst.map(|w| number(w.value)).unwrap_or_default());
         row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
     }
-    row.push(step.solver.status.name().to_owned());
-    row.push(step.solver.iterations.to_string());
-    row.push(number(step.solver.residual));
-    row.push(step.solver.equilibria.to_string());
-    row.push(step.solver.contact.name().to_owned());
+    if let Some(CatenaryStep { solver, .. }) = &step.catenaries {
+        row.push(solver.status.name().to_owned());
+        row.push(solver.iterations.to_string());
+        row.push(number(solver.residual));
+        row.push(solver.equilibria.to_string());
+        row.push(solver.contact.name().to_owned());
+    }
     row
 }
 
-/// The measures that a step may have; clearances where there are bodies.
-fn measured(result: &ResultFile) -> impl Iterator<Item = Name> {
-    let bodies = !result.scene.bodies.is_empty();
-    let known = move |name: &Name| {
-        name.measure().scope() != Scope::Whole && (bodies || *name != Name::Clearance)
-    };
-    Name::ALL.iter().copied().filter(known)
+/// The measures that some step has.
+fn measured(steps: &[Step]) -> Vec<Name> {
+    let known = |name: &Name| steps.iter().any(|step| step.measures.get(*name).is_some());
+    Name::ALL.iter().copied().filter(known).collect()
 }
 
 /// The column of a measure, its unit in brackets.
@@ -67,35 +71,35 @@ fn header_of(name: Name) -> String {
 }
 
 /// One row a gripper and step: time (s), gripper `g2_0`, where the robot holds it (m), orientation (x, y, z, w), the load
-/// on it where that is known, and its vacuum where pads let go; a last one at the release where that is later.
+/// on it, and its vacuum where pads let go; a last one at the release where that is later.
 ///
 /// # Errors
-/// [`OutputError`] if the states of the sheet cannot be read.
-pub fn trajectory(result: &ResultFile) -> Result<String, OutputError> {
-    let loads = Loads::of(result)?;
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
+    let loads = Loads::of(result);
     let mut table = Poses::new(loads.as_ref(), vacuum(result))?;
     let end = result.steps.last().map(|step| step.time);
     let released = end.and_then(|end| result.steps.last().zip(release_after(result, end)));
     let steps = result.steps.iter().map(|step| (step, step.time));
     for (step, time) in steps.chain(released) {
-        let poses = step.grippers.iter().map(|g| (g.id, g.commanded(), g.quaternion));
+        let poses = step.grippers.iter().map(|g| (g.id, g.commanded, g.quaternion));
         table.add(time, poses)?;
     }
-    Ok(text(table.table)?)
+    text(table.table)
 }
 
-/// The table of [`motion`] for a plan at its rate, with the loads where they are known and the vacuum where pads let go, until
-/// they do; none of a simulated drape.
+/// The table of [`motion`] for a plan at its rate, with the loads and where pads let go with the vacuum, until they do; `None` of a simulated
+/// drape.
 ///
 /// # Errors
-/// As [`motion`], if plan and steps do not belong together, or [`OutputError`] if the states of the sheet cannot be read.
+/// As [`motion`], if plan and steps do not belong together.
 pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
     match (&result.plan, result.motion()?) {
-        (Some(plan), Some((timed, attitudes))) => {
-            let (ply, loads) = (&result.scene.ply, Loads::of(result)?);
+        (Some(plan), Some(Turned { motion, attitudes })) => {
+            let (ply, loads) = (&result.scene.ply, Loads::of(result));
             let table = Poses::new(loads.as_ref(), vacuum(result))?;
-            let until = release_after(result, timed.duration());
-            sampled(&timed, &attitudes, ply, plan.rate, table, until).map(Some)
+            let until = release_after(result, motion.duration());
+            sampled(motion, attitudes, ply, plan.rate, table, until).map(Some)
         }
         _ => Ok(None),
     }
@@ -257,7 +261,7 @@ pub(super) fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
 mod tests {
     use super::*;
     use crate::sample;
-    use plydrape::draping::record::Worst;
+    use plydrape::measure::Worst;
 
     fn rows(text: &str) -> Vec<Vec<String>> {
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());

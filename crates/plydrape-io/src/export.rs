@@ -59,7 +59,7 @@ pub type Files = Vec<(String, Vec<u8>)>;
 /// # Errors
 /// [`OutputError`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
 pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, OutputError> {
-    if format.drives() && !result.summary.accepted && !options.even_if_rejected {
+    if format.drives() && !result.summary.accepted() && !options.even_if_rejected {
         let verdict = Program::verdict(result);
         return Err(ProgramError::Rejected { verdict }.into());
     }

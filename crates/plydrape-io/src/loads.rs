@@ -1,8 +1,7 @@
 //! Loads of the ply on the grippers over a motion, and the preload of their mounts, for grippers that control a force.
 //!
-//! Both are those of the model that decides: of the sheet in the steps whose states were kept, of the catenaries in every step,
-//! where mounts yield. Between these they go on linearly. With the stiffness k of the mount along an axis, the preload p along
-//! it, and the way s that the fabric has slid under the pad, the load of the ply on the gripper is
+//! Both are those of the model that decides, in every step; between these they go on linearly. With the stiffness k of the mount along an
+//! axis, the preload p along it, and the way s that the fabric has slid under the pad, the load of the ply on the gripper is
 //!
 //! ```text
 //! F = −k (p + s) .
@@ -10,11 +9,11 @@
 //!
 //! The axes are those of the scene: the lateral stiffness is that along x and y, the axial one that along z.
 
-use super::OutputError;
 use crate::result::ResultFile;
-use plydrape::draping::record::Mount;
-use plydrape::mold::vector::sub;
-use plydrape::scene::PadSettings;
+use plydrape::geometry::vector::sub;
+use plydrape::layup::PadSettings;
+use plydrape::outcome::{Gripper, Step};
+use plydrape::sheet::event::last_release;
 
 /// Newtons a millimeter in a newton a meter.
 const PER_MM: f64 = 1e-3;
@@ -60,18 +59,18 @@ impl Stiffness {
 }
 
 impl Loads {
-    /// Those of a result; none where rigid grippers hold catenaries, whose loads are not recorded.
-    ///
-    /// # Errors
-    /// [`OutputError`] if the states of the sheet cannot be read.
-    pub fn of(result: &ResultFile) -> Result<Option<Self>, OutputError> {
+    /// Those of a result; `None` without steps.
+    pub fn of(result: &ResultFile) -> Option<Self> {
         let mounts = Stiffness::of(&result.scene.settings.pad);
-        let (times, steps) = match (&result.summary.sheet, &result.sheet_states) {
-            (Some(_), Some(_)) => of_sheet(result, mounts.is_some())?,
-            (None, _) if mounts.is_some() => of_catenaries(result),
-            _ => return Ok(None),
-        };
-        Ok((!times.is_empty()).then_some(Loads { times, steps, mounts }))
+        let mut times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
+        let mut steps: Vec<Vec<Load>> = result.steps.iter().map(of_step).collect();
+        let (end, loads) = times.last().copied().zip(steps.last().cloned())?;
+        // after the last step grippers bear the same until they let go
+        if let Some(released) = last_release(result.events()).filter(|time| *time > end) {
+            times.push(released);
+            steps.push(loads);
+        }
+        Some(Loads { times, steps, mounts })
     }
 
     /// Those at a time (s); none after the last step that was draped.
@@ -101,48 +100,13 @@ impl Load {
     }
 }
 
-/// Times and loads of the states of the sheet; of rigid grippers there is no preload.
-fn of_sheet(result: &ResultFile, yields: bool) -> Result<(Vec<f64>, Vec<Vec<Load>>), OutputError> {
-    let (mut times, mut steps) = (Vec::new(), Vec::new());
-    let Some(kept) = &result.sheet_states else { return Ok((times, steps)) };
-    let motion = result.motion()?;
-    let mut file = kept.open()?;
-    let mut before = None;
-    for n in 0..file.states() {
-        let Some(state) = file.state(n)? else { continue };
-        let step = state.step as usize;
-        // after the last step grippers bear the same until they let go
-        if let (true, Some(last)) = (before.replace(step) == Some(step), steps.last().cloned()) {
-            times.push(state.time);
-            steps.push(last);
-        }
-        // where the robot holds the mounts
-        let recorded = result.steps.get(step - 1).map(|step| {
-            step.grippers.iter().map(|gripper| gripper.commanded()).collect::<Vec<_>>()
-        });
-        let held = recorded.or_else(|| motion.as_ref().map(|(motion, _)| motion.at(state.time)));
-        let Some(held) = held else { break };
-        let pads = state.pad_forces.iter().zip(state.grippers.iter()).zip(&held);
-        let load = |((force, pad), held): ((&[f64; 3], &[f64; 3]), &[f64; 3])| Load {
-            force: *force,
-            preload: if yields { sub(*held, *pad) } else { [0.0; 3] },
-        };
-        times.push(state.time);
-        steps.push(pads.map(load).collect());
-    }
-    Ok((times, steps))
-}
-
-/// Times and loads of the steps of the catenaries, as far as they have mounts.
-fn of_catenaries(result: &ResultFile) -> (Vec<f64>, Vec<Vec<Load>>) {
-    let one = |gripper: &plydrape::draping::record::Gripper| {
-        let Mount { commanded, force, .. } = gripper.mount?;
-        Some(Load { force, preload: sub(commanded, gripper.position) })
+/// The loads of a step; of rigid grippers there is no preload.
+fn of_step(step: &Step) -> Vec<Load> {
+    let load = |gripper: &Gripper| Load {
+        force: gripper.force,
+        preload: sub(gripper.commanded, gripper.position),
     };
-    let known = result.steps.iter().map_while(|step| {
-        Some((step.time, step.grippers.iter().map(one).collect::<Option<Vec<_>>>()?))
-    });
-    known.unzip()
+    step.grippers.iter().map(load).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 use super::*;
 use crate::{csv, scene};
-use plydrape::draping::record::PlanRecord;
 use plydrape::draping::simulate;
 use plydrape::motion::{Bounds, TimedMotion};
+use plydrape::planner::PlanRecord;
 use plydrape::scene::{Model, PlanMethod, Release, ReleaseOrder, Scene};
 use plydrape::sheet::{self, State, Tuning};
 use std::collections::HashMap;

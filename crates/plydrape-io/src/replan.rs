@@ -4,9 +4,14 @@
 use crate::read::ReadError;
 use crate::result::ResultFile;
 use crate::sheet::{SheetError, SheetKept, SheetSpool, SheetState};
+use plydrape::layup::Layup;
+use plydrape::layup::Model;
+use plydrape::measure::Name;
+use plydrape::motion::Motion;
 use plydrape::planner::replan::{Plan, ReplanError, Replanned, Replanner, SheetShapes};
-use plydrape::scene::{self, Model, Motion, Scene};
+use plydrape::scene::{self, Scene};
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// Why a result cannot be replanned.
 #[derive(Debug, thiserror::Error)]
@@ -62,29 +67,34 @@ impl PlannedResult {
         let positions = result
             .steps
             .iter()
-            .map(|step| step.grippers.iter().map(|gripper| gripper.commanded()).collect());
+            .map(|step| step.grippers.iter().map(|gripper| gripper.commanded).collect());
+        let motion = Motion {
+            times: result.steps.iter().map(|step| step.time).collect(),
+            positions: positions.collect(),
+        };
         let scene = Scene {
             title: echo.title.clone(),
-            ply: echo.ply.clone(),
-            mold: echo.mold.clone(),
-            motion: Motion {
-                times: result.steps.iter().map(|step| step.time).collect(),
-                positions: positions.collect(),
+            layup: Layup {
+                ply: echo.ply.clone(),
+                mold: echo.mold.clone(),
+                motion,
+                target: echo.target.clone(),
+                settings: echo.settings,
+                bodies: echo.bodies.clone(),
+                tool: echo.tool.clone(),
+                release: echo.release.clone(),
             },
-            target: echo.target.clone(),
-            settings: echo.settings,
-            limits: echo.limits,
-            bodies: echo.bodies.clone(),
+            limits: echo.limits.clone(),
             plan: scene::Plan {
                 method: record.method,
                 rate: record.rate,
                 ..scene::Plan::default()
             },
             errors: echo.errors,
-            tool: echo.tool.clone(),
-            release: echo.release.clone(),
+            also: false,
         };
-        let sheet = result.sheet_states.as_ref().map(|kept| shapes(&result, kept)).transpose()?;
+        let kept = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
+        let sheet = kept.map(|kept| shapes(&result, kept)).transpose()?;
         Ok(PlannedResult { result, scene, sheet })
     }
 
@@ -100,15 +110,10 @@ impl PlannedResult {
         &self.scene
     }
 
-    /// How far seen points may be from where an offset puts them (m): as far as points of the ply may land from their places, by the
-    /// model that decides.
+    /// How far seen points may be from where an offset puts them (m): as far as points of the ply may land from their places.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
-        let limits = &self.scene.limits;
-        match self.scene.settings.model {
-            Model::Sheet => limits.position,
-            Model::Catenaries => limits.landing_contact,
-        }
+        self.scene.limits.most(Name::Position)
     }
 
     /// What answers offsets with motions.
@@ -122,22 +127,26 @@ impl PlannedResult {
         Ok(Replanner::new(plan, self.sheet.as_ref())?)
     }
 
-    /// The result of a corrected plan; the moved states of its sheet are kept in a hidden folder within `dir`.
+    /// The result of a corrected plan, of the model that decides alone; the moved states of its sheet are kept in a hidden folder within `dir`.
     ///
     /// # Errors
     /// [`ReplanFault`] if the states of the sheet cannot be read or kept.
     pub fn corrected(&self, replanned: Replanned, dir: &Path) -> Result<ResultFile, ReplanFault> {
-        let kept = self.result.sheet_states.as_ref();
+        let result = &self.result;
+        let kept = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
         let states = kept.map(|kept| self.states(kept, &replanned, dir)).transpose()?;
-        let Replanned { record, steps, summary, .. } = replanned;
-        Ok(ResultFile {
+        let Replanned { record, motion, attitudes, steps, summary, .. } = replanned;
+        let corrected = ResultFile {
             program: crate::PROGRAM.into(),
-            scene: self.result.scene.clone(),
-            plan: Some(record),
+            scene: result.scene.clone(),
+            plan: None,
             summary,
             sheet_states: states,
             steps,
-        })
+            also: None,
+            motion: OnceLock::new(),
+        };
+        Ok(corrected.along(record, motion, attitudes))
     }
 
     /// The states of the sheet, moved.
@@ -174,7 +183,7 @@ impl PlannedResult {
         for turned in state.pad_rotation.to_mut() {
             *turned = replanned.orientation(step, *turned);
         }
-        if let Some(mold) = &self.scene.mold {
+        if let Some(mold) = &self.scene.layup.mold {
             let places = &state.positions;
             let height = |p: &[f64; 3]| mold.signed_distance(*p);
             state.height = places.iter().map(height).collect();
@@ -184,7 +193,7 @@ impl PlannedResult {
 
 /// The states of a sheet up to its first contact.
 fn shapes(result: &ResultFile, kept: &SheetKept) -> Result<SheetShapes, ReplanFault> {
-    let first = result.summary.sheet.as_ref().and_then(|sheet| sheet.first_contact_step);
+    let first = result.summary.first_contact_step();
     let last = first.unwrap_or(result.steps.len());
     let mut states = kept.open()?;
     let places = states.mesh().places.to_vec();

@@ -2,7 +2,7 @@
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
 use crate::result::{ResultFile, SceneEcho};
-use plydrape::clearance::Bodies;
+use plydrape::bodies::Bodies;
 use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;

@@ -1,6 +1,6 @@
 //! Text for a terminal: control characters, which would move the cursor or change its colors, are shown by their number.
 
-use plydrape::draping::record::PlanRecord;
+use plydrape::planner::PlanRecord;
 use plydrape::ply::{Direction, Grid, Ply};
 use std::fmt::Write;
 use std::path::Path;

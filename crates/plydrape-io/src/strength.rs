@@ -1,7 +1,7 @@
 //! What published data say of the strength that fiber angles cost, in words: information beside what was measured.
 
-use plydrape::draping::record::Summary;
 use plydrape::measure::{Loss, Name, Plane, Published};
+use plydrape::outcome::Summary;
 use serde::Serialize;
 
 /// What one source says beside the angles that were found.
@@ -35,19 +35,10 @@ pub fn notes(summary: &Summary) -> Vec<Note> {
         .collect()
 }
 
-/// The angles at the end (°), of the sheet where it decides.
+/// The angles at the end (°), as far as the model that decides knows them.
 fn found(summary: &Summary) -> Vec<(Name, f64)> {
-    let last = |name: Name| summary.last.value(name);
-    let angles = match &summary.sheet {
-        Some(sheet) => vec![
-            (Name::OutOfPlane, sheet.out_of_plane_deg),
-            (Name::FibreAngle, sheet.fibre_angle_deg),
-        ],
-        None => [Name::SlackAngle, Name::WrinkleAngle, Name::FibreAngle]
-            .map(|name| (name, last(name)))
-            .to_vec(),
-    };
-    angles.into_iter().filter_map(|(name, angle)| Some((name, angle?))).collect()
+    let names = [Name::OutOfPlane, Name::SlackAngle, Name::WrinkleAngle, Name::FibreAngle];
+    names.into_iter().filter_map(|name| Some((name, summary.last.value(name)?))).collect()
 }
 
 fn note(published: &Published, angles: &[(Name, f64)]) -> Note {
@@ -160,7 +151,7 @@ mod tests {
     #[test]
     fn no_note_and_no_preset_claims_conformity() {
         let notes = published().into_iter().flat_map(|note| [note.angles, note.text, note.source]);
-        let presets = plydrape::preset::Preset::ALL.iter().flat_map(|preset| {
+        let presets = plydrape::measure::Preset::ALL.iter().flat_map(|preset| {
             let sources = preset.figures().iter().map(|figure| figure.source.to_string());
             sources.chain([preset.about().to_string()]).collect::<Vec<_>>()
         });
@@ -171,13 +162,10 @@ mod tests {
         }
     }
 
-    /// Where the sheet decides its own angles are told, each beside its own plane.
+    /// The angles of a sheet, each beside its own plane.
     #[test]
-    fn with_a_sheet_the_angles_are_those_of_the_sheet() {
-        let mut summary = drape(&[(Name::SlackAngle, 2.6), (Name::FibreAngle, 8.0)]);
-        let mut sheet = sample::sheet_summary();
-        (sheet.out_of_plane_deg, sheet.fibre_angle_deg) = (Some(4.0), Some(6.0));
-        summary.decide_by(sheet);
+    fn each_angle_stands_beside_what_is_published_of_its_plane() {
+        let summary = drape(&[(Name::OutOfPlane, 4.0), (Name::FibreAngle, 6.0)]);
         let angles: Vec<String> = notes(&summary).into_iter().map(|note| note.angles).collect();
         assert_eq!(angles, ["fiber angle 6°", "fiber angle out of plane 4°"]);
     }

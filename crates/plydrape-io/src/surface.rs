@@ -16,8 +16,9 @@
 //!
 //! If the diagonals miss each other, e₀ is the lower of both, so that the surface holds the higher.
 
-use crate::result::ResultFile;
-use plydrape::draping::record::{CatenaryState, Hold, SpanState, Step};
+use crate::result::{ResultFile, catenaries};
+use plydrape::draping::record::{CatenaryState, Hold, SpanState};
+use plydrape::outcome::Step;
 use plydrape::ply::{Catenary, Grid, Kind, LineCell, Lines};
 
 type Point = [f64; 3];
@@ -136,7 +137,7 @@ fn touching(line: &CatenaryState, curves: &[Vec<Point>]) -> Option<Vec<Point>> {
 /// The lines in which the ply touches the mold in a step (m), one for each of its first `count` catenaries that does.
 #[must_use]
 pub fn contact_lines(step: &Step, curves: &[Vec<Vec<Point>>], count: usize) -> Vec<Vec<Point>> {
-    let lines = step.catenaries.iter().zip(curves).take(count);
+    let lines = catenaries(step).iter().zip(curves).take(count);
     lines.filter_map(|(line, curves)| touching(line, curves)).collect()
 }
 
@@ -189,7 +190,7 @@ pub(crate) fn lines(
     (0..graph.catenaries())
         .map(|k| {
             let ends = graph.ends(k).map(|gripper| step.grippers[gripper].position);
-            let whole = match step.catenaries.get(k) {
+            let whole = match catenaries(step).get(k) {
                 Some(state) => shape(state, &curves[k], ends),
                 None => ends.to_vec(),
             };

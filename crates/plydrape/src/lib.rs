@@ -1,17 +1,85 @@
 //! How an array of grippers must move to lay a carbon-fiber ply on a curved mold without wrinkles.
 //!
-//! The ply is a net of catenaries with bending stiffness hung between the grippers, with large shear and mold
-//! contact, after Krogh, Jakobsen and Sherwood 2018 (arXiv:1810.07619). A span of ply with horizontal force *H*,
-//! flexural rigidity *EI* and load *q* per horizontal length has the shape *z*(*x*) with
+//! A ply hangs between grippers above a mold. [`plan`] finds the motion of the grippers that lays it down, [`simulate`] follows a motion
+//! that is given. Both give the outcome of **one** model of the ply, the one that the scene chooses: the *sheet*, the whole ply simulated
+//! as cloth with the laws of a woven material, contact and friction, or the *catenaries* with bending stiffness between the grippers of
+//! Krogh, Jakobsen and Sherwood 2018 (arXiv:1810.07619). The outcome has every limit of the scene, judged; it is accepted if all of them
+//! hold.
 //!
-//! *H z″ − EI z⁗ = q*
+//! ```text
+//!        o     o     o     o       grippers: where the robot holds the ply
+//!        |     |     |     |
+//!     ___o_____o_____o_____o___    the ply: sheet or catenaries
+//!         \___/ \___/ \___/
+//!                 ___
+//!           __---     ---__        the mold, with the ideal drape as the target
+//!        .-~               ~-.
+//! ```
 //!
-//! and *H* follows from its length. The forces of all spans and the slopes that they share at the grippers are the
-//! solution of a small nonlinear program. Equations are numbered in `docs/theory` of the project.
+//! # From a mold to a planned motion
 //!
-//! # One span
+//! ```
+//! use plydrape::measure::Name;
+//! use plydrape::mold::{Face, Pose, Sphere};
+//! use plydrape::ply::Grid;
+//! use plydrape::{Material, Mold, Ply, Scene, plan};
+//! use std::ops::ControlFlow;
 //!
-//! 100 mm of ply between two grippers 98 mm apart pull with 0.4173 N and sag by 8.7 mm:
+//! // a prepreg of 314 g/m², held every 100 mm, on a dome of 1 m radius
+//! let prepreg = Material::woven("prepreg", 0.3143, 9e-5, 1e6, 5.0);
+//! let ply = Ply::of_array(Grid { nu: 3, nv: 3 }, [0.1, 0.1], prepreg);
+//! let pose = Pose::upright([0.0, 0.0, -1.0]);
+//! let dome = Mold::Sphere(Sphere { pose, radius: 1.0, face: Face::Outside });
+//! let mut scene = Scene::above(ply, dome, [0.0, 0.0])?;
+//! scene.limits.set(Name::Height, Some(0.5e-3));
+//!
+//! // the motion, and the verdict of the sheet along it
+//! let planned = plan(&scene, None, &mut |_| ControlFlow::Continue(()))?;
+//! assert!(planned.accepted());
+//! let summary = &planned.outcome.drape.summary;
+//! let height = summary.limits.iter().find(|verdict| verdict.name == Name::Height);
+//! assert!(height.is_some_and(|height| height.ok && height.value < 0.5));
+//! let end = planned.motion.at(planned.motion.duration());
+//! assert_eq!(end.len(), 9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Stages
+//!
+//! A folder is a stage of the method, and each uses only those above it; a test holds that order.
+//!
+//! | stage | what it is |
+//! |---|---|
+//! | [`geometry`] | vectors, rotations, placements |
+//! | [`mold`] | the surface: its distance, closest point and paths along it |
+//! | [`material`], [`ply`] | laws of the woven ply; its outline, grippers, lines and cells |
+//! | [`net`] | the ideal drape: where every point of the fabric should end on the mold |
+//! | [`motion`] | positions step by step become smooth in time, within limits of speed, acceleration and jerk |
+//! | [`bodies`], [`tool`], [`clearance`] | what grippers and robot carry, the frame that carries them, how far all that stays from the rest |
+//! | [`layup`] | one ply and how it is laid: what every model of the ply drapes |
+//! | [`state`] | the ply after one step, as any model can say it |
+//! | [`catenary`], [`elastica`], [`equilibrium`], [`draping`] | the paper's model: one span, all forces and slopes, and the motion step by step with contact |
+//! | [`sheet`] | the whole ply as cloth: stretch, shear, bending, contact, friction, pads on mounts |
+//! | [`fit`] | material laws from measured tables |
+//! | [`measure`] | what is measured of a state or a motion, its limit, and the verdict |
+//! | [`errors`] | how far a real cell may be from its scene |
+//! | [`scene`] | a layup, its limits, and how its motion is planned |
+//! | [`outcome`] | the drape by the model that decides, and the verdict that follows from it |
+//! | [`planner`] | gripper trajectories, and limits that no trajectory can keep |
+//! | [`pick_up`] | where the ply was picked up, if not where it was planned |
+//!
+//! # Settings
+//!
+//! Every setting is a public field: rules of the models in [`layup::Settings`] (`scene.layup.settings.contact.friction`, `.pad.radius`,
+//! `.sheet.mesh`, `.model`), the search in [`scene::Plan`] (`scene.plan.seed`, `.evaluations`), errors in [`errors::Errors`]. Limits are
+//! a map from measures to bounds, [`measure::Limits`]: `scene.limits.set(Name::Tilt, Some(0.5))`; without a bound of the scene each
+//! measure has its usual one, with its reason. The numerical settings of the sheet are in [`sheet::Tuning`].
+//!
+//! # One span of the catenaries
+//!
+//! A span of ply with horizontal force *H*, flexural rigidity *EI* and load *q* per horizontal length has the shape *z*(*x*) with
+//! *H z″ − EI z⁗ = q*, and *H* follows from its length. 100 mm of ply between two grippers 98 mm apart pull with 0.4173 N and sag by
+//! 8.7 mm:
 //!
 //! ```
 //! use plydrape::catenary::{EndCondition, Profile, Span};
@@ -30,32 +98,10 @@
 //! assert!((force - 0.41728).abs() < 1e-5 && (sag - 8.7022e-3).abs() < 1e-7);
 //! ```
 //!
-//! # A drape
-//!
-//! [`simulate`] moves the grippers of a [`Scene`] and follows the ply, [`plan`] finds the motion. The crate `plydrape-io`
-//! reads scenes from files and writes results; `examples/drape.rs` makes a scene without a file.
-//!
-//! # Modules
-//!
-//! They follow the stages of the method, and data flows one way:
-//!
-//! 1. [`mold`], [`catenary`], [`elastica`]: the surface, and one span of ply, in closed form or exact;
-//! 2. [`net`]: the ideal drape, where every point of the fabric should end on the mold;
-//! 3. [`material`], [`ply`]: grippers, edges, diagonals and shear;
-//! 4. [`scene`], [`preset`]: everything that one drape needs, and named sets of limits;
-//! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
-//! 6. [`draping`]: the motion step by step, with contact;
-//! 7. [`clearance`]: how far bodies of grippers and robot stay from mold, obstacles and each other;
-//! 8. [`measure`]: what is measured of a step, limits, and the verdict;
-//! 9. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
-//! 10. [`planner`]: gripper trajectories, and limits that no trajectory can keep;
-//! 11. [`tool`]: the frame and axes of a robot that carries the grippers, and the motion that it makes;
-//! 12. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell;
-//! 13. [`pick_up`]: where the ply was picked up, if not where it was planned.
-//!
-//! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
-//! can be written by serde.
+//! SI units throughout, z up, gravity along −z. Equations are numbered in `docs/theory` of the project. This crate reads and writes no
+//! files, `plydrape-io` does; with the feature `serde` its types can be written by serde.
 
+pub mod bodies;
 pub mod catenary;
 pub mod clearance;
 pub mod draping;
@@ -63,25 +109,31 @@ pub mod elastica;
 pub mod equilibrium;
 pub mod errors;
 pub mod fit;
+pub mod geometry;
+pub mod layup;
 pub mod material;
 pub mod measure;
 pub mod mold;
 pub mod motion;
 pub mod net;
+pub mod outcome;
 pub mod pick_up;
 pub mod planner;
 pub mod ply;
-pub mod preset;
 pub mod scene;
 pub mod sheet;
+pub mod state;
 mod stopwatch;
 pub mod tool;
 
-pub use draping::{Drape, simulate};
 pub use equilibrium::Solver;
 pub use errors::Errors;
+pub use layup::{Layup, Settings, Target};
 pub use material::Material;
+pub use measure::Limits;
 pub use mold::Mold;
+pub use motion::Motion;
+pub use outcome::{ModelError, Outcome, simulate};
 pub use planner::{Planned, plan};
 pub use ply::Ply;
-pub use scene::{Limits, Motion, Plan, Scene, Settings, Target};
+pub use scene::{Plan, Scene};

@@ -6,7 +6,7 @@ mod scatter;
 pub use moment::MomentCurve;
 pub use scatter::Scatter;
 
-/// A woven ply, as the catenaries see it.
+/// A woven ply: what the sheet and the catenaries need to know of it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Material {
@@ -29,6 +29,24 @@ pub struct Material {
     /// How much its properties scatter between specimens.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Scatter::is_unknown"))]
     pub scatter: Scatter,
+}
+
+impl Material {
+    /// A woven ply by four numbers, warp and weft alike: mass per area (kg/m²), flexural rigidity per width D′ (N·m), tensile stiffness
+    /// per width EA′ (N/m) and the slope of its shear force per length (N/m per rad). Nothing is known of its locking and its scatter.
+    #[must_use]
+    pub fn woven(name: &str, mass: f64, rigidity: f64, tension: f64, shear: f64) -> Self {
+        Material {
+            name: name.into(),
+            source: String::new(),
+            section: Section::Areal { mass, warp_rigidity: rigidity, weft_rigidity: rigidity },
+            moment: [None, None],
+            shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![shear] }),
+            tension: Some(TensionLaw::Linear { stiffness: tension }),
+            locking_angle: None,
+            scatter: Scatter::default(),
+        }
+    }
 }
 
 #[cfg(feature = "serde")]

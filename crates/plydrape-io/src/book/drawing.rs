@@ -2,8 +2,8 @@
 
 use super::PlyRecord;
 use crate::scene::{Book, BookPly};
+use plydrape::geometry::vector::{cross, sub, unit};
 use plydrape::mold::patch::patch;
-use plydrape::mold::vector::{cross, sub, unit};
 use plydrape::net::Net;
 use plydrape::ply::Direction;
 use std::fmt::Write;
@@ -144,12 +144,12 @@ fn middle(rings: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
 }
 
 fn net(ply: &BookPly) -> Option<&Net> {
-    ply.scene.target.as_ref()?.drape.as_deref()
+    ply.scene.layup.target.as_ref()?.drape.as_deref()
 }
 
 /// Which of u and v runs along the warp.
 fn warp_axis(ply: &BookPly) -> usize {
-    match ply.scene.ply.warp {
+    match ply.scene.layup.ply.warp {
         Direction::U => 0,
         Direction::V => 1,
     }
@@ -157,7 +157,7 @@ fn warp_axis(ply: &BookPly) -> usize {
 
 /// Direction of the warp in the middle of a ply, in plan (rad).
 pub(super) fn warp_heading(ply: &BookPly) -> Option<f64> {
-    let (net, mold) = (net(ply)?, ply.scene.mold.as_ref()?);
+    let (net, mold) = (net(ply)?, ply.scene.layup.mold.as_ref()?);
     let [low, high] = net.ply_outline()?.bounds();
     let tangents = net.fibres(mold, [0, 1].map(|n| 0.5 * (low[n] + high[n])))?;
     let [x, y, _] = tangents[warp_axis(ply)];
@@ -167,7 +167,7 @@ pub(super) fn warp_heading(ply: &BookPly) -> Option<f64> {
 /// Lines of warp in plan (m), as far as they are on the ply.
 fn yarns(ply: &BookPly) -> Vec<Vec<[f64; 2]>> {
     let found = || {
-        let (net, mold) = (net(ply)?, ply.scene.mold.as_ref()?);
+        let (net, mold) = (net(ply)?, ply.scene.layup.mold.as_ref()?);
         Some((net, mold, net.ply_outline()?))
     };
     let Some((net, mold, outline)) = found() else { return Vec::new() };

@@ -48,14 +48,14 @@ impl PlyRecord {
     #[must_use]
     pub fn of(book: &Book, index: usize, result: &ResultFile) -> Self {
         let ply: &BookPly = &book.plies[index];
-        let limits = result.deciding_limits();
+        let limits = &result.summary.limits;
         let worst = table::limiting(limits).or_else(|| table::closest(limits)).cloned();
         PlyRecord {
             name: ply.name.clone(),
             folder: ply.folder(index),
             lies_on: ply.lies_on.iter().map(|n| n + 1).collect(),
             thickness: ply.scene.thickness,
-            accepted: result.summary.accepted,
+            accepted: result.summary.accepted(),
             worst,
             motion_s: result.steps.last().map_or(0.0, |step| step.time),
             evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),

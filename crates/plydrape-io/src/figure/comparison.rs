@@ -12,7 +12,7 @@ use super::sheet::SheetPicture;
 use crate::OutputError;
 use crate::comparison::Row;
 use crate::table;
-use plydrape::draping::record::Step;
+use plydrape::outcome::Step;
 
 /// Panels beside each other.
 const COLUMNS: usize = 2;

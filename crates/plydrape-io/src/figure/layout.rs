@@ -10,11 +10,11 @@ use super::relief::Relief;
 use super::scale::Scale;
 use super::sheet::SheetPicture;
 use super::{FigureError, points};
-use crate::result::ResultFile;
+use crate::result::{ResultFile, catenaries};
 use crate::sheet::SheetState;
-use plydrape::draping::record::Step;
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
+use plydrape::outcome::Step;
 
 /// Width of the sheet (picture points).
 pub(super) const WIDTH: f64 = 900.0;
@@ -103,10 +103,7 @@ pub(super) fn title(title: &str) -> String {
 fn caption(stage: &Stage, step: &Step) -> String {
     let (result, stretch) = (stage.result, stage.frame.stretch);
     let number = step.step;
-    let contact = match (&stage.sheet, &result.summary.sheet) {
-        (Some(_), Some(sheet)) => sheet.first_contact_step,
-        _ => result.summary.first_contact_step,
-    };
+    let contact = result.summary.first_contact_step();
     let what = if contact == Some(number) {
         " — first contact"
     } else if result.steps.len() > 1 && result.steps.first().is_some_and(|s| s.step == number) {
@@ -258,7 +255,7 @@ pub(super) fn legend(
     canvas.polygon(&disc, BLACK)?;
     word(canvas, "gripper", x + 26.0)?;
     x += 100.0;
-    let touched = |s: &&Step| s.catenaries.iter().any(|c| c.contact.is_some());
+    let touched = |s: &&Step| catenaries(s).iter().any(|c| c.contact.is_some());
     if stage.sheet.is_none() && steps.iter().any(touched) {
         canvas.circle([x + 5.0, y], MOST_MARK, RED, 1.4)?;
         word(canvas, "contact with the mold", x + 17.0)?;

@@ -4,7 +4,7 @@
 //! inside each cell is colored by z, grippers are black discs tilted with the ply, contact is marked by
 //! red circles. Horizontal lengths have equal scale, z too unless its label says by how much it is
 //! exaggerated. A curved mold is drawn as a shaded surface, never exaggerated, and the ply over it is
-//! colored by its gap to the mold. Where the sheet was draped, the figure shows the sheet instead. Same
+//! colored by its gap to the mold. Where the sheet decides, the figure shows the sheet instead. Same
 //! result, same bytes.
 
 mod axes;
@@ -27,8 +27,9 @@ pub(super) use colour::viridis_rgb;
 pub(super) use panel::{colour_value, gripper_radius};
 
 use crate::OutputError;
-use crate::result::ResultFile;
-use plydrape::draping::record::Step;
+use crate::result::{ResultFile, catenaries};
+use plydrape::layup::Model;
+use plydrape::outcome::Step;
 use plydrape::ply::Grid;
 use plydrape::sheet::is_kept;
 use sheet::SheetPicture;
@@ -76,6 +77,14 @@ pub enum FigureError {
         /// The step.
         step: usize,
     },
+    /// A step of a sheet whose state was not kept.
+    #[error("the sheet was not kept in step {step}; its kept steps are {kept}")]
+    NotKept {
+        /// The step asked for.
+        step: usize,
+        /// The steps that were kept, in words.
+        kept: String,
+    },
     /// A net without a node on the mold.
     #[error("the net has no node on the mold, so there is nothing to draw")]
     NoNode,
@@ -87,39 +96,31 @@ pub enum FigureError {
 /// The steps that tell most: the first, the first with contact, the last; each once. Of a sheet, those that were kept.
 #[must_use]
 pub fn default_steps(result: &ResultFile) -> Vec<usize> {
-    if let Some(sheet) = &result.summary.sheet {
-        let (planned, keep) = (result.summary.steps_planned, result.scene.settings.sheet.keep);
-        let kept = |step: &usize| is_kept(*step, planned, keep) || *step == sheet.steps;
-        let contact = sheet.first_contact_step.and_then(|step| (step..=sheet.steps).find(kept));
-        let mut steps: Vec<usize> =
-            [Some(1), contact, Some(sheet.steps)].into_iter().flatten().collect();
-        // the catenaries may have ended before
-        steps.retain(|step| *step <= result.steps.len());
-        steps.dedup();
-        return steps;
-    }
-    let first = result.steps.first().map(|s| s.step);
-    let last = result.steps.last().map(|s| s.step);
+    let summary = &result.summary;
+    let (planned, keep) = (summary.steps_planned, result.scene.settings.sheet.keep);
+    let last = result.steps.last().map_or(0, |step| step.step);
+    let kept = |step: &usize| {
+        summary.model == Model::Catenaries || is_kept(*step, planned, keep) || *step == last
+    };
+    let contact = summary.first_contact_step().and_then(|step| (step..=last).find(kept));
+    let first = result.steps.first().map(|step| step.step);
     let mut steps: Vec<usize> =
-        [first, result.summary.first_contact_step, last].into_iter().flatten().collect();
+        [first, contact, first.map(|_| last)].into_iter().flatten().collect();
     steps.dedup();
     steps
 }
 
-/// The figure of up to three steps, given by their numbers (from 1), as an SVG 900 points wide.
+/// The figure of up to three steps, given by their numbers (from 1), as an SVG 900 points wide: of the model that decides.
 ///
 /// # Errors
-/// [`OutputError`] if a step is missing, its coordinates are not finite, or the states of the sheet cannot be read.
+/// [`OutputError`] if a step is missing or of a sheet not kept, its coordinates are not finite, or the states of the sheet cannot be read.
 pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, OutputError> {
+    check(result, steps)?;
     Ok(drawn(result, steps, SheetPicture::read(result, steps)?)?)
 }
 
-/// The figure, of the sheet where there is one in all these steps.
-fn drawn(
-    result: &ResultFile,
-    steps: &[usize],
-    sheet: Option<SheetPicture>,
-) -> Result<String, FigureError> {
+/// The steps of a result that are asked for by their numbers.
+fn check<'a>(result: &'a ResultFile, steps: &[usize]) -> Result<Vec<&'a Step>, FigureError> {
     if steps.len() > MOST_PANELS {
         return Err(FigureError::TooManySteps { asked: steps.len() });
     }
@@ -130,7 +131,16 @@ fn drawn(
         let found = result.steps.iter().find(|s| s.step == *step);
         found.ok_or(FigureError::NoSuchStep { step: *step, first: first.step, last: last.step })
     };
-    let shown: Vec<&Step> = steps.iter().map(find).collect::<Result<_, _>>()?;
+    steps.iter().map(find).collect()
+}
+
+/// The figure, of the sheet where that decides.
+fn drawn(
+    result: &ResultFile,
+    steps: &[usize],
+    sheet: Option<SheetPicture>,
+) -> Result<String, FigureError> {
+    let shown = check(result, steps)?;
     let grid = result.scene.ply.grid;
     for step in &shown {
         let found = step.grippers.len();
@@ -153,7 +163,7 @@ fn drawn(
 /// Every point of a step that the figure draws (m).
 fn points(result: &ResultFile, step: &Step) -> impl Iterator<Item = [f64; 3]> {
     let curves = result.curves(step).into_iter().flatten().flatten();
-    let contact = step.catenaries.iter().filter_map(|c| c.contact.as_ref());
+    let contact = catenaries(step).iter().filter_map(|c| c.contact.as_ref());
     let grippers = step.grippers.iter().map(|g| g.position);
     grippers.chain(curves).chain(contact.flat_map(|c| c.points.iter().copied()))
 }
@@ -167,7 +177,7 @@ mod tests {
     #[test]
     fn default_steps_are_first_contact_and_last() {
         let result = sample::draped(4, 2, 30);
-        let contact = result.summary.first_contact_step.unwrap();
+        let contact = result.summary.first_contact_step().unwrap();
         assert_eq!(default_steps(&result), [1, contact, 30]);
         assert_eq!(default_steps(&sample::hanging(2, 1)), [1]);
     }

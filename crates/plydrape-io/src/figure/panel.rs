@@ -12,8 +12,8 @@ use super::scale::Scale;
 use super::sheet::SheetPicture;
 use crate::result::ResultFile;
 use crate::surface;
-use plydrape::draping::record::Step;
 use plydrape::mold::Mold;
+use plydrape::outcome::Step;
 use plydrape::ply::Grid;
 
 /// Radius of a gripper as a share of the shorter side of a cell.

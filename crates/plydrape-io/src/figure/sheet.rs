@@ -3,15 +3,17 @@
 //! The scale is the same in all figures, by orders of size from a tenth of a millimeter to ten, so that pictures can be
 //! compared.
 
+use super::FigureError;
 use super::colour::{FRAME, WEAVE, viridis};
 use super::panel::Stage;
 use super::piece::{Form, Piece, grown, thread};
 use super::projection::{Point, View};
 use super::scale::Scale;
-use crate::read::ReadError;
+use crate::OutputError;
 use crate::result::ResultFile;
 use crate::sheet::{CutCell, SheetState};
 
+use plydrape::layup::Model;
 use std::collections::HashSet;
 
 /// Heights at the ends of the colors (m).
@@ -31,15 +33,18 @@ pub(super) struct SheetPicture {
 }
 
 impl SheetPicture {
-    /// Reads the states of some steps; none of a result without a sheet, or one that has no state in one of them.
-    pub fn read(result: &ResultFile, steps: &[usize]) -> Result<Option<Self>, ReadError> {
-        let Some(kept) = &result.sheet_states else { return Ok(None) };
+    /// Reads the states of some steps; none of a result that the sheet does not decide.
+    pub fn read(result: &ResultFile, steps: &[usize]) -> Result<Option<Self>, OutputError> {
+        let Some(kept) = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet)
+        else {
+            return Ok(None);
+        };
         let mut file = kept.open()?;
         let known = file.steps()?;
         let mut states = Vec::new();
         for step in steps {
             let number = known.iter().find(|(kept, _)| kept == step).map(|(_, n)| *n);
-            let Some(number) = number else { return Ok(None) };
+            let Some(number) = number else { return Err(not_kept(*step, &known).into()) };
             states.extend(file.state(number)?);
         }
         let cut = CutCell::all(&result.scene.ply, &result.scene.settings, file.mesh());
@@ -122,6 +127,12 @@ impl Stage<'_> {
     }
 }
 
+/// Why a step has no picture, with the steps that have one.
+fn not_kept(step: usize, kept: &[(usize, usize)]) -> FigureError {
+    let numbers: Vec<String> = kept.iter().map(|(step, _)| step.to_string()).collect();
+    FigureError::NotKept { step, kept: numbers.join(", ") }
+}
+
 /// The point of a cell at shares of its sides, and its height over the mold (m).
 fn within(state: &SheetState, cell: [usize; 4], [a, b]: [f64; 2]) -> (Point, f64) {
     let weights = [(1.0 - a) * (1.0 - b), a * (1.0 - b), a * b, (1.0 - a) * b];
@@ -130,5 +141,5 @@ fn within(state: &SheetState, cell: [usize; 4], [a, b]: [f64; 2]) -> (Point, f64
 }
 
 fn length([a, b]: [Point; 2]) -> f64 {
-    plydrape::mold::distance(a, b)
+    plydrape::geometry::distance(a, b)
 }

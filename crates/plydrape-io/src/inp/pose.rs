@@ -10,7 +10,7 @@
 //!
 //! the root of a symmetric 2 × 2 matrix in closed form. A single strip has no v: it is laid level across.
 
-use plydrape::mold::vector::{cross, dot, unit};
+use plydrape::geometry::vector::{cross, dot, unit};
 
 /// A rigid place of the flat fabric.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where an Abaqus instance puts its part: moved, then turned about an axis.
 
-use plydrape::mold::vector::{along, cross, dot, sub, unit};
+use plydrape::geometry::vector::{along, cross, dot, sub, unit};
 
 /// A translation and, after it, a rotation about the axis from `a` to `b`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

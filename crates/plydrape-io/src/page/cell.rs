@@ -1,11 +1,12 @@
 //! What the grippers carry, what stands in the cell, and what the vacuum does: bodies as triangles, and where they are in every step.
 
+use super::Form;
 use super::block::Block;
-use super::geometry::{MICRO, micrometres};
-use crate::result::ResultFile;
-use plydrape::clearance::{Mount, Shape};
-use plydrape::draping::record::Step;
-use plydrape::mold::Pose;
+use super::packing::{micrometers, short};
+use crate::result::{ResultFile, SceneEcho};
+use plydrape::bodies::{Body, Mount, Obstacle, Shape};
+use plydrape::geometry::Pose;
+use plydrape::outcome::Step;
 use plydrape::ply::gripper_name;
 use plydrape::sheet::EventKind;
 use serde::Serialize;
@@ -18,17 +19,15 @@ const TURN: f64 = 1e6;
 /// Bodies, obstacles and tool.
 #[derive(Serialize)]
 pub(super) struct Cell<'a> {
-    bodies: Vec<Body<'a>>,
+    bodies: Vec<Carried<'a>>,
     obstacles: Vec<Solid<'a>>,
     /// Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange (m); none without a tool.
     mounts: Option<Vec<f64>>,
-    /// In each step the pads, the stems, and of a tool its flange: a place in micrometers and a quaternion in millionths.
-    origins: Block,
 }
 
 /// A body, in the coordinates of what it is mounted on.
 #[derive(Serialize)]
-struct Body<'a> {
+struct Carried<'a> {
     on: Mount,
     #[serde(flatten)]
     solid: Solid<'a>,
@@ -60,29 +59,37 @@ pub(super) fn events(result: &ResultFile) -> Vec<VacuumEvent> {
     result.events().iter().map(event).collect()
 }
 
-/// The cell in the steps that are shown; none of a scene without bodies, obstacles and tool.
-pub(super) fn cell<'a>(result: &'a ResultFile, steps: &[&Step]) -> Option<Cell<'a>> {
-    let scene = &result.scene;
+/// The cell of a scene; `None` without bodies, obstacles and tool.
+pub(super) fn cell(scene: &SceneEcho) -> Option<Cell<'_>> {
+    if scene.bodies.is_nothing() && scene.tool.is_none() {
+        return None;
+    }
+    let mounts = scene.tool.as_ref().map(|tool| {
+        let into = tool.flange.inverse();
+        tool.mounts.iter().flat_map(|mount| into.place(*mount).map(short)).collect()
+    });
+    Some(Cell {
+        bodies: scene.bodies.bodies().iter().map(carried).collect(),
+        obstacles: scene.bodies.obstacles().iter().map(standing).collect(),
+        mounts,
+    })
+}
+
+/// Where in some steps everything is that moves: the pads, the stems, and of a tool its flange, each as a place in micrometers and a
+/// quaternion in millionths; `None` where nothing is drawn there.
+pub(super) fn origins(scene: &SceneEcho, steps: &[&Step], form: Form) -> Option<Block> {
     let tool = scene.tool.as_ref();
     if scene.bodies.is_nothing() && tool.is_none() {
         return None;
     }
-    let body = |body: &'a plydrape::clearance::Body| Body {
-        on: body.on,
-        solid: solid(&body.name, &body.shape, &Pose::ORIGIN),
-    };
-    let mounts = tool.map(|tool| {
-        let into = tool.flange.inverse();
-        tool.mounts.iter().flat_map(|mount| into.place(*mount).map(short)).collect()
-    });
     let mut origins: Vec<i32> = Vec::new();
     for step in steps {
         let frame = tool.map(|tool| {
-            let held: Vec<[f64; 3]> = step.grippers.iter().map(|g| g.commanded()).collect();
+            let held: Vec<[f64; 3]> = step.grippers.iter().map(|g| g.commanded).collect();
             tool.posture(&held).frame
         });
         let mut add = |place: [f64; 3], quaternion: [f64; 4]| {
-            origins.extend(micrometres(&place));
+            origins.extend(micrometers(&place));
             origins.extend(quaternion.map(|c| (c * TURN).round() as i32));
         };
         for gripper in &step.grippers {
@@ -90,29 +97,22 @@ pub(super) fn cell<'a>(result: &'a ResultFile, steps: &[&Step]) -> Option<Cell<'
         }
         let upright = frame.unwrap_or(Pose::ORIGIN).quaternion();
         for gripper in &step.grippers {
-            add(gripper.commanded(), upright);
+            add(gripper.commanded, upright);
         }
         if let (Some(frame), Some(tool)) = (frame, tool) {
             let flange = frame.compose(&tool.flange);
             add(flange.position, flange.quaternion());
         }
     }
-    Some(Cell {
-        bodies: scene.bodies.bodies().iter().map(body).collect(),
-        obstacles: scene
-            .bodies
-            .obstacles()
-            .iter()
-            .map(|obstacle| solid(&obstacle.name, &obstacle.shape, &obstacle.pose))
-            .collect(),
-        mounts,
-        origins: Block::new(steps.len(), 7, &origins),
-    })
+    Some(form.block(steps.len(), 7, origins))
 }
 
-/// The nearest micrometer, in few digits.
-fn short(c: f64) -> f64 {
-    (c * MICRO).round() / MICRO
+fn carried(body: &Body) -> Carried<'_> {
+    Carried { on: body.on, solid: solid(&body.name, &body.shape, &Pose::ORIGIN) }
+}
+
+fn standing(obstacle: &Obstacle) -> Solid<'_> {
+    solid(&obstacle.name, &obstacle.shape, &obstacle.pose)
 }
 
 /// A shape in triangles, placed.

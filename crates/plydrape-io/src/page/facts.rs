@@ -1,9 +1,11 @@
 //! What was draped, in a few lines.
 
 use crate::result::ResultFile;
+use plydrape::layup::{Model, SlopeRule};
 use plydrape::material::Section;
 use plydrape::mold::{Face, Mold, Surface};
-use plydrape::scene::{PlanMethod, SlopeRule};
+use plydrape::outcome::Summary;
+use plydrape::scene::PlanMethod;
 use serde::Serialize;
 
 /// A name and what it stands for.
@@ -33,18 +35,44 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
         }
         (None, None) => "none".into(),
     };
-    let slopes = match scene.settings.slopes {
-        SlopeRule::MinForce => "least norm of the horizontal forces",
-        SlopeRule::MomentBalance => "moments in balance at each gripper",
-    };
     let fact = |label, value| Fact { label, value };
     vec![
         fact("Ply", crate::shown::ply(&scene.ply)),
         fact("Material", material(result)),
         fact("Mold", scene.mold.as_ref().map_or("none".into(), mold)),
         fact("Motion", motion),
-        fact("Model", format!("slopes by {slopes}")),
+        fact("Model", models(result)),
     ]
+}
+
+/// The model that decides, and the one beside it.
+fn models(result: &ResultFile) -> String {
+    let deciding = model(result, &result.summary);
+    match &result.also {
+        Some(also) => {
+            format!(
+                "{deciding}; for comparison, and judging nothing, {}",
+                model(result, &also.summary)
+            )
+        }
+        None => deciding,
+    }
+}
+
+fn model(result: &ResultFile, summary: &Summary) -> String {
+    match summary.model {
+        Model::Sheet => match &summary.sheet {
+            Some(report) => format!("sheet of {} nodes", report.nodes),
+            None => "sheet".into(),
+        },
+        Model::Catenaries => {
+            let slopes = match result.scene.settings.slopes {
+                SlopeRule::MinForce => "least norm of the horizontal forces",
+                SlopeRule::MomentBalance => "moments in balance at each gripper",
+            };
+            format!("catenaries, slopes by {slopes}")
+        }
+    }
 }
 
 fn material(result: &ResultFile) -> String {

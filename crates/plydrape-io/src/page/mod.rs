@@ -2,29 +2,49 @@
 //!
 //! The page is built from the sources in `viewer/` into `report.html` beside this file, which holds two marks. In
 //! their place come the title and everything that is shown, as one JSON object: numbers of the result, the ply's
-//! surface and the mold in triangles. The page computes no mechanics.
+//! surface and the mold in triangles. The page computes no mechanics, and knows no measure by name: which measures and limits there are,
+//! their words, units and senses all come with its data.
+//!
+//! Verdict, limits and charts are those of the model that decides. The other one, where it was draped, is a second [`Drape`] without a
+//! limit in it.
+//!
+//! 1. `limit`, `course`, `field`: limits, measures over the steps, and what colors tell;
+//! 2. `drape`: the drape by one model; `grippers`, `catenaries`, `sheet`: what is drawn of it;
+//! 3. `cell`, `mold`, `margin`: what is the same for both models;
+//! 4. `sample`, `facts`: the verdict over a sample of cells, and what was draped;
+//! 5. `block`, `packing`: integers in little text.
 
 mod block;
+mod catenaries;
 mod cell;
+mod course;
+mod drape;
 mod facts;
-mod geometry;
+mod field;
+mod grippers;
+mod limit;
 mod margin;
+mod mold;
+mod packing;
 mod sample;
 mod sheet;
 
 use super::OutputError;
-use crate::result::ResultFile;
+use crate::result::{self, ResultFile};
+use crate::sheet::ended;
 use crate::strength;
-use crate::table::slack_in_words;
+use block::Block;
+use catenaries::Detail;
 use cell::{Cell, VacuumEvent, cell, events};
+use drape::{Drape, Source};
 use facts::{Fact, facts};
-use geometry::{Detail, Geometry, Ranges};
-use plydrape::draping::record::{Step, Worst};
-use plydrape::measure::{Name, Sense, Subject, Unit, Verdict};
+use limit::{Limit, limits};
+use mold::Mold;
+use plydrape::layup::Model;
 use plydrape::ply::GripperId;
 use sample::{Sample, sample, stands};
 use serde::Serialize;
-use sheet::{Sheet, Shown, sheet};
+use sheet::KeptStates;
 
 /// The page without a result.
 const PAGE: &str = include_str!("report.html");
@@ -33,42 +53,40 @@ const TITLE: &str = "__PLYDRAPE_TITLE__";
 /// Where the data go.
 const DATA: &str = "__PLYDRAPE_DATA__";
 
-/// Of a limit that is exceeded beyond measure.
-const MOST_RATIO: f64 = 1e9;
-
 /// What the page is given.
 #[derive(Serialize)]
 struct Page<'a> {
     format: &'static str,
     version: u32,
+    /// Version of the result files that the page can compare with.
+    result_version: u32,
     program: &'a str,
     title: &'a str,
     input: Option<&'a str>,
     facts: Vec<Fact>,
+    /// The verdict of the model that decides.
     accepted: bool,
-    interrupted: bool,
-    stopped: Option<&'a str>,
+    /// Why its end does not count.
+    ended: Option<String>,
     steps: Vec<usize>,
     times: Vec<f64>,
-    /// Grippers along u and v; zeros where catenaries make no surface: they are no whole array, or lines are missing.
-    grid: [usize; 2],
-    /// Fabric between neighboring grippers along u and v (mm).
-    pitch: [f64; 2],
+    /// The first step in which the ply touches the mold.
+    first_contact: Option<usize>,
     /// Column and row of each gripper.
     ids: Vec<GripperId>,
-    divisions: usize,
+    /// Every limit of the model that decides, the closest first.
     limits: Vec<Limit<'a>>,
     /// What published data say of the angles at the end.
     strength: Strength,
-    measures: Vec<Course<'a>>,
-    fields: Vec<Field>,
-    geometry: Geometry,
+    /// The drape by the model that decides.
+    drape: Drape<'a>,
+    /// The drape by the other model, if it was asked for: it is shown and judges nothing.
+    also: Option<Drape<'a>>,
+    mold: Option<Mold>,
     /// What the grippers carry and what stands in the cell, if the scene says so.
     cell: Option<Cell<'a>>,
     /// When pads grip, press and let go; nothing where they hold the ply from first to last.
     events: Vec<VacuumEvent>,
-    /// The ply as a sheet, which decides, if it was draped.
-    sheet: Option<Sheet<'a>>,
     /// The verdict over a sample of cells, if there is one.
     sample: Option<Sample<'a>>,
     /// The largest errors that the motion stands, in words.
@@ -84,82 +102,6 @@ struct Strength {
     warning: &'static str,
 }
 
-/// A limit and how it was kept.
-#[derive(Serialize)]
-struct Limit<'a> {
-    name: String,
-    /// The same in other units, where it is slack.
-    note: Option<String>,
-    value: f64,
-    limit: f64,
-    unit: &'a str,
-    least: bool,
-    ok: bool,
-    /// The value as a multiple of its limit: beyond 1 it is exceeded.
-    ratio: f64,
-    /// It is one of the motion, which counts with every model.
-    motion: bool,
-    step: Option<usize>,
-    #[serde(rename = "where")]
-    at: &'a str,
-    place: Option<[f64; 3]>,
-    measure: Option<&'static str>,
-}
-
-/// A measure over the steps.
-#[derive(Serialize)]
-struct Course<'a> {
-    key: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    values: Vec<Option<f64>>,
-    #[serde(rename = "where")]
-    at: Vec<Option<&'a str>>,
-    places: Vec<Option<[f64; 3]>>,
-    limit: Option<f64>,
-    least: bool,
-}
-
-/// What the ply's color can tell.
-#[derive(Serialize)]
-struct Field {
-    key: &'static str,
-    label: String,
-    unit: &'static str,
-    on: &'static str,
-    /// `even`, or `orders` where equal ratios are equally far apart; what lies beyond the ends has their colors.
-    scale: &'static str,
-    low: f64,
-    high: f64,
-    limit: Option<f64>,
-}
-
-impl Field {
-    /// Equal differences are equally far apart.
-    fn even(
-        key: &'static str,
-        label: impl Into<String>,
-        unit: &'static str,
-        on: &'static str,
-        [low, high]: [f64; 2],
-        limit: Option<f64>,
-    ) -> Self {
-        Field { key, label: label.into(), unit, on, scale: "even", low, high, limit }
-    }
-
-    /// Equal ratios are equally far apart; both ends are positive.
-    fn orders(
-        key: &'static str,
-        label: impl Into<String>,
-        unit: &'static str,
-        on: &'static str,
-        ends: [f64; 2],
-        limit: Option<f64>,
-    ) -> Self {
-        Field { scale: "orders", ..Field::even(key, label, unit, on, ends, limit) }
-    }
-}
-
 /// How a page is given what it draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
@@ -170,8 +112,16 @@ pub struct Form {
 }
 
 impl Form {
-    /// That of a page that stands in a file.
+    /// The form of a page that stands in a file.
     pub const FILE: Form = Form { triangles: Some(8000), packed: true };
+
+    /// Integers of all steps in this form.
+    fn block(self, steps: usize, components: usize, values: Vec<i32>) -> Block {
+        match self.packed {
+            true => Block::new(steps, components, &values),
+            false => Block::plain(steps, components, values),
+        }
+    }
 }
 
 /// What the page of a result is given, as JSON.
@@ -197,123 +147,72 @@ pub fn html(result: &ResultFile) -> Result<String, OutputError> {
 
 fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, OutputError> {
     let (scene, summary) = (&result.scene, &result.summary);
-    let mut detail = Detail::of(result);
-    let kept = Shown::of(result)?;
-    if let Some(kept) = &kept {
-        // both models in the same steps
-        detail.steps.retain(|k| kept.has(result.steps[*k].step));
-    }
-    let shown: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
-    let steps: Vec<usize> = shown.iter().map(|step| step.step).collect();
-    let (geometry, ranges) = Geometry::of(result, &detail, form);
-    let sample = sample(result, kept.as_ref().map(Shown::mesh));
-    let sheet = match (kept, &summary.sheet) {
-        (Some(kept), Some(outcome)) => Some(sheet(result, outcome, kept, &steps)?),
-        _ => None,
+
+    // the steps of the page: those of the model that decides, of large arrays of catenaries fewer
+    let detail = Detail::new(result, result.steps.len());
+    let every: Vec<usize> = (0..result.steps.len()).collect();
+    let shown = if summary.model == Model::Catenaries { &detail.steps } else { &every };
+    let steps: Vec<usize> = shown.iter().map(|k| result.steps[*k].step).collect();
+    let times = shown.iter().map(|k| result.steps[*k].time).collect();
+
+    // both models; the states of the sheet are those of whichever is the sheet
+    let mut kept = KeptStates::open(result)?;
+    let mesh = kept.as_ref().filter(|_| summary.model == Model::Sheet).map(KeptStates::mesh);
+    let sample = sample(result, mesh);
+    let mut states = |model| if model == Model::Sheet { kept.take() } else { None };
+    let drape = Source::deciding(result).show(&steps, &detail, states(summary.model), form)?;
+    let also = match Source::beside(result) {
+        Some(beside) => {
+            let detail = Detail::new(result, beside.steps.len());
+            Some(beside.show(&steps, &detail, states(beside.summary.model), form)?)
+        }
+        None => None,
     };
-    let grid = scene.ply.lines().surface();
+
     Ok(Page {
         format: "plydrape-page",
-        version: 2,
+        version: 3,
+        result_version: result::VERSION,
         program: &result.program,
         title: &scene.title,
         input: scene.input.as_deref(),
         facts: facts(result),
-        accepted: summary.accepted,
-        interrupted: summary.interrupted(),
-        stopped: summary.stopped.as_deref(),
-        steps,
-        times: shown.iter().map(|step| step.time).collect(),
-        grid: [grid.nu, grid.nv],
-        pitch: scene.ply.cell.map(|side| side * 1e3),
+        accepted: summary.accepted(),
+        ended: ended(summary),
+        times,
+        first_contact: summary.first_contact_step(),
         ids: (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect(),
-        divisions: detail.intervals,
-        limits: limits(result),
+        limits: limits(summary),
         strength: Strength { notes: strength::notes(summary), warning: strength::INFORMATION },
-        measures: courses(result, &shown),
-        fields: fields(result, &ranges),
-        geometry,
-        cell: cell(result, &shown),
+        left_out: left_out(result, &detail, steps.len(), drape.drawn.len()),
+        steps,
+        drape,
+        also,
+        mold: form.triangles.and_then(|most| Mold::new(result, most)),
+        cell: cell(scene),
         events: events(result),
-        sheet,
         sample,
         stands: stands(result),
-        left_out: detail.left_out(result.steps.len()),
     })
 }
 
-/// Every limit of a result, with the measure that it is about.
-fn limits(result: &ResultFile) -> Vec<Limit<'_>> {
-    let limits = result.summary.limits.iter().map(|verdict| {
-        let course = has_course(result, verdict.name).then(|| verdict.name.measure().key());
-        let note = (verdict.name == Name::SlackRatio).then(|| slack_in_words(&result.summary));
-        Limit { note: note.flatten(), ..limit(verdict, course) }
-    });
-    limits.collect()
-}
-
-/// A judged limit, with the key of its measure over the steps.
-fn limit<'a>(verdict: &'a Verdict, measure: Option<&'static str>) -> Limit<'a> {
-    Limit {
-        name: verdict.name.title(),
-        note: None,
-        value: verdict.value,
-        limit: verdict.limit,
-        unit: &verdict.unit,
-        least: verdict.is_least(),
-        ok: verdict.ok,
-        ratio: verdict.ratio().min(MOST_RATIO),
-        motion: verdict.name.measure().subject() == Subject::Motion,
-        step: verdict.step,
-        at: &verdict.at,
-        place: verdict.place,
-        measure,
+/// What the page leaves out of the model that decides, in sentences; `drawn` is the number of steps in which it draws the ply, of those that it shows.
+fn left_out(result: &ResultFile, detail: &Detail, shown: usize, drawn: usize) -> Vec<String> {
+    let (all, catenaries) = (result.steps.len(), result.model() == Model::Catenaries);
+    let mut out = Vec::new();
+    if catenaries && !detail.diagonals {
+        out.push("The diagonals are left out: the array is large.".into());
     }
-}
-
-/// Whether a measure has a value in some step.
-fn has_course(result: &ResultFile, name: Name) -> bool {
-    result.steps.iter().any(|step| step.measures.get(name).is_some())
-}
-
-/// Every measure that has a value in some step, with its limit where the result is judged by it.
-fn courses<'a>(result: &'a ResultFile, shown: &[&'a Step]) -> Vec<Course<'a>> {
-    let course = |name: &Name| {
-        let measure = name.measure();
-        let unit = measure.unit();
-        let worst: Vec<Option<&Worst>> =
-            shown.iter().map(|step| step.measures.get(*name)).collect();
-        let judged = result.summary.limits.iter().find(|verdict| verdict.name == *name);
-        Course {
-            key: measure.key(),
-            label: measure.label(),
-            // as in the table of limits
-            unit: unit.shown,
-            values: worst.iter().map(|w| w.map(|w| as_shown(w.value, unit))).collect(),
-            at: worst.iter().map(|w| w.map(|w| w.at.as_str())).collect(),
-            places: worst.iter().map(|w| w.and_then(|w| w.place)).collect(),
-            limit: judged.map(|verdict| verdict.limit),
-            least: measure.sense() == Sense::AtLeast,
-        }
-    };
-    Name::ALL.iter().filter(|name| has_course(result, **name)).map(course).collect()
-}
-
-/// A recorded value in the unit that it is shown in; one in the same unit keeps its digits.
-fn as_shown(value: f64, unit: Unit) -> f64 {
-    if unit.factor == 1.0 { value } else { value * unit.factor }
-}
-
-/// What colors can tell of this result.
-fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
-    let mut out = vec![Field::even("height", "height", "mm", "vertex", ranges.height, None)];
-    if let Some(range) = ranges.gap {
-        out.push(Field::even("gap", "gap to the mold", "mm", "vertex", range, None));
+    if shown < all {
+        out.push(format!(
+            "{shown} of {all} steps are shown; steps.csv and result.json hold all of them."
+        ));
     }
-    if result.scene.ply.lines().surface().cells() > 0 {
-        let limit = Some(result.scene.limits.shear.to_degrees());
-        out.push(Field::even("shear", "shear angle", "°", "cell", ranges.shear, limit));
-        out.push(Field::even("direction", "warp direction", "°", "cell", ranges.direction, None));
+    if drawn < shown {
+        out.push(format!(
+            "The ply is drawn in {drawn} of {shown} steps, and between them as in the nearest one; grippers, charts and limits are of \
+             every step."
+        ));
     }
     out
 }
@@ -322,6 +221,8 @@ fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
 mod tests {
     use super::*;
     use crate::sample;
+    use plydrape::measure::Name;
+    use plydrape::ply::Grid;
 
     /// The marks of the page are filled once each, and nothing in a title or a scene can end the data early.
     #[test]
@@ -342,31 +243,45 @@ mod tests {
     fn limits_know_their_measures() {
         let result = sample::draped(4, 2, 3);
         let page = page(&result, Form::FILE).unwrap();
-        let tilt = page.limits.iter().find(|limit| limit.name == "tilt").unwrap();
-        assert_eq!(tilt.measure, Some("tilt_deg"));
-        for course in &page.measures {
-            assert_eq!(course.values.len(), result.steps.len());
-            let own = page.limits.iter().filter(|limit| limit.measure == Some(course.key));
-            for limit in own {
+        assert!(page.limits.iter().any(|limit| limit.key == Name::Tilt.measure().key()));
+        for course in &page.drape.measures {
+            for limit in page.limits.iter().filter(|limit| limit.key == course.key) {
                 assert_eq!((limit.unit, Some(limit.limit)), (course.unit, course.limit));
             }
         }
-        assert_eq!(as_shown(0.25, Unit::SHARE), 25.0);
-        assert_eq!(as_shown(0.1 + 0.2, Unit::DEGREE), 0.1 + 0.2);
     }
 
-    /// Large results are drawn coarser, then without diagonals, then in fewer steps, the last among them.
+    /// What stands beside has measures and no limit: neither its own nor those of the model that decides.
+    #[test]
+    fn the_other_model_judges_nothing() {
+        let mut result = sample::draped(4, 2, 3);
+        let alone = serde_json::to_value(page(&result, Form::FILE).unwrap()).unwrap();
+        let summary = result.summary.clone();
+        result.also = Some(crate::result::Also { summary, steps: result.steps.clone() });
+        let both = serde_json::to_value(page(&result, Form::FILE).unwrap()).unwrap();
+        for key in ["accepted", "ended", "limits", "steps", "drape"] {
+            assert_eq!(alone[key], both[key], "{key}");
+        }
+        let also = &both["also"];
+        assert!(also["allowed"].is_null() && !also["measures"].as_array().unwrap().is_empty());
+        for list in ["measures", "fields"] {
+            let limits = also[list].as_array().unwrap().iter().map(|entry| &entry["limit"]);
+            assert!(limits.into_iter().all(serde_json::Value::is_null), "{list}");
+        }
+    }
+
+    /// What is left out is told: diagonals and steps of a large array, and steps between those in which the ply is drawn.
     #[test]
     fn large_results_say_what_is_left_out() {
-        let small = Detail::of(&sample::draped(4, 2, 3));
-        assert!(small.left_out(3).is_empty() && small.intervals == 12);
         let mut result = sample::draped(2, 2, 2);
-        result.scene.ply.grid = plydrape::ply::Grid { nu: 100, nv: 100 };
-        let step = result.steps[0].clone();
-        result.steps = vec![step; 200];
-        let large = Detail::of(&result);
-        assert_eq!(large.left_out(200).len(), 2, "{large:?}");
-        assert_eq!(large.steps.last(), Some(&199));
-        assert!(large.steps.len() * 199 * 199 <= 3_000_000);
+        let told = |result: &ResultFile, drawn: Option<usize>| {
+            let detail = Detail::new(result, result.steps.len());
+            let shown = detail.steps.len();
+            left_out(result, &detail, shown, drawn.unwrap_or(shown)).len()
+        };
+        assert_eq!((told(&result, None), told(&result, Some(1))), (0, 1));
+        result.scene.ply.grid = Grid { nu: 100, nv: 100 };
+        result.steps = vec![result.steps[0].clone(); 200];
+        assert_eq!(told(&result, None), 2);
     }
 }

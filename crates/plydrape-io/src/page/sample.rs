@@ -1,11 +1,12 @@
 //! What the page shows of the verdict over a sample of cells, and of the largest errors that a motion stands.
 
-use super::{Limit, limit};
+use super::limit::{Limit, closest_first};
 use crate::result::ResultFile;
 use crate::sheet::SheetMesh;
 use crate::table::{share, stands_in_words};
-use plydrape::errors::CellVerdict;
-use plydrape::mold::distance;
+use plydrape::geometry::distance;
+use plydrape::measure::Name;
+use plydrape::outcome::CellVerdict;
 use serde::Serialize;
 
 /// The verdict over a sample.
@@ -35,10 +36,10 @@ struct Highest<'a> {
     node: Option<usize>,
 }
 
-/// That of a result, if it has one; `mesh` is that of the sheet.
+/// The sample of a result, if it has one; `mesh` is that of the sheet, if the sheet decides.
 pub(super) fn sample<'a>(result: &'a ResultFile, mesh: Option<&SheetMesh>) -> Option<Sample<'a>> {
     let verdict = result.summary.sample.as_ref()?;
-    let target = result.scene.target.is_some();
+    let height = result.summary.limits.iter().find(|limit| limit.name == Name::Height);
     let highest = verdict.highest.as_ref().map(|highest| Highest {
         height_mm: highest.height_mm,
         uv_mm: highest.uv_mm,
@@ -52,8 +53,8 @@ pub(super) fn sample<'a>(result: &'a ResultFile, mesh: Option<&SheetMesh>) -> Op
         ok: verdict.ok,
         share: share(verdict),
         cells: &verdict.cells,
-        height_limit: target.then_some(result.scene.limits.height * 1e3),
-        limits: verdict.limits.iter().map(|verdict| limit(verdict, None)).collect(),
+        height_limit: height.map(|height| height.limit),
+        limits: closest_first(&verdict.limits).into_iter().map(Limit::from).collect(),
         highest,
     })
 }
@@ -74,18 +75,22 @@ pub(super) fn stands(result: &ResultFile) -> Option<String> {
 mod tests {
     use super::*;
     use crate::sample;
-    use plydrape::errors::{self, Errors, SampleVerdict};
+    use plydrape::errors::Errors;
+    use plydrape::measure::{Verdict, Worst};
+    use plydrape::outcome::{self, SampleVerdict};
 
     /// A result with a sample of four cells, of which one has no end.
     fn sampled() -> ResultFile {
         let mut result = sample::draped(4, 2, 3);
         let cell = |accepted, height_mm| CellVerdict { accepted, height_mm, ratio: 1.0 };
-        let highest = errors::Highest {
+        let highest = outcome::Highest {
             height_mm: 0.4,
             uv_mm: [290.0, 12.0],
             line: "gripper g3_0 to gripper g3_1".into(),
             gripper: "gripper g3_0".into(),
         };
+        let worst = Worst { value: 0.4, at: String::new(), place: None };
+        result.summary.limits.push(Verdict::of(Name::Height, worst, 0.5, Some(3)));
         result.summary.sample = Some(SampleVerdict {
             errors: Errors { share: 0.75, samples: 4, ..Errors::default() },
             needed: 3,

@@ -5,7 +5,7 @@
 //! lie within the zone before and behind the point, p and q, the parabola passes the point at the distance |q − p| / 4.
 
 use super::sampling::{Deviation, Sampling, Tolerance, Track, nearest};
-use plydrape::mold::vector::norm;
+use plydrape::geometry::vector::norm;
 
 /// A point and how it is passed.
 #[derive(Debug, Clone, PartialEq)]

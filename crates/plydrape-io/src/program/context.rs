@@ -5,8 +5,8 @@ use super::pose::{angle, euler_zyx, quaternion, rotation_vector};
 use super::sampling::Track;
 use super::template::Robot;
 use super::{EventKind, Program, wide};
-use plydrape::mold::Pose;
-use plydrape::mold::vector::distance;
+use plydrape::geometry::Pose;
+use plydrape::geometry::vector::distance;
 use plydrape::ply::gripper_name;
 use serde::Serialize;
 

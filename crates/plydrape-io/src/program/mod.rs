@@ -20,11 +20,12 @@ pub use error::ProgramError;
 pub use sampling::Tolerance;
 pub use template::{Robot, Template};
 
-use crate::result::ResultFile;
+use crate::result::{ResultFile, Turned};
 use crate::{OutputError, csv};
 use crate::{shown, table};
-use plydrape::mold::Pose;
-use plydrape::mold::vector::{cross, dot, norm};
+use plydrape::geometry::Pose;
+use plydrape::geometry::vector::{cross, dot, norm};
+use plydrape::measure::Name;
 use plydrape::motion::MotionError;
 use plydrape::ply::{GripperId, gripper_name};
 pub use plydrape::sheet::{Event, EventKind};
@@ -122,7 +123,11 @@ impl Program {
                 for pad in &mut pads {
                     pad.tilts = pad.poses.iter().map(|pose| tilt(pose, [0.0, 0.0, 1.0])).collect();
                 }
-                (None, gantries(&pads, &all, result.scene.limits.speed), Frames::default())
+                (
+                    None,
+                    gantries(&pads, &all, result.scene.limits.most(Name::Speed)),
+                    Frames::default(),
+                )
             }
         };
         let events = match result.events() {
@@ -132,7 +137,7 @@ impl Program {
 
         let program = Program {
             name: result.scene.title.clone(),
-            accepted: result.summary.accepted,
+            accepted: result.summary.accepted(),
             verdict: Program::verdict(result),
             times,
             rate,
@@ -207,20 +212,20 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), OutputError> {
         }
     };
     let times = match (&result.plan, result.motion()?) {
-        (Some(plan), Some((motion, attitudes))) => {
+        (Some(plan), Some(Turned { motion, attitudes })) => {
             for found in [motion.grippers(), attitudes.grippers()] {
                 if found != ply.grippers() {
                     return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
                 }
             }
-            let times = csv::written_times(result, &motion, plan.rate)?;
+            let times = csv::written_times(result, motion, plan.rate)?;
             times.iter().for_each(|t| add(motion.at(*t), attitudes.at(*t)));
             times
         }
         _ => {
             for step in &result.steps {
                 let grippers = step.grippers.iter();
-                let (places, turns) = grippers.map(|g| (g.commanded(), g.quaternion)).unzip();
+                let (places, turns) = grippers.map(|g| (g.commanded, g.quaternion)).unzip();
                 add(places, turns);
             }
             result.steps.iter().map(|step| step.time).collect()

@@ -1,7 +1,7 @@
 //! An orientation in the words of each controller, and what is between two poses.
 
-use plydrape::mold::Pose;
-use plydrape::mold::vector::between;
+use plydrape::geometry::Pose;
+use plydrape::geometry::vector::between;
 
 /// A pose from a place (m) and a quaternion (x, y, z, w) of any length but 0.
 pub(crate) fn of_quaternion(position: [f64; 3], quaternion: [f64; 4]) -> Pose {
@@ -92,7 +92,7 @@ mod tests {
             prop_assert!(near(&turned, &pose), "{turned:?} {pose:?}");
             let vector = rotation_vector(&pose);
             let length = vector.iter().map(|c| c * c).sum::<f64>().sqrt();
-            let turn = |v| plydrape::mold::vector::turned(vector, v);
+            let turn = |v| plydrape::geometry::vector::turned(vector, v);
             prop_assert!(length <= std::f64::consts::PI + 1e-12);
             let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
             let again = Pose { axes: unit.map(turn), ..pose };

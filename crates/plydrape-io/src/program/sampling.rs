@@ -11,8 +11,8 @@
 
 use super::pose::{angle, interpolated};
 use super::{Program, ProgramError};
-use plydrape::mold::Pose;
-use plydrape::mold::vector::distance;
+use plydrape::geometry::Pose;
+use plydrape::geometry::vector::distance;
 use plydrape::ply::gripper_name;
 
 /// How far interpolated poses may be from the program's.

@@ -15,7 +15,7 @@ use super::sampling::nearest;
 use super::{Event, EventKind, Program};
 use crate::csv::{number, text as text_of};
 use ::csv::{Error, Writer};
-use plydrape::mold::Pose;
+use plydrape::geometry::Pose;
 use plydrape::ply::gripper_name;
 
 /// Name of the file.

@@ -1,25 +1,33 @@
 //! What is impossible in a result that was read.
 
-use super::{ResultFile, SceneEcho};
+use super::{Also, ResultFile, SceneEcho};
 use crate::json::JsonError;
 use crate::shown;
-use plydrape::clearance::{Bodies, Shape};
+use plydrape::bodies::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
+use plydrape::layup::{Friction, Model, Settings};
 use plydrape::material::{MomentCurve, Section, TensionLaw};
+use plydrape::measure::Verdict;
+use plydrape::outcome::{Step, Summary};
 use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, gripper_name, is_near};
-use plydrape::scene::{Friction, Settings};
+use plydrape::sheet::Event;
 
 /// What is impossible in a result, in words: a file whose check sum was made anew may hold anything, and everything made of
 /// it relies on this.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
-    of_net(&result.scene).or_else(|| of_steps(result)).or_else(|| of_summary(result)).or_else(
-        || match result.check_within(LARGEST_NUMBER) {
-            Err(JsonError::NotFinite { key, value }) => {
-                Some(format!("`{key}` is {value}, beyond {LARGEST_NUMBER:e}"))
-            }
-            _ => None,
-        },
-    )
+    let also = || result.also.as_ref().and_then(|also| of_also(result, also));
+    let too_large = || match result.check_within(LARGEST_NUMBER) {
+        Err(JsonError::NotFinite { key, value }) => {
+            Some(format!("`{key}` is {value}, beyond {LARGEST_NUMBER:e}"))
+        }
+        _ => None,
+    };
+    of_net(&result.scene)
+        .or_else(|| of_steps(&result.steps))
+        .or_else(|| of_deciding(result))
+        .or_else(also)
+        .or_else(|| of_states(result))
+        .or_else(too_large)
 }
 
 /// Largest number of a result in size: its square and its cube are far from overflow.
@@ -172,16 +180,14 @@ fn of_net(scene: &SceneEcho) -> Option<String> {
     net.nodes.iter().flatten().find_map(|place| far("a node of the ideal drape", place))
 }
 
-fn of_steps(result: &ResultFile) -> Option<String> {
-    if result.steps.is_empty() {
+fn of_steps(steps: &[Step]) -> Option<String> {
+    if steps.is_empty() {
         return Some("it has no step".into());
     }
-    if let Some(n) =
-        (1..result.steps.len()).find(|n| result.steps[*n].time <= result.steps[n - 1].time)
-    {
+    if let Some(n) = (1..steps.len()).find(|n| steps[*n].time <= steps[n - 1].time) {
         return Some(format!("the time of step {} is not after that of the step before", n + 1));
     }
-    result.steps.iter().zip(1..).find_map(|(step, number)| {
+    steps.iter().zip(1..).find_map(|(step, number)| {
         if step.step != number {
             return Some(format!("step {number} has the number {}", step.step));
         }
@@ -194,10 +200,10 @@ fn of_steps(result: &ResultFile) -> Option<String> {
                     gripper_name(gripper.id)
                 ));
             }
-            let mount = gripper.mount.and_then(|mount| far("a mount", &mount.commanded));
-            far("a gripper", &gripper.position).or(mount)
+            far("a gripper", &gripper.position).or(far("a mount", &gripper.commanded))
         });
-        let catenary = || step.catenaries.iter().find_map(of_catenary);
+        let lines = step.catenaries.as_ref().map_or(&[][..], |step| &step.catenaries);
+        let catenary = || lines.iter().find_map(of_catenary);
         gripper.or_else(catenary).map(|what| format!("in step {number}, {what}"))
     })
 }
@@ -219,59 +225,91 @@ fn of_catenary(line: &CatenaryState) -> Option<String> {
     contact.points.iter().find_map(|place| far("a contact", place))
 }
 
-fn of_summary(result: &ResultFile) -> Option<String> {
-    let (summary, steps) = (&result.summary, result.steps.len());
-    let ply = &result.scene.ply;
+/// What is impossible in the outcome by the model that decides.
+fn of_deciding(result: &ResultFile) -> Option<String> {
+    let decides = result.scene.settings.model;
+    if result.summary.model != decides {
+        return Some("its outcome is not of the model that decides".into());
+    }
+    of_summary(&result.scene.ply, &result.summary, &result.steps)
+        .or_else(|| super::check_errors::fault(result))
+        .or_else(|| super::check_tool::fault(result))
+}
+
+/// What is impossible in the drape by the other model.
+fn of_also(result: &ResultFile, also: &Also) -> Option<String> {
+    let of_sample = also.summary.sample.is_some() || also.summary.stands.is_some();
+    let fault = match () {
+        () if also.summary.model != result.summary.model.other() => {
+            Some("is of the model that decides".into())
+        }
+        () if of_sample => Some("was judged with errors".into()),
+        () => of_steps(&also.steps)
+            .or_else(|| of_summary(&result.scene.ply, &also.summary, &also.steps)),
+    };
+    fault.map(|what| format!("the drape beside: {what}"))
+}
+
+/// What is impossible in an outcome with steps of a ply.
+fn of_summary(ply: &Ply, summary: &Summary, recorded: &[Step]) -> Option<String> {
+    let steps = recorded.len();
     if summary.steps != steps || summary.steps_planned < steps {
         return Some(format!(
             "its summary has {} of {} steps",
             summary.steps, summary.steps_planned
         ));
     }
-    let named = [summary.first_contact_step, summary.first_shear_step, summary.all_shear_step];
+    let report = summary.catenaries.as_ref();
+    let shear = report.map(|report| [report.first_shear_step, report.all_shear_step]);
+    let named = shear.into_iter().flatten().chain([summary.first_contact_step()]);
     let judged = summary.limits.iter().map(|verdict| verdict.step);
-    if let Some(step) = named.into_iter().chain(judged).flatten().find(|n| !(1..=steps).contains(n))
-    {
+    if let Some(step) = named.chain(judged).flatten().find(|n| !(1..=steps).contains(n)) {
         return Some(format!("its summary names step {step} of {steps}"));
     }
-    let others = || super::check_errors::fault(result).or_else(|| super::check_tool::fault(result));
-    if let Some(what) = of_sheet(result).or_else(others) {
-        return Some(what);
+    let twice = |(n, verdict): (usize, &Verdict)| {
+        summary.limits[..n].iter().any(|other| other.name == verdict.name)
+    };
+    if summary.limits.iter().enumerate().any(twice) {
+        return Some("it judges a limit twice".into());
     }
-    let known = |id: GripperId| ply.index(id).is_some();
-    let unknown =
-        summary.first_contact.iter().find(|line| !(known(line.from) && known(line.to)))?;
-    let ends = [unknown.from, unknown.to].map(gripper_name).join("–");
-    Some(format!("its summary names a catenary {ends}"))
+    of_report(summary).or_else(|| of_events(ply, &summary.events)).or_else(|| {
+        let known = |id: GripperId| ply.index(id).is_some();
+        let mut first = report?.first_contact.iter();
+        let unknown = first.find(|line| !(known(line.from) && known(line.to)))?;
+        let ends = [unknown.from, unknown.to].map(gripper_name).join("–");
+        Some(format!("its summary names a catenary {ends}"))
+    })
 }
 
-/// What is impossible in the outcome of the sheet.
-fn of_sheet(result: &ResultFile) -> Option<String> {
-    let (sheet, planned) = match (&result.summary.sheet, &result.sheet_states) {
-        (None, None) => return None,
-        (Some(sheet), Some(_)) => (sheet, result.summary.steps_planned),
-        (Some(_), None) => return Some("its sheet has no states".into()),
-        (None, Some(_)) => return Some("the states of its sheet have no outcome".into()),
-    };
-    if !(1..=planned).contains(&sheet.steps) {
-        return Some(format!("its sheet has {} of {planned} steps", sheet.steps));
+/// What is impossible in what a model says beside its measures.
+fn of_report(summary: &Summary) -> Option<String> {
+    match (summary.model, &summary.sheet, &summary.catenaries) {
+        (Model::Sheet, Some(sheet), None) => {
+            (sheet.nodes == 0).then(|| "its sheet has no node".into())
+        }
+        (Model::Catenaries, None, Some(_)) => None,
+        _ => Some("its summary has the report of another model".into()),
     }
-    if sheet.nodes == 0 {
-        return Some("its sheet has no node".into());
-    }
-    let ply = &result.scene.ply;
-    let times = sheet.events.iter().map(|event| event.time);
-    if !times.clone().is_sorted() || times.clone().next().is_some_and(|first| first < 0.0) {
+}
+
+/// What is impossible in the events of pads.
+fn of_events(ply: &Ply, events: &[Event]) -> Option<String> {
+    let times = || events.iter().map(|event| event.time);
+    if !times().is_sorted() || times().next().is_some_and(|first| first < 0.0) {
         return Some("the events of its pads are not in the order of time".into());
     }
-    let mut pads = sheet.events.iter().flat_map(|event| &event.grippers);
-    if let Some(id) = pads.find(|id| ply.index(**id).is_none()) {
-        return Some(format!("an event of its pads names gripper {id:?}"));
+    let mut pads = events.iter().flat_map(|event| &event.grippers);
+    let id = pads.find(|id| ply.index(**id).is_none())?;
+    Some(format!("an event of its pads names gripper {id:?}"))
+}
+
+/// What is impossible in the states of a sheet: they are there where one was draped.
+fn of_states(result: &ResultFile) -> Option<String> {
+    match (result.summary_of(Model::Sheet), &result.sheet_states) {
+        (Some(_), None) => Some("its sheet has no states".into()),
+        (None, Some(_)) => Some("the states of its sheet have no outcome".into()),
+        _ => None,
     }
-    let judged = sheet.limits.iter().map(|verdict| verdict.step);
-    let mut named = judged.chain([sheet.first_contact_step]).flatten();
-    let step = named.find(|step| !(1..=sheet.steps).contains(step))?;
-    Some(format!("its sheet names step {step} of {}", sheet.steps))
 }
 
 /// What is wrong with a place (m) out of all range.

@@ -1,14 +1,12 @@
 //! What is impossible in what a result that was read says of drapes with errors.
 
 use super::ResultFile;
-use plydrape::errors::{Errors, SampleVerdict, Stands};
+use plydrape::errors::Errors;
+use plydrape::outcome::{SampleVerdict, Stands};
 
 /// What is impossible in the sample and in the errors that a result stands.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let summary = &result.summary;
-    if summary.accepted && summary.sample.as_ref().is_some_and(|sample| !sample.ok) {
-        return Some("it is accepted, but too few cells of its sample are".into());
-    }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);
     let sample = summary.sample.as_ref().and_then(|sample| of_sample(sample, nodes, result));
     sample.or_else(|| summary.stands.as_ref().and_then(of_stands))
@@ -42,5 +40,5 @@ fn is_share(errors: &Errors) -> bool {
 }
 
 fn of_stands(stands: &Stands) -> Option<String> {
-    (stands.factor < 0.0).then(|| format!("it stands {} times its errors", stands.factor))
+    (stands.factor < 0.0).then(|| format!("it tolerates {} times its errors", stands.factor))
 }

@@ -1,7 +1,7 @@
 //! What is impossible in what a result that was read says of its tool.
 
 use super::ResultFile;
-use plydrape::mold::vector::dot;
+use plydrape::geometry::vector::dot;
 use plydrape::tool::Tool;
 
 /// What is impossible in the tool and in what the motion takes of it.

@@ -1,9 +1,9 @@
 //! What stands in a result file: one JSON object, whose lists are columns, so that no name is repeated.
 //!
-//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_states` if the sheet was draped,
-//! `catenaries`, `steps`, `checksum`, in this order.
-//! `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is described in
-//! `docs/guide/result_file.md`. The check sum (CRC-32) is that of all bytes before its own value.
+//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_states` if a sheet was draped, `catenaries` if these were,
+//! `steps`, `also` if the other model was draped too, `checksum`, in this order. `summary` and `steps` are of the model that decides; `also`
+//! has those of the other one. `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is described
+//! in `docs/guide/result_file.md`. The check sum (CRC-32) is that of all bytes before its own value.
 //!
 //! A file is written step by step while its check sum is formed, and read without its text being kept.
 
@@ -14,7 +14,9 @@ use crate::finite;
 use crate::folder::Content;
 use crate::json::JsonError;
 use crate::sheet::SheetSeal;
-use plydrape::draping::record::{PlanRecord, Step, Summary};
+use plydrape::layup::Model;
+use plydrape::outcome::{Step, Summary};
+use plydrape::planner::PlanRecord;
 use plydrape::ply::{GripperId, Kind, Lines};
 use serde::ser::SerializeSeq;
 use serde::{Deserialize, Serialize, Serializer};
@@ -32,12 +34,30 @@ pub(super) struct Document<'a, S, C> {
     pub scene: Cow<'a, SceneEcho>,
     pub plan: Cow<'a, Option<PlanRecord>>,
     pub summary: Cow<'a, Summary>,
-    /// The file with the states of the sheet, if it was draped.
+    /// The file with the states of the sheet, if one was draped.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sheet_states: Option<Cow<'a, SheetSeal>>,
-    pub catenaries: Catenaries,
+    /// The catenaries of the ply, if they were draped.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub catenaries: Option<Catenaries>,
     pub steps: S,
+    /// The drape by the other model, if it was asked for.
+    #[serde(default = "nothing", skip_serializing_if = "Option::is_none")]
+    pub also: Option<AlsoDocument<'a, S>>,
     pub checksum: C,
+}
+
+/// The drape by the model that does not decide.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AlsoDocument<'a, S> {
+    pub summary: Cow<'a, Summary>,
+    pub steps: S,
+}
+
+/// The other model was not draped.
+fn nothing<T>() -> Option<T> {
+    None
 }
 
 /// The catenaries of the ply: fiber lines along u, along v, then bias lines.
@@ -50,9 +70,12 @@ pub(super) struct Catenaries {
 }
 
 impl Catenaries {
-    /// Those of the first step, if there is one.
+    /// Those of the first step.
     fn named(steps: &[Step]) -> Self {
-        let lines = || steps.iter().take(1).flat_map(|step| &step.catenaries);
+        let lines = || {
+            let first = steps.iter().take(1).filter_map(|step| step.catenaries.as_ref());
+            first.flat_map(|step| &step.catenaries)
+        };
         Catenaries {
             kind: lines().map(|line| line.kind).collect(),
             from: lines().map(|line| line.from).collect(),
@@ -127,8 +150,12 @@ impl ResultFile {
             plan: Cow::Borrowed(&self.plan),
             summary: Cow::Borrowed(&self.summary),
             sheet_states: self.sheet_states.as_ref().map(|states| Cow::Borrowed(states.seal())),
-            catenaries: Catenaries::named(&self.steps),
+            catenaries: self.steps_of(Model::Catenaries).map(Catenaries::named),
             steps: Steps(&self.steps),
+            also: self.also.as_ref().map(|also| AlsoDocument {
+                summary: Cow::Borrowed(&also.summary),
+                steps: Steps(&also.steps),
+            }),
             checksum,
         }
     }
@@ -190,6 +217,7 @@ impl Serialize for ResultFile {
 #[cfg(test)]
 mod tests {
     use crate::json::JsonError;
+    use crate::sample::lines;
     use crate::{ResultFile, sample};
 
     fn refused_key(result: &ResultFile) -> Option<String> {
@@ -203,10 +231,10 @@ mod tests {
     #[test]
     fn a_number_that_is_not_finite_is_refused_by_its_key() {
         let mut result = sample::draped(4, 2, 3);
-        result.steps[1].catenaries[1].spans[0].slopes[1] = f64::NAN;
+        lines(&mut result, 1)[1].spans[0].slopes[1] = f64::NAN;
         assert_eq!(refused_key(&result).as_deref(), Some("steps[1].spans.slopes[1][1]"));
         let mut result = sample::draped(4, 2, 3);
-        result.steps[1].catenaries[0].spans[0].force = Some(f64::INFINITY);
+        lines(&mut result, 1)[0].spans[0].force = Some(f64::INFINITY);
         assert_eq!(refused_key(&result).as_deref(), Some("steps[1].spans.H_N[0]"));
         let mut result = sample::draped(4, 2, 3);
         result.scene.settings.axial_stiffness = f64::NAN;

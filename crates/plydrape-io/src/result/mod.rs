@@ -1,4 +1,4 @@
-//! The result file: the scene as it was understood, and every force, slope, contact and measure of every step.
+//! The result file: the scene as it was understood, and what the model that decides says of every step.
 //!
 //! Lengths in meters, forces in newtons, angles in radians, unless the name says otherwise. All other outputs can be made
 //! from it. What a [`ResultFile`] is in memory has the physics' own types; as a file it has columns, see [`document`].
@@ -12,29 +12,33 @@ pub mod mold;
 pub mod read;
 mod step;
 
-use crate::sheet::{self, SheetDrape, SheetDrapeError, SheetKept};
-use plydrape::clearance::Bodies;
-use plydrape::draping::record::{PlanRecord, Step, Summary, Verdict};
-use plydrape::draping::{Drape, curves};
+use crate::sheet::{self, KeptDrape, SheetDrapeError, SheetKept};
+use plydrape::bodies::Bodies;
+use plydrape::draping::curves;
+use plydrape::draping::record::CatenaryState;
 use plydrape::errors::Errors;
+use plydrape::layup::{Model, Release, Settings, Target};
+use plydrape::measure::Limits;
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::planner::{Planned, PlannedSheet};
+use plydrape::outcome::{Outcome, Step, Summary};
+use plydrape::planner::{PlanRecord, Planned};
 use plydrape::ply::Ply;
-use plydrape::scene::{Limits, Model, Release, Scene, Settings, Target};
+use plydrape::scene::Scene;
 use plydrape::sheet::Event;
 use plydrape::tool::Tool;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, OnceLock};
 
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 8;
+pub const VERSION: u32 = 9;
 
-/// A whole result.
+/// A whole result: what the model that decides says of a scene, and what the other one says beside if it was asked.
+///
+/// Whether it is accepted is [`Summary::accepted`] of its `summary`, and nothing else.
 #[derive(Debug, Clone)]
 pub struct ResultFile {
     /// Version of the program that made it.
@@ -43,12 +47,34 @@ pub struct ResultFile {
     pub scene: SceneEcho,
     /// The plan that the drape follows, if it was planned.
     pub plan: Option<PlanRecord>,
-    /// The outcome.
+    /// The outcome by the model that decides.
     pub summary: Summary,
-    /// The states of the sheet, if it was draped.
+    /// The states of the sheet, whether that decides or stands beside; `None` if no sheet was draped.
     pub sheet_states: Option<SheetKept>,
-    /// One entry a step, the start being step 1.
+    /// The ply by the model that decides, one entry a step, the start being step 1.
     pub steps: Vec<Step>,
+    /// The drape by the other model, if it was asked for; it is shown and judges nothing.
+    pub also: Option<Also>,
+    /// The motion of a plan with the orientations along it: those that were judged, or made once of plan and steps.
+    pub(crate) motion: OnceLock<Arc<Turned>>,
+}
+
+/// A drape by the model that does not decide.
+#[derive(Debug, Clone)]
+pub struct Also {
+    /// The outcome by that model.
+    pub summary: Summary,
+    /// The ply by that model, one entry a step.
+    pub steps: Vec<Step>,
+}
+
+/// A planned motion and how the grippers are turned along it, by the model that decides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turned {
+    /// Where the grippers are at any time.
+    pub motion: TimedMotion,
+    /// How they are turned.
+    pub attitudes: Attitudes,
 }
 
 /// The scene, as it was understood.
@@ -88,23 +114,22 @@ impl SceneEcho {
     /// What a result keeps of a scene and of the text of its file.
     #[must_use]
     pub fn new(scene: &Scene, input: Option<Arc<str>>) -> Self {
+        let layup = &scene.layup;
         SceneEcho {
             title: scene.title.clone(),
             input,
-            ply: scene.ply.clone(),
-            mold: scene.mold.clone(),
-            target: scene.target.clone(),
-            settings: scene.settings,
-            limits: scene.limits,
-            bodies: scene.bodies.clone(),
+            ply: layup.ply.clone(),
+            mold: layup.mold.clone(),
+            target: layup.target.clone(),
+            settings: layup.settings,
+            limits: scene.limits.clone(),
+            bodies: layup.bodies.clone(),
             errors: scene.errors,
-            tool: scene.tool.clone(),
-            release: scene.release.clone(),
+            tool: layup.tool.clone(),
+            release: layup.release.clone(),
         }
     }
-}
 
-impl SceneEcho {
     /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
     #[must_use]
     pub fn target_grippers(&self) -> Option<&[[f64; 3]]> {
@@ -113,97 +138,132 @@ impl SceneEcho {
 }
 
 impl ResultFile {
-    /// The result of a drape of a scene, which was read from a file with the text `input`.
+    /// The result of a drape of a scene by the model that decides; the scene was read from a file with the text `input`.
     #[must_use]
-    pub fn new(scene: &Scene, input: Option<Arc<str>>, drape: Drape) -> Self {
+    pub fn new(scene: &Scene, input: Option<Arc<str>>, drape: KeptDrape) -> Self {
         ResultFile {
             program: crate::PROGRAM.into(),
             scene: SceneEcho::new(scene, input),
             plan: None,
             summary: drape.summary,
-            sheet_states: None,
+            sheet_states: drape.states,
             steps: drape.steps,
+            also: None,
+            motion: OnceLock::new(),
         }
     }
 
-    /// Drapes the sheet of the scene too, if its model says so, and lets it decide; not after an interrupted drape by the
-    /// catenaries. `scene` is that of the result, with the motion that was draped; arguments as [`sheet::drape`]. Returns the
-    /// time that the drape of the sheet took.
+    /// The result of the outcome of a scene; states of a sheet go into a hidden folder within `dir`.
     ///
     /// # Errors
-    /// As [`sheet::drape`].
-    pub fn drape_sheet(
-        &mut self,
+    /// [`SheetDrapeError`] if the disk refuses.
+    pub fn of_outcome(
         scene: &Scene,
+        input: Option<Arc<str>>,
+        outcome: Outcome,
         dir: &Path,
-        stop: &dyn Fn() -> bool,
-        progress: impl FnMut(usize),
-    ) -> Result<Option<Duration>, SheetDrapeError> {
-        if scene.settings.model != Model::Sheet || self.summary.catenaries_interrupted() {
-            return Ok(None);
+    ) -> Result<Self, SheetDrapeError> {
+        let Outcome { drape, also } = outcome;
+        let mut result = ResultFile::new(scene, input, sheet::keep(drape, dir)?);
+        if let Some(also) = also {
+            result.show_also(sheet::keep(also, dir)?);
         }
-        Ok(Some(self.decided_by(sheet::drape(scene, dir, stop, progress)?)))
+        Ok(result)
     }
 
-    /// Lets the drape of the sheet that decided on the plan of this result decide on it; arguments as [`sheet::keep`].
-    /// Returns the time that the drape took. The result is as after [`Self::drape_sheet`] along the planned motion.
+    /// The result of a plan of a scene; states of a sheet go into a hidden folder within `dir`.
     ///
     /// # Errors
-    /// As [`sheet::keep`].
-    pub fn keep_sheet(
-        &mut self,
-        planned: PlannedSheet,
+    /// [`SheetDrapeError`] if the disk refuses.
+    pub fn planned(
+        scene: &Scene,
+        input: Option<Arc<str>>,
+        planned: Planned,
         dir: &Path,
-    ) -> Result<Duration, SheetDrapeError> {
-        Ok(self.decided_by(sheet::keep(planned, dir)?))
+    ) -> Result<Self, SheetDrapeError> {
+        let Planned { outcome, record, motion, attitudes, .. } = planned;
+        let result = ResultFile::of_outcome(scene, input, outcome, dir)?;
+        Ok(result.along(record, motion, attitudes))
     }
 
-    fn decided_by(&mut self, draped: SheetDrape) -> Duration {
-        self.summary.decide_by(draped.summary);
-        self.sheet_states = Some(draped.states);
-        draped.duration
-    }
-
-    /// The result of a plan of a scene. Where the sheet decides, [`Self::keep_sheet`] adds it.
+    /// This result as that of a plan, with the motion that was judged.
     #[must_use]
-    pub fn planned(scene: &Scene, input: Option<Arc<str>>, planned: &Planned) -> Self {
-        let plan = Some(planned.record.clone());
-        ResultFile { plan, ..ResultFile::new(scene, input, planned.drape.clone()) }
+    pub(crate) fn along(
+        self,
+        record: PlanRecord,
+        motion: TimedMotion,
+        attitudes: Attitudes,
+    ) -> Self {
+        let turned = OnceLock::from(Arc::new(Turned { motion, attitudes }));
+        ResultFile { plan: Some(record), motion: turned, ..self }
     }
 
-    /// The limits of the model that decides.
+    /// Shows the drape by the model that does not decide beside.
+    pub fn show_also(&mut self, drape: KeptDrape) {
+        let KeptDrape { summary, steps, states, .. } = drape;
+        if states.is_some() {
+            self.sheet_states = states;
+        }
+        self.also = Some(Also { summary, steps });
+    }
+
+    /// The model that decides.
     #[must_use]
-    pub fn deciding_limits(&self) -> &[Verdict] {
-        self.summary.sheet.as_ref().map_or(&self.summary.limits, |sheet| &sheet.limits)
+    pub fn model(&self) -> Model {
+        self.summary.model
     }
 
-    /// When pads grip, press and let go, in the order of time; nothing where they hold the ply from first to last.
+    /// When pads grip, press and let go, in the order of time, by the model that decides; nothing where they hold the ply from first to
+    /// last.
     #[must_use]
     pub fn events(&self) -> &[Event] {
-        self.summary.sheet.as_ref().map_or(&[], |sheet| &sheet.events)
+        &self.summary.events
     }
 
-    /// The curves of a step (m): for each catenary, one for each of its spans, see [`plydrape::draping::curves`].
+    /// The outcome by a model, if that was draped.
+    #[must_use]
+    pub fn summary_of(&self, model: Model) -> Option<&Summary> {
+        let also = self.also.as_ref().map(|also| &also.summary);
+        [Some(&self.summary), also].into_iter().flatten().find(|summary| summary.model == model)
+    }
+
+    /// The steps by a model, if that was draped.
+    #[must_use]
+    pub fn steps_of(&self, model: Model) -> Option<&[Step]> {
+        match &self.also {
+            _ if self.summary.model == model => Some(&self.steps),
+            Some(also) if also.summary.model == model => Some(&also.steps),
+            _ => None,
+        }
+    }
+
+    /// The curves of the catenaries of a step (m): for each of them one for each of its spans, see [`plydrape::draping::curves`]; none of
+    /// a step of the sheet.
     #[must_use]
     pub fn curves(&self, step: &Step) -> Vec<Vec<Vec<[f64; 3]>>> {
+        let Some(catenaries) = &step.catenaries else { return Vec::new() };
         let SceneEcho { ply, settings, mold, .. } = &self.scene;
-        curves(ply, settings, mold.as_ref(), step)
+        let positions: Vec<[f64; 3]> = step.grippers.iter().map(|g| g.position).collect();
+        curves(ply, settings, mold.as_ref(), &positions, &catenaries.catenaries)
     }
 
-    /// The motion of a planned drape at any time, and the orientations along it; none of a simulated one.
+    /// The motion of a planned drape at any time, and the orientations along it, which are those that were judged; `None` of a simulated
+    /// one. Of a result that was read they are made once.
     ///
     /// # Errors
     /// [`MotionError`] if plan and steps are none that a planner has written.
-    pub fn motion(&self) -> Result<Option<(TimedMotion, Attitudes)>, MotionError> {
+    pub fn motion(&self) -> Result<Option<&Turned>, MotionError> {
         let Some(plan) = &self.plan else { return Ok(None) };
-        Ok(Some((plan.motion()?, self.attitudes()?)))
+        if let Some(turned) = self.motion.get() {
+            return Ok(Some(turned));
+        }
+        let turned = Turned { motion: plan.motion()?, attitudes: Attitudes::of(&self.steps)? };
+        Ok(Some(self.motion.get_or_init(|| Arc::new(turned))))
     }
+}
 
-    /// Orientations of the grippers between the steps.
-    ///
-    /// # Errors
-    /// [`MotionError`] if there are no steps.
-    pub fn attitudes(&self) -> Result<Attitudes, MotionError> {
-        Attitudes::of(&self.steps)
-    }
+/// The catenaries of a step, edges along u, edges along v, then diagonals; none of a step of the sheet.
+#[must_use]
+pub(crate) fn catenaries(step: &Step) -> &[CatenaryState] {
+    step.catenaries.as_ref().map_or(&[], |step| &step.catenaries)
 }

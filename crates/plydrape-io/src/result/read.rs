@@ -6,14 +6,16 @@
 //! The file is read as a stream, three times: for its version, for its contents, for its check sum.
 
 use super::check::fault;
-use super::document::{Document, shown};
+use super::document::{AlsoDocument, Document, shown};
 use super::step::StepColumns;
-use super::{FORMAT, ResultFile, VERSION};
+use super::{Also, FORMAT, ResultFile, VERSION};
 use crate::file_kind::{self, FileKind};
 use crate::sheet::SheetKept;
 use crate::shown::{excerpt, name};
 use crate::size::{self, SizeError};
 use crate::{folder, input};
+use plydrape::layup::Model;
+use plydrape::outcome::Step;
 use plydrape::ply::{Grid, Ply};
 use serde::Deserialize;
 use serde_json::error::Category;
@@ -21,6 +23,7 @@ use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// Why a file is no result that can be used, and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -321,22 +324,47 @@ fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, Stri
     if let Some(what) = super::check::of_ply(&read.scene) {
         return Err(what);
     }
-    if !read.catenaries.are_of(&ply.lines()) {
+    if read.catenaries.as_ref().is_some_and(|named| !named.are_of(&ply.lines())) {
         return Err(format!("its catenaries are not those of {}", named(&ply)));
     }
-    let mut known = Vec::new();
-    let step = |(columns, number): (StepColumns, usize)| {
-        columns.step(&ply, &mut known).map_err(|what| format!("in step {number}, {what}"))
-    };
+    let (summary, catenaries) = (read.summary.into_owned(), read.catenaries.is_some());
+    let steps = steps_of_model(&ply, summary.model, read.steps)?;
+    let also = read.also.map(|AlsoDocument { summary, steps: columns }| {
+        let summary = summary.into_owned();
+        let steps = steps_of_model(&ply, summary.model, columns)?;
+        Ok::<_, String>(Also { summary, steps })
+    });
     let result = ResultFile {
         program: read.program.into_owned(),
         scene: read.scene.into_owned(),
         plan: read.plan.into_owned(),
-        summary: read.summary.into_owned(),
+        summary,
         sheet_states: read.sheet_states.map(|seal| SheetKept::read(seal.into_owned(), folder)),
-        steps: read.steps.into_iter().zip(1..).map(step).collect::<Result<_, _>>()?,
+        steps,
+        also: also.transpose()?,
+        motion: OnceLock::new(),
     };
+    if catenaries != result.steps_of(Model::Catenaries).is_some() {
+        return Err(
+            "its catenaries are named where none were draped, or not where they were".into()
+        );
+    }
     Ok((result, read.checksum))
+}
+
+/// The steps that columns describe, those of a model: catenaries are there where these draped.
+fn steps_of_model(ply: &Ply, model: Model, columns: Vec<StepColumns>) -> Result<Vec<Step>, String> {
+    let mut known = Vec::new();
+    let step = |(columns, number): (StepColumns, usize)| {
+        let in_step = |what| format!("in step {number}, {what}");
+        let step = columns.step(ply, &mut known).map_err(in_step)?;
+        match (model, &step.catenaries) {
+            (Model::Sheet, Some(_)) => Err(in_step("the sheet has catenaries".into())),
+            (Model::Catenaries, None) => Err(in_step("the catenaries are missing".into())),
+            _ => Ok(step),
+        }
+    };
+    columns.into_iter().zip(1..).map(step).collect()
 }
 
 /// Check sum of a file up to the value of its last key; none where that is not the check sum.

@@ -1,10 +1,10 @@
 use super::*;
 use crate::sample;
 use crate::sheet::SheetSeal;
-use plydrape::errors::Stands;
+use plydrape::layup::Friction;
 use plydrape::material::TensionLaw;
 use plydrape::measure::Verdict;
-use plydrape::scene::Friction;
+use plydrape::outcome::Stands;
 
 fn read(text: &str) -> Result<ResultFile, ReadError> {
     parse(text.as_bytes(), Path::new("result.json"))

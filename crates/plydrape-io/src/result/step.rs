@@ -1,9 +1,11 @@
-//! A step as it stands in a result file: a column for each quantity.
+//! A step as it stands in a result file: a column for each quantity. What belongs to catenaries is there only where these draped.
 
 use super::contact::{ContactColumns, Known};
 use plydrape::draping::record::{
-    Bridge, CatenaryState, Cell, Gripper, Hold, Measures, Mount, Solver, SpanState, Step,
+    Bridge, CatenaryState, CatenaryStep, Cell, Hold, Solver, SpanState,
 };
+use plydrape::measure::Measures;
+use plydrape::outcome::{Gripper, Step};
 use plydrape::ply::{Kind, Lines, Ply};
 use serde::{Deserialize, Serialize};
 
@@ -13,14 +15,22 @@ use serde::{Deserialize, Serialize};
 pub(super) struct StepColumns {
     step: usize,
     time: f64,
-    solver: Solver,
     measures: Measures,
     grippers: GripperColumns,
-    catenaries: CatenaryColumns,
-    spans: SpanColumns,
-    contact: ContactColumns,
-    bridging: BridgeColumns,
-    cells: CellColumns,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    solver: Option<Solver>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    slopes: Option<SlopeColumns>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    catenaries: Option<CatenaryColumns>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    spans: Option<SpanColumns>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contact: Option<ContactColumns>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bridging: Option<BridgeColumns>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cells: Option<CellColumns>,
 }
 
 /// Grippers, i running fastest.
@@ -28,48 +38,30 @@ pub(super) struct StepColumns {
 #[serde(deny_unknown_fields)]
 struct GripperColumns {
     position: Vec<[f64; 3]>,
-    slope_u: Vec<Option<f64>>,
-    slope_v: Vec<Option<f64>>,
-    tilt_deg: Vec<f64>,
-    quaternion: Vec<[f64; 4]>,
-    /// None where no gripper has a target.
-    target_distance_mm: Option<Vec<f64>>,
     /// Left out where all mounts are rigid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    mounts: Option<MountColumns>,
-}
-
-/// The mounts of the grippers.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MountColumns {
-    commanded: Vec<[f64; 3]>,
+    commanded: Option<Vec<[f64; 3]>>,
+    quaternion: Vec<[f64; 4]>,
+    tilt_deg: Vec<f64>,
     #[serde(rename = "force_N")]
     force: Vec<[f64; 3]>,
-    slip: Vec<[f64; 2]>,
-    on_mold: Vec<bool>,
+    /// Left out where nothing slides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    slide_mm: Option<Vec<f64>>,
+    /// Left out where all pads hold the ply.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    holds: Option<Vec<bool>>,
+    /// Left out where no gripper has a target.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    target_distance_mm: Option<Vec<f64>>,
 }
 
-impl MountColumns {
-    /// Those of grippers that all have one.
-    fn of(grippers: &[Gripper]) -> Option<MountColumns> {
-        let mounts: Vec<Mount> = grippers.iter().map(|g| g.mount).collect::<Option<_>>()?;
-        (!mounts.is_empty()).then(|| MountColumns {
-            commanded: mounts.iter().map(|m| m.commanded).collect(),
-            force: mounts.iter().map(|m| m.force).collect(),
-            slip: mounts.iter().map(|m| m.slip).collect(),
-            on_mold: mounts.iter().map(|m| m.on_mold).collect(),
-        })
-    }
-
-    fn mount(&self, n: usize) -> Mount {
-        Mount {
-            commanded: self.commanded[n],
-            force: self.force[n],
-            slip: self.slip[n],
-            on_mold: self.on_mold[n],
-        }
-    }
+/// Slopes of the ply at the grippers, null where no fiber line runs in that direction.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SlopeColumns {
+    u: Vec<Option<f64>>,
+    v: Vec<Option<f64>>,
 }
 
 /// Set lengths of all catenaries, and the diagonals that shear.
@@ -120,10 +112,27 @@ struct CellColumns {
 impl StepColumns {
     /// The columns of a step; contact as what is new since what is `known`.
     pub(super) fn of(step: &Step, known: &mut Known) -> Self {
-        let shearing = || step.catenaries.iter().enumerate().filter(|(_, line)| line.shearing);
+        let mut columns = StepColumns {
+            step: step.step,
+            time: step.time,
+            measures: step.measures.clone(),
+            grippers: GripperColumns::of(&step.grippers),
+            solver: None,
+            slopes: None,
+            catenaries: None,
+            spans: None,
+            contact: None,
+            bridging: None,
+            cells: None,
+        };
+        let Some(CatenaryStep { solver, slopes, catenaries, cells }) = &step.catenaries else {
+            return columns;
+        };
+
+        let shearing = || catenaries.iter().enumerate().filter(|(_, line)| line.shearing);
         let mut spans = SpanColumns::default();
         let mut bridging = BridgeColumns::default();
-        for (n, line) in step.catenaries.iter().enumerate() {
+        for (n, line) in catenaries.iter().enumerate() {
             for span in &line.spans {
                 spans.push(n, span);
             }
@@ -134,88 +143,129 @@ impl StepColumns {
                 bridging.width.push(width);
             }
         }
-        let grippers = &step.grippers;
-        let target: Option<Vec<f64>> = grippers.iter().map(|g| g.target_distance_mm).collect();
-        StepColumns {
-            step: step.step,
-            time: step.time,
-            solver: step.solver.clone(),
-            measures: step.measures.clone(),
-            grippers: GripperColumns {
-                position: grippers.iter().map(|g| g.position).collect(),
-                slope_u: grippers.iter().map(|g| g.slope_u).collect(),
-                slope_v: grippers.iter().map(|g| g.slope_v).collect(),
-                tilt_deg: grippers.iter().map(|g| g.tilt_deg).collect(),
-                quaternion: grippers.iter().map(|g| g.quaternion).collect(),
-                target_distance_mm: target,
-                mounts: MountColumns::of(grippers),
-            },
-            catenaries: CatenaryColumns {
-                length: step.catenaries.iter().map(|line| line.length).collect(),
-                shearing: shearing().map(|(n, _)| n).collect(),
-                shear_force: shearing().map(|(_, line)| line.shear_force_n).collect(),
-            },
-            spans,
-            contact: ContactColumns::since(known, &step.catenaries),
-            bridging,
-            cells: CellColumns {
-                shear_deg: step.cells.iter().map(|cell| cell.shear_deg).collect(),
-                shearing: step.cells.iter().map(|cell| cell.shearing).collect(),
-                landed_deg: step.cells.iter().map(|cell| cell.landed_deg).collect(),
-            },
-        }
+        columns.solver = Some(solver.clone());
+        columns.slopes = Some(SlopeColumns {
+            u: slopes.iter().map(|slope| slope[0]).collect(),
+            v: slopes.iter().map(|slope| slope[1]).collect(),
+        });
+        columns.catenaries = Some(CatenaryColumns {
+            length: catenaries.iter().map(|line| line.length).collect(),
+            shearing: shearing().map(|(n, _)| n).collect(),
+            shear_force: shearing().map(|(_, line)| line.shear_force_n).collect(),
+        });
+        columns.spans = Some(spans);
+        columns.contact = Some(ContactColumns::since(known, catenaries));
+        columns.bridging = Some(bridging);
+        columns.cells = Some(CellColumns {
+            shear_deg: cells.iter().map(|cell| cell.shear_deg).collect(),
+            shearing: cells.iter().map(|cell| cell.shearing).collect(),
+            landed_deg: cells.iter().map(|cell| cell.landed_deg).collect(),
+        });
+        columns
     }
 
     /// The step again, or what is impossible in it.
     pub(super) fn step(self, ply: &Ply, known: &mut Known) -> Result<Step, String> {
-        let mut catenaries = self.catenaries.lines(&ply.lines())?;
-        self.spans.fill(&mut catenaries)?;
-        self.contact.fill(known, &mut catenaries)?;
-        let BridgeColumns { catenary, place, gap, width } = self.bridging;
-        alike("bridging", catenary.len(), &[place.len(), gap.len(), width.len()])?;
-        for (k, n) in catenary.into_iter().enumerate() {
-            let bridge = Bridge { place: place[k], gap: gap[k], width: width[k] };
-            line(&mut catenaries, n)?.bridging = Some(bridge);
-        }
-        Ok(Step {
-            step: self.step,
-            time: self.time,
-            grippers: self.grippers.list(ply)?,
-            solver: self.solver,
-            catenaries,
-            cells: self.cells.list(&ply.lines())?,
-            measures: self.measures,
-        })
+        let StepColumns { step, time, measures, grippers, .. } = self;
+        let parts = (
+            self.solver,
+            self.slopes,
+            self.catenaries,
+            self.spans,
+            self.contact,
+            self.bridging,
+            self.cells,
+        );
+        let catenaries = match parts {
+            (None, None, None, None, None, None, None) => None,
+            (
+                Some(solver),
+                Some(slopes),
+                Some(catenaries),
+                Some(spans),
+                Some(contact),
+                Some(bridging),
+                Some(cells),
+            ) => {
+                let mut lines = catenaries.lines(&ply.lines())?;
+                spans.fill(&mut lines)?;
+                contact.fill(known, &mut lines)?;
+                bridging.fill(&mut lines)?;
+                Some(CatenaryStep {
+                    solver,
+                    slopes: slopes.list(ply)?,
+                    catenaries: lines,
+                    cells: cells.list(&ply.lines())?,
+                })
+            }
+            _ => return Err("it has a part of what belongs to catenaries".into()),
+        };
+        Ok(Step { step, time, grippers: grippers.list(ply)?, measures, catenaries })
     }
 }
 
 impl GripperColumns {
+    fn of(grippers: &[Gripper]) -> Self {
+        let yields = grippers.iter().any(|g| g.commanded != g.position);
+        let slides = grippers.iter().any(|g| g.slide_mm != 0.0);
+        let released = grippers.iter().any(|g| !g.holds);
+        GripperColumns {
+            position: grippers.iter().map(|g| g.position).collect(),
+            commanded: yields.then(|| grippers.iter().map(|g| g.commanded).collect()),
+            quaternion: grippers.iter().map(|g| g.quaternion).collect(),
+            tilt_deg: grippers.iter().map(|g| g.tilt_deg).collect(),
+            force: grippers.iter().map(|g| g.force).collect(),
+            slide_mm: slides.then(|| grippers.iter().map(|g| g.slide_mm).collect()),
+            holds: released.then(|| grippers.iter().map(|g| g.holds).collect()),
+            target_distance_mm: grippers.iter().map(|g| g.target_distance_mm).collect(),
+        }
+    }
+
     fn list(self, ply: &Ply) -> Result<Vec<Gripper>, String> {
-        let targets = self.target_distance_mm.as_ref();
+        let GripperColumns { commanded, slide_mm, holds, target_distance_mm, .. } = &self;
+        let count = ply.grippers();
         let found = [
             self.position.len(),
-            self.slope_u.len(),
-            self.slope_v.len(),
-            self.tilt_deg.len(),
             self.quaternion.len(),
-            targets.map_or(ply.grippers(), Vec::len),
+            self.tilt_deg.len(),
+            self.force.len(),
+            commanded.as_ref().map_or(count, Vec::len),
+            slide_mm.as_ref().map_or(count, Vec::len),
+            holds.as_ref().map_or(count, Vec::len),
+            target_distance_mm.as_ref().map_or(count, Vec::len),
         ];
-        alike("grippers", ply.grippers(), &found)?;
-        if let Some(MountColumns { commanded, force, slip, on_mold }) = &self.mounts {
-            let found = [commanded.len(), force.len(), slip.len(), on_mold.len()];
-            alike("mounts", ply.grippers(), &found)?;
-        }
+        alike("grippers", count, &found)?;
         let gripper = |n: usize| Gripper {
             id: ply.id(n),
             position: self.position[n],
-            slope_u: self.slope_u[n],
-            slope_v: self.slope_v[n],
-            tilt_deg: self.tilt_deg[n],
+            commanded: commanded.as_ref().map_or(self.position[n], |all| all[n]),
             quaternion: self.quaternion[n],
-            target_distance_mm: targets.map(|targets| targets[n]),
-            mount: self.mounts.as_ref().map(|mounts| mounts.mount(n)),
+            tilt_deg: self.tilt_deg[n],
+            force: self.force[n],
+            slide_mm: slide_mm.as_ref().map_or(0.0, |all| all[n]),
+            holds: holds.as_ref().is_none_or(|all| all[n]),
+            target_distance_mm: target_distance_mm.as_ref().map(|all| all[n]),
         };
-        Ok((0..ply.grippers()).map(gripper).collect())
+        Ok((0..count).map(gripper).collect())
+    }
+}
+
+impl SlopeColumns {
+    fn list(self, ply: &Ply) -> Result<Vec<[Option<f64>; 2]>, String> {
+        alike("slopes at grippers", ply.grippers(), &[self.u.len(), self.v.len()])?;
+        Ok(self.u.into_iter().zip(self.v).map(|(u, v)| [u, v]).collect())
+    }
+}
+
+impl BridgeColumns {
+    fn fill(self, lines: &mut [CatenaryState]) -> Result<(), String> {
+        let BridgeColumns { catenary, place, gap, width } = self;
+        alike("bridging", catenary.len(), &[place.len(), gap.len(), width.len()])?;
+        for (k, n) in catenary.into_iter().enumerate() {
+            let bridge = Bridge { place: place[k], gap: gap[k], width: width[k] };
+            line(lines, n)?.bridging = Some(bridge);
+        }
+        Ok(())
     }
 }
 

@@ -1,4 +1,5 @@
-//! Shapes to look at: the ply's surface, its catenaries, what is in contact, the grippers, the mold.
+//! Shapes to look at: the ply's surface, catenaries where they were draped, what is in contact, the grippers, the mold. The surface is that of the
+//! sheet in each step that was kept where the sheet decides, and drawn between the catenaries where these do.
 //!
 //! Every marker stays until its successor comes. They carry no time, so a viewer puts them where the frame is
 //! now; the bag has the time. What a step does not have is deleted, so that a bag can be played again.
@@ -7,9 +8,10 @@ use super::FRAME;
 use super::message::{ColorRgba, Header, Marker, MarkerArray, Pose, Vector3};
 use crate::figure;
 use crate::mold_patch::mold_patch;
-use crate::result::ResultFile;
+use crate::result::{ResultFile, catenaries};
+use crate::sheet::{SheetMesh, SheetState};
 use crate::surface::Surface;
-use plydrape::draping::record::{Gripper, Step};
+use plydrape::outcome::{Gripper, Step};
 
 type Point = [f64; 3];
 
@@ -62,16 +64,32 @@ impl Paint {
     }
 }
 
-/// The markers of a step.
-pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArray {
+/// The markers of a step: the grippers, of catenaries these with the surface between them, of a sheet its `state` if that was kept.
+pub(super) fn ply(
+    result: &ResultFile,
+    step: &Step,
+    state: Option<(&SheetMesh, &SheetState)>,
+    paint: &Paint,
+) -> MarkerArray {
     let radius = figure::gripper_radius(result);
     let mut markers = Vec::with_capacity(4 + step.grippers.len());
+    if step.catenaries.is_some() {
+        markers.extend(drawn(result, step, paint, radius));
+    }
+    markers.extend(state.map(|(mesh, state)| cells(result, mesh, state, paint)));
+    markers.extend(step.grippers.iter().zip(0..).map(|(gripper, id)| disc(gripper, id, radius)));
+    MarkerArray { markers }
+}
+
+/// The catenaries of a step, what of them is in contact, and the surface between them.
+fn drawn(result: &ResultFile, step: &Step, paint: &Paint, radius: f64) -> Vec<Marker> {
+    let mut markers = Vec::new();
     if result.scene.ply.lines().surface().cells() > 0 {
         markers.push(surface(result, step, paint));
     }
     let curves = result.curves(step);
     let spans = |edges: bool| {
-        let lines = step.catenaries.iter().zip(&curves);
+        let lines = catenaries(step).iter().zip(&curves);
         segments(
             lines.filter(|(line, _)| line.kind.is_edge() == edges).flat_map(|(_, curves)| curves),
         )
@@ -81,8 +99,20 @@ pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArra
     let (lying, touching) = contact(step);
     markers.push(lines("contact", 0, segments(lying.into_iter()), BLUE, 1.6 * LINE * radius));
     markers.push(points(touching, radius));
-    markers.extend(step.grippers.iter().zip(0..).map(|(gripper, id)| disc(gripper, id, radius)));
-    MarkerArray { markers }
+    markers
+}
+
+/// The cells of a sheet.
+fn cells(result: &ResultFile, mesh: &SheetMesh, state: &SheetState, paint: &Paint) -> Marker {
+    let mut marker = Marker { color: GREY, ..marker("ply", 0, TRIANGLE_LIST) };
+    for cell in mesh.cells.iter() {
+        let [a, b, c, d] = cell.map(|n| state.positions[n as usize]);
+        for place in [a, b, c, a, c, d] {
+            marker.points.push(place.into());
+            marker.colors.push(paint.colour(figure::colour_value(result, place)));
+        }
+    }
+    marker
 }
 
 /// The mold under the drape, if there is one.
@@ -114,7 +144,7 @@ fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
 
 /// The lines of fabric in contact with the mold, and contacts of a single point.
 fn contact(step: &Step) -> (Vec<&Vec<Point>>, Vec<Vector3>) {
-    let lines = step.catenaries.iter().filter_map(|line| line.contact.as_ref());
+    let lines = catenaries(step).iter().filter_map(|line| line.contact.as_ref());
     let (lying, touching): (Vec<_>, Vec<_>) =
         lines.map(|contact| &contact.points).partition(|points| points.len() > 1);
     (lying, touching.into_iter().flatten().map(|p| (*p).into()).collect())

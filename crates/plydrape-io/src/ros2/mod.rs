@@ -4,7 +4,7 @@
 //!   prints and `ros2 topic pub` reads;
 //! - `flange.yaml`, if one arm holds the array: one `nav_msgs/msg/Path` of its flange;
 //! - `vacuum.yaml`: what the vacuum does, one `control_msgs/msg/DynamicInterfaceGroupValues` behind the other;
-//! - `loads.yaml`, where they are known: the expected loads on the grippers at the same times, and the preload of their
+//! - `loads.yaml`: the expected loads on the grippers at the same times, and the preload of their
 //!   mounts, as one `trajectory_msgs/msg/JointTrajectory`;
 //! - `trajectory.mcap`: a bag that `ros2 bag play` and viewers open, with the topics
 //!
@@ -16,9 +16,9 @@
 //! | [`VACUUM`] | the same commands | each at its time |
 //! | `/tf_static` | `tf2_msgs/msg/TFMessage`: the mold in the world, the tool at the flange | once, at the start |
 //! | `/tf` | `tf2_msgs/msg/TFMessage`: the flange and every pad, by its gripper's name, at the mold | over time |
-//! | [`LOADS`] | the same loads | once, at the start, if they are known |
+//! | [`LOADS`] | the same loads | once, at the start |
 //! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
-//! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time |
+//! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time; of a sheet in the steps that were kept |
 //!
 //! Meters, seconds, radians; z up; the frame [`FRAME`] is that of the scene. `message` holds the messages as
 //! Rust types, `cdr` and `bag` their bytes, `schema` their definitions; `trajectory`, `poses` and `vacuum` fill them from a
@@ -43,7 +43,9 @@ use super::{OutputError, finite};
 use crate::export::Files;
 use crate::program::{Program, Tolerance, wide};
 use crate::result::ResultFile;
+use crate::sheet::{SheetKept, SheetStates};
 use bag::Bag;
+use plydrape::layup::Model;
 
 /// The frame of all positions: the scene's own.
 pub const FRAME: &str = "mold";
@@ -80,7 +82,7 @@ pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Output
     let program = Program::of(result)?;
     let (mut bag, mut files) = motion(&program, tolerance)?;
 
-    if let Some(known) = &Loads::of(result)? {
+    if let Some(known) = &Loads::of(result) {
         let loads = loads::loads(&program, known)?;
         finite::check(&loads)?;
         bag.latched(LOADS, schema::JOINTS, &loads)?;
@@ -96,8 +98,17 @@ pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Output
     }
     bag.channel(PLY, schema::MARKERS, bag::VOLATILE)?;
     let paint = markers::Paint::of(result);
+    let decides = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
+    let mut sheet = decides.map(SheetKept::open).transpose()?;
+    let kept = sheet.as_mut().map(SheetStates::steps).transpose()?.unwrap_or_default();
     for step in &result.steps {
-        let ply = markers::ply(result, step, &paint);
+        let number = kept.iter().find(|(kept, _)| *kept == step.step).map(|(_, number)| *number);
+        let state = match (&mut sheet, number) {
+            (Some(sheet), Some(number)) => sheet.state(number)?,
+            _ => None,
+        };
+        let shown = sheet.as_ref().zip(state.as_ref()).map(|(sheet, state)| (sheet.mesh(), state));
+        let ply = markers::ply(result, step, shown, &paint);
         finite::check(&ply)?;
         bag.write(PLY, time::nanoseconds(step.step, step.time)?, &ply)?;
     }

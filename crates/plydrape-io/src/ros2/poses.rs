@@ -8,8 +8,8 @@ use super::{FLANGE, FRAME, Ros2Error, TOOL, WORLD, time};
 use crate::program::pose::{angle, interpolated, quaternion};
 use crate::program::sampling::{Deviation, Sampling, thin};
 use crate::program::{Program, Tolerance};
+use plydrape::geometry::vector::distance;
 use plydrape::mold;
-use plydrape::mold::vector::distance;
 
 /// The samples of the poses that are written.
 pub(super) fn sampling(program: &Program, tolerance: &Tolerance) -> Sampling {

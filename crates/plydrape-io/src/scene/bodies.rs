@@ -7,8 +7,8 @@ use super::heading::{coordinates, pose};
 use super::located::Located;
 use super::mold::mesh_file;
 use super::usual;
-use plydrape::clearance::{Bodies, Body, Obstacle, Shape};
-use plydrape::mold::Pose;
+use plydrape::bodies::{Bodies, Body, Obstacle, Shape};
+use plydrape::geometry::Pose;
 use std::ops::Range;
 use std::path::Path;
 

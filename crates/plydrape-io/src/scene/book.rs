@@ -444,6 +444,6 @@ fn laid(
 
 /// Where a ply lies, in plan.
 fn region(scene: &SceneFile, bare: &Mold) -> Option<Vec<Vec<[f64; 2]>>> {
-    let net = scene.target.as_ref()?.drape.as_ref()?;
-    net.region(scene.mold.as_ref()?, bare)
+    let net = scene.layup.target.as_ref()?.drape.as_ref()?;
+    net.region(scene.layup.mold.as_ref()?, bare)
 }

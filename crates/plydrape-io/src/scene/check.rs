@@ -5,20 +5,23 @@ use super::diagnostic::hint;
 use super::drawing::WarpChoice;
 use super::error::{Document, SceneError};
 use super::errors::errors;
-use super::file::{GrippersTable, MethodKey, MotionKind, PlyTable, SceneKeys};
+use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
 use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
+use super::model::Models;
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::release::release;
 use super::settings::settings;
 use super::trajectory::trajectory;
-use super::{SceneFile, cut, material, mold, named, sheet, start, target, tool, usual};
+use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
 use crate::shown;
 use crate::size::{self, SizeError};
+use plydrape::layup::{Layup, Target};
 use plydrape::mold::Mold;
+use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
-use plydrape::scene::{Model, Motion, Scene, Settings, Target};
+use plydrape::scene::Scene;
 use std::ops::Range;
 use std::path::Path;
 
@@ -42,7 +45,8 @@ pub(super) fn scene(
         None => (made, None),
     };
     let settings = settings(file, &ply, document)?;
-    hangs_as_catenaries(file, &ply, &settings, document)?;
+    let models = Models::named(file, settings.model, document)?;
+    models.check_lines(&ply)?;
     let places = Surroundings {
         ply: &ply,
         mold: mold.as_ref(),
@@ -58,19 +62,12 @@ pub(super) fn scene(
     };
     let motion = places.motion(file, target.as_ref())?;
     places.fits(file.grippers_span(), motion.positions.len())?;
-    let limits = limits(&file.limits, &ply, &settings, document)?;
-    let sheets = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
+    let sheets = models.check_sheets(&ply, &settings, motion.positions.len())?;
     let plan = plan(&file.plan, ply.grippers(), document)?;
     let bodies = bodies(file, document, base)?;
     let errors = match &file.errors {
         Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
         None => None,
-    };
-    let tool = match (&file.tool, motion.positions.first()) {
-        (Some(table), Some(start)) => {
-            Some(tool::tool(table, &ply, start, &settings, &limits, document)?)
-        }
-        _ => None,
     };
     let release = match &file.release {
         Some(table) => Some(release(table, settings.model, mold.is_some(), document)?),
@@ -79,60 +76,26 @@ pub(super) fn scene(
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
+
+    // limits and tool are those of the rest of the layup
+    let mut layup = Layup { ply, mold, motion, target, settings, bodies, tool: None, release };
+    let limits = limits(&file.limits, &layup, document)?;
+    if let (Some(table), Some(start)) = (&file.tool, layup.motion.positions.first()) {
+        layup.tool = Some(tool::tool(table, &layup, start, &limits, document)?);
+    }
+    models.check_built(&layup)?;
     let title = title(file.title.as_ref(), document, base)?;
-    let thickness = file
-        .ply
-        .value
-        .thickness
-        .as_ref()
-        .map(|thickness| thickness.size(document, &usual::THICKNESS))
-        .transpose()?;
+    let thickness = file.ply.value.thickness.as_ref();
+    let thickness =
+        thickness.map(|thickness| thickness.size(document, &usual::THICKNESS)).transpose()?;
     Ok(SceneFile {
-        scene: Scene {
-            title,
-            ply,
-            mold,
-            motion,
-            target,
-            settings,
-            limits,
-            bodies,
-            plan,
-            errors,
-            tool,
-            release,
-        },
+        scene: Scene { title, layup, limits, plan, errors, also: models.has_also() },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
         thickness,
         plan_refusal: unplanned.or(fits.err()).map(Box::new),
     })
-}
-
-/// Refuses catenaries where no lines run between the cups, and the stepwise planner where these are no whole array.
-fn hangs_as_catenaries(
-    file: &SceneKeys,
-    ply: &Ply,
-    settings: &Settings,
-    document: &Document,
-) -> Result<(), SceneError> {
-    let stepwise = matches!(file.plan.method, Some(MethodKey::Stepwise));
-    let lines = ply.lines();
-    let what = match (settings.model, stepwise) {
-        (_, true) if lines.whole_array().is_none() => {
-            "the stepwise planner follows catenaries between the cups of a whole array along the yarns, and the cups that hold this ply are none"
-        }
-        (Model::Catenaries, false) if lines.is_empty() => {
-            "no catenaries hang between the cups that hold this ply: not each of them shares a yarn with another one, as in rows along the yarns or at 45° to them"
-        }
-        _ => return Ok(()),
-    };
-    Err(document.error(
-        file.grippers_span().clone(),
-        what,
-        "drape and plan it with the sheet, as kind = \"sheet\" in [model] and method = \"path\" in [plan] do",
-    ))
 }
 
 /// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.

@@ -156,6 +156,9 @@ fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
         let help = "a material file cannot name another material: give its mass and rigidity";
         return (message, help.into());
     }
+    if key == "landing_contact" && known.contains(&"position") {
+        return (message, "it is `position` now, which judges sheet and catenaries alike".into());
+    }
     let suggestion = suggestion(key, known);
     let help = format!("{suggestion}the keys here are {}", listed(known, '`'));
     (message, help)

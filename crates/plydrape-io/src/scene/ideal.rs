@@ -5,10 +5,12 @@ use super::error::{Document, SceneError};
 use super::file::SceneKeys;
 use super::limits::limits;
 use super::{mold, target};
+use plydrape::layup::{Layup, Settings};
+use plydrape::measure::Name;
 use plydrape::mold::Mold;
+use plydrape::motion::Motion;
 use plydrape::net::{Net, Seeds, Wanted};
 use plydrape::ply::Ply;
-use plydrape::scene::Settings;
 use std::path::Path;
 
 /// The ideal drape of a scene, whether or not grippers could bring the ply there.
@@ -26,7 +28,7 @@ pub struct IdealDrape {
     pub seeds: Option<Seeds>,
     /// Where its boundary is wanted, if that is given.
     pub wanted: Option<Wanted>,
-    /// Largest shear allowed (rad), see [`plydrape::scene::Limits::shear`].
+    /// Largest shear allowed (rad).
     pub shear_limit: f64,
 }
 
@@ -59,8 +61,9 @@ pub(super) fn ideal_drape(
         ));
     }
     let target::Laid { net, seeds, wanted } = target::net(table, &ply, &mold, document, base)?;
-    let limits = limits(&file.limits, &ply, &Settings::default(), document)?;
-    let shear_limit = limits.shear;
+    let motion = Motion { times: Vec::new(), positions: Vec::new() };
+    let layup = Layup::new(ply, Settings::default(), motion);
+    let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
     let title = title(file.title.as_ref(), document, base)?;
-    Ok(IdealDrape { title, ply, mold, net, seeds, wanted, shear_limit })
+    Ok(IdealDrape { title, ply: layup.ply, mold, net, seeds, wanted, shear_limit })
 }

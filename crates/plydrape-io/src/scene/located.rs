@@ -2,7 +2,7 @@
 
 use super::tree::LOCATED;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
@@ -17,21 +17,31 @@ pub(super) struct Located<T> {
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Parts<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Parts<T> {
-            type Value = Located<T>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(LOCATED)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Located<T>, A::Error> {
-                let missing = || A::Error::custom(LOCATED);
-                let start = seq.next_element()?.ok_or_else(missing)?;
-                let end = seq.next_element()?.ok_or_else(missing)?;
-                let value = seq.next_element()?.ok_or_else(missing)?;
-                Ok(Located { value, span: start..end })
-            }
-        }
-        deserializer.deserialize_tuple_struct(LOCATED, 3, Parts(PhantomData))
+        LocatedSeed(PhantomData::<T>).deserialize(deserializer)
+    }
+}
+
+/// Reads a value as another seed does, and its place.
+pub(super) struct LocatedSeed<S>(pub S);
+
+impl<'de, S: DeserializeSeed<'de>> DeserializeSeed<'de> for LocatedSeed<S> {
+    type Value = Located<S::Value>;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_tuple_struct(LOCATED, 3, self)
+    }
+}
+
+impl<'de, S: DeserializeSeed<'de>> Visitor<'de> for LocatedSeed<S> {
+    type Value = Located<S::Value>;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(LOCATED)
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        let missing = || A::Error::custom(LOCATED);
+        let start = seq.next_element()?.ok_or_else(missing)?;
+        let end = seq.next_element()?.ok_or_else(missing)?;
+        let value = seq.next_element_seed(self.0)?.ok_or_else(missing)?;
+        Ok(Located { value, span: start..end })
     }
 }
 

@@ -5,7 +5,7 @@
 //!
 //! 1. `read`, `tree`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
-//! 3. `check` with `bodies`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
+//! 3. `check` with `bodies`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
 //!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
@@ -13,6 +13,7 @@
 mod argument;
 mod bodies;
 mod book;
+mod bound;
 mod check;
 mod choice;
 mod csv;
@@ -32,6 +33,7 @@ mod layup;
 mod limits;
 mod located;
 mod material;
+mod model;
 mod mold;
 mod motion;
 mod offset;
@@ -63,9 +65,11 @@ pub use schema::schema;
 
 use crate::file_kind::FileKind;
 use crate::{input, shown};
+use located::Located;
+use plydrape::layup::Model;
 use plydrape::mold::{MeshReport, Mold};
 use plydrape::ply::Ply;
-use plydrape::scene::{Model, Scene};
+use plydrape::scene::Scene;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -79,17 +83,27 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
-    read_for(path, None)
+    read_for(path, None, None)
 }
 
-/// As [`read`], for another model than the scene's, if one is given.
+/// As [`read`], for another model than the scene's, if one is given, and with another one beside it (`also`).
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_for(path: &Path, model: Option<Model>) -> Result<SceneFile, SceneError> {
+pub fn read_for(
+    path: &Path,
+    model: Option<Model>,
+    also: Option<Model>,
+) -> Result<SceneFile, SceneError> {
     let (document, base) = open(path)?;
     let mut file = keys(&document)?;
-    file.model.kind = model.map(file::ModelKey::from).or(file.model.kind);
+    let key = |model: Model| Located { value: file::ModelKey::from(model), span: 0..0 };
+    if let Some(kind) = model.map(key) {
+        // what the scene has beside its own model may be the one that decides now
+        file.model.also.take_if(|also| also.value == kind.value);
+        file.model.kind = Some(kind);
+    }
+    file.model.also = also.map(key).or(file.model.also);
     let mut scene = check::scene(&file, None, &document, base)?;
     scene.files.push(path.into());
     Ok(scene)

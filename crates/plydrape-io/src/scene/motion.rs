@@ -4,10 +4,10 @@ use super::error::{Document, SceneError};
 use super::file::{MotionKind, MotionTable};
 use super::located::{Count, Located, Whole};
 use super::places::Places;
-use plydrape::mold::vector;
-use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
+use plydrape::geometry::vector;
+use plydrape::layup::Target;
+use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
 use plydrape::ply::Ply;
-use plydrape::scene::{Motion, Target};
 
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
 const STEPS: usize = 30;

@@ -5,7 +5,7 @@ use super::located::Located;
 use super::units::{self, Dimension, UnitError};
 use super::usual::Usual;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserialize, Deserializer, Visitor};
+use serde::de::{Deserialize, DeserializeSeed, Deserializer, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
@@ -97,6 +97,12 @@ pub(super) enum Raw {
 pub(super) struct Unchecked<M> {
     raw: Raw,
     measure: PhantomData<M>,
+}
+
+impl<M> From<Located<Raw>> for Quantity<M> {
+    fn from(Located { value: raw, span }: Located<Raw>) -> Self {
+        Located { value: Unchecked { raw, measure: PhantomData }, span }
+    }
 }
 
 impl<M> Unchecked<M> {
@@ -304,13 +310,6 @@ impl Quantity<Length> {
         if value == 0.0 { Ok(value) } else { self.size(document, usual) }
     }
 
-    /// A limit of zero or more (m).
-    pub fn limit(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
-        let value = self.not_negative(document)?;
-        self.believed(document, usual)?;
-        Ok(value)
-    }
-
     /// A coordinate of at most 10 km to either side (m).
     pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
         let value = self.si(document)?;
@@ -321,7 +320,8 @@ impl Quantity<Length> {
         Err(self.out_of_scale(document, value))
     }
 
-    fn out_of_scale(&self, document: &Document, value: f64) -> SceneError {
+    /// Refuses a value (m) that nothing in a scene has.
+    pub fn out_of_scale(&self, document: &Document, value: f64) -> SceneError {
         document.error(
             self.span.clone(),
             format!(
@@ -341,6 +341,12 @@ pub(super) fn rounded(value: f64) -> String {
 }
 
 impl Quantity<Angle> {
+    /// An angle above zero and below a right angle (rad).
+    pub fn acute(&self, document: &Document) -> Result<f64, SceneError> {
+        self.positive(document)?;
+        self.below_right_angle(document)
+    }
+
     /// An angle from zero to below a right angle (rad).
     pub fn below_right_angle(&self, document: &Document) -> Result<f64, SceneError> {
         let value = self.not_negative(document)?;
@@ -362,31 +368,42 @@ impl Quantity<Angle> {
     }
 }
 
+/// Reads a number or a text where something is wanted that is called `name`, as in `example`.
+pub(super) struct RawSeed {
+    pub name: &'static str,
+    pub example: &'static str,
+}
+
+impl<'de> DeserializeSeed<'de> for RawSeed {
+    type Value = Raw;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Raw, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl Visitor<'_> for RawSeed {
+    type Value = Raw;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, e.g. \"{}\"", self.name, self.example)
+    }
+    fn visit_i64<E>(self, value: i64) -> Result<Raw, E> {
+        Ok(Raw::Number(value as f64))
+    }
+    fn visit_u64<E>(self, value: u64) -> Result<Raw, E> {
+        Ok(Raw::Number(value as f64))
+    }
+    fn visit_f64<E>(self, value: f64) -> Result<Raw, E> {
+        Ok(Raw::Number(value))
+    }
+    fn visit_str<E>(self, value: &str) -> Result<Raw, E> {
+        Ok(Raw::Text(value.to_string()))
+    }
+}
+
 impl<'de, M: Measure> Deserialize<'de> for Unchecked<M> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Value<M>(PhantomData<M>);
-        impl<M: Measure> Visitor<'_> for Value<M> {
-            type Value = Raw;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "{}, e.g. \"{}\"", M::NAME, M::EXAMPLE)
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<Raw, E> {
-                Ok(Raw::Number(value as f64))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<Raw, E> {
-                Ok(Raw::Number(value as f64))
-            }
-            fn visit_f64<E>(self, value: f64) -> Result<Raw, E> {
-                Ok(Raw::Number(value))
-            }
-            fn visit_str<E>(self, value: &str) -> Result<Raw, E> {
-                Ok(Raw::Text(value.to_string()))
-            }
-        }
-        Ok(Unchecked {
-            raw: deserializer.deserialize_any(Value::<M>(PhantomData))?,
-            measure: PhantomData,
-        })
+        let seed = RawSeed { name: M::NAME, example: M::EXAMPLE };
+        Ok(Unchecked { raw: seed.deserialize(deserializer)?, measure: PhantomData })
     }
 }
 

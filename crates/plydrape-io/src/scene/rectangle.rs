@@ -1,7 +1,7 @@
 //! Rectangles of grippers laid out on a plane.
 
+use plydrape::geometry::vector::{along, cross};
 use plydrape::mold::Plane;
-use plydrape::mold::vector::{along, cross};
 use plydrape::ply::{Grid, Ply};
 
 /// A rectangle in a plane, spread along u and v from a corner.
@@ -56,7 +56,7 @@ impl Rectangle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use plydrape::mold::vector::{dot, sub};
+    use plydrape::geometry::vector::{dot, sub};
     use proptest::prelude::*;
 
     proptest! {

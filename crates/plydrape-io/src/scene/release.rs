@@ -3,7 +3,7 @@
 use super::error::{Document, SceneError};
 use super::file::{OrderKey, ReleaseTable};
 use super::located::Located;
-use plydrape::scene::{Model, Release, ReleaseOrder};
+use plydrape::layup::{Model, Release, ReleaseOrder};
 
 /// Shortest and longest dwell (s).
 const DWELLS: [f64; 2] = [1e-6, 3600.0];

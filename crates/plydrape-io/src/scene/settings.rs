@@ -3,17 +3,16 @@
 use super::choice::FrictionChoice;
 use super::error::{Document, SceneError};
 use super::file::{
-    EndKey, GrippersTable, ModelKey, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey, TimeKey,
+    EndKey, GrippersTable, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey, TimeKey,
 };
-use super::limits::acute;
 use super::located::{Located, Whole};
 use super::quantity::{Force, Quantity, Stiffness};
 use super::usual;
-use plydrape::ply::Ply;
-use plydrape::scene::{
-    ContactEnd, ContactSettings, Friction, Model, PadSettings, Settings, SheetSettings, SheetTime,
+use plydrape::layup::{
+    ContactEnd, ContactSettings, Friction, PadSettings, Settings, SheetSettings, SheetTime,
     SlopeRule, Stepping,
 };
+use plydrape::ply::Ply;
 
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
@@ -62,15 +61,11 @@ pub(super) fn settings(
         axial_stiffness,
         gravity,
         max_tilt: match grippers.and_then(|table| table.max_tilt.as_ref()) {
-            Some(tilt) => acute(tilt, document)?,
+            Some(tilt) => tilt.acute(document)?,
             None => usual.max_tilt,
         },
         contact: contact(file, ply, document)?,
-        model: match model.kind {
-            Some(ModelKey::Sheet) => Model::Sheet,
-            Some(ModelKey::Catenaries) => Model::Catenaries,
-            None => usual.model,
-        },
+        model: model.kind.as_ref().map_or(usual.model, |kind| kind.value.into()),
         sheet: sheet(&file.sheet, overhang, document)?,
         pad: match grippers {
             Some(table) => pad(table, document)?,

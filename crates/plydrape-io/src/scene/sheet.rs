@@ -4,29 +4,26 @@ use super::error::{Document, SceneError};
 use super::file::SceneKeys;
 use crate::shown::millimetres;
 use crate::size::{self, PlanSheets};
+use plydrape::layup::Settings;
 use plydrape::material::{Material, Section};
 use plydrape::planner::tuning::TUNING;
 use plydrape::ply::Ply;
-use plydrape::scene::{Model, Settings};
 use plydrape::sheet::{coarsest_mesh, pitch};
 use std::ops::Range;
 
 /// Lines of nodes across the shorter side of a cell, unless the scene gives their distance.
 const LINES: f64 = 10.0;
 
-/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that. Returns the sheets of a plan; none
-/// where the model is another.
+/// Refuses a sheet if material, pads, mesh or memory do not allow it; `otherwise` says how to do without. Returns the sheets of a plan.
 pub(super) fn fits(
     file: &SceneKeys,
     ply: &Ply,
     settings: &Settings,
     steps: usize,
+    otherwise: &str,
     document: &Document,
-) -> Result<Option<PlanSheets>, SceneError> {
-    if settings.model != Model::Sheet {
-        return Ok(None);
-    }
-    stiffness(&file.ply.value.material.span, &ply.material, document)?;
+) -> Result<PlanSheets, SceneError> {
+    stiffness(&file.ply.value.material.span, &ply.material, otherwise, document)?;
     let around = Around { file, ply, settings, document };
     around.pads()?;
     let mesh = around.mesh()?;
@@ -42,13 +39,14 @@ pub(super) fn fits(
         )
     })?;
     let coarse = mesh.max(TUNING.evaluation.mesh * pitch(ply));
-    Ok(Some(PlanSheets { nodes, coarse_nodes: around.nodes(coarse), keep: settings.sheet.keep }))
+    Ok(PlanSheets { nodes, coarse_nodes: around.nodes(coarse), keep: settings.sheet.keep })
 }
 
 /// Refuses a material that does not say how it resists tension, shear and bending; `span` is where the scene names it.
 fn stiffness(
     span: &Range<usize>,
     material: &Material,
+    otherwise: &str,
     document: &Document,
 ) -> Result<(), SceneError> {
     let rigid = match material.section {
@@ -80,11 +78,12 @@ fn stiffness(
         missing.iter().map(|(.., key, test)| format!("{key} from {test}")).collect();
     Err(document.error(
         span.clone(),
-        format!("the material {} has no stiffness in {}, which the sheet needs", material.name, listed(&kinds)),
         format!(
-            "give the material its {}; or write kind = \"catenaries\" in [model], which need none of that",
-            remedies.join(", and its ")
+            "the material {} has no stiffness in {}, which the sheet needs",
+            material.name,
+            listed(&kinds)
         ),
+        format!("give the material its {}; or {otherwise}", remedies.join(", and its ")),
     ))
 }
 

@@ -10,10 +10,10 @@ use super::places::Places;
 use super::quantity::{Length, Quantity};
 use super::rectangle::Rectangle;
 use super::usual;
+use plydrape::layup::Target;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;
 use plydrape::ply::{Grid, Ply, directions, gripper_name};
-use plydrape::scene::Target;
 use std::ops::Range;
 
 /// Distance of neighbors at the start as a share of the fabric between them, unless given: that of Krogh

@@ -6,10 +6,10 @@ use super::file::TargetTable;
 use super::layup::{free, layup, round};
 use super::located::Located;
 use super::places::{Places, X, Y, Z, csv_file, point};
+use plydrape::layup::Target;
 use plydrape::mold::Mold;
 use plydrape::net::{CurveError, Free, LayupError, Missing, Net, Reason, Seeds, Wanted};
 use plydrape::ply::{Ply, gripper_name};
-use plydrape::scene::Target;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -5,10 +5,11 @@ use super::file::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 use super::heading::{coordinates, pose};
 use super::layup::round;
 use super::located::Located;
-use super::usual;
-use plydrape::mold::Pose;
-use plydrape::ply::Ply;
-use plydrape::scene::{Limits, Settings};
+use super::quantity::{AngularRate, Length, Speed};
+use super::usual::Usual;
+use plydrape::geometry::Pose;
+use plydrape::layup::Layup;
+use plydrape::measure::{Limits, Name, Practice};
 use plydrape::tool::{Axis, Tool};
 
 /// Smallest and largest angular speed (rad/s) and acceleration (rad/s²) of a frame.
@@ -18,12 +19,11 @@ const LONGEST: f64 = 10.0;
 /// Smallest and largest speed of an axis (m/s).
 const SPEEDS: [f64; 2] = [1e-5, 1e2];
 
-/// Checks the table `[tool]`; `start` is where the grippers of the ply start (m).
+/// Checks the table `[tool]` of a layup whose grippers start at `start` (m).
 pub(super) fn tool(
     table: &ToolTable,
-    ply: &Ply,
+    layup: &Layup,
     start: &[[f64; 3]],
-    settings: &Settings,
     limits: &Limits,
     document: &Document,
 ) -> Result<Tool, SceneError> {
@@ -43,7 +43,7 @@ pub(super) fn tool(
     Ok(Tool {
         turn_rate: match &table.turn_rate {
             Some(rate) => {
-                rate.believed(document, &usual::TURN)?;
+                rate.believed(document, &Usual::of::<AngularRate>(&Practice::TURN))?;
                 rate.within_for(document, TURNS, "a frame")?
             }
             None => usual.turn_rate,
@@ -52,11 +52,11 @@ pub(super) fn tool(
             Some(rate) => rate.within_for(document, TURNS, "a frame")?,
             None => usual.turn_acceleration,
         },
-        fixed_pads: fixed_pads(table, ply, start, settings, document)?,
+        fixed_pads: fixed_pads(table, layup, start, document)?,
         residual: table
             .residual
             .as_ref()
-            .map(|limit| limit.size(document, &usual::LIMIT))
+            .map(|limit| limit.size(document, &Usual::of::<Length>(&Practice::GAP)))
             .transpose()?,
         flange: placed(table.flange.as_ref(), document)?,
         world: placed(table.world.as_ref(), document)?,
@@ -67,23 +67,22 @@ pub(super) fn tool(
 /// The axes of pads without joints: those of the array as it stands at the start.
 fn fixed_pads(
     table: &ToolTable,
-    ply: &Ply,
+    layup: &Layup,
     start: &[[f64; 3]],
-    settings: &Settings,
     document: &Document,
 ) -> Result<Option<[[f64; 3]; 3]>, SceneError> {
     let Some(joints) = table.joints.as_ref().filter(|joints| joints.value == JointsKey::None)
     else {
         return Ok(None);
     };
-    if settings.pad.radius == 0.0 {
+    if layup.settings.pad.radius == 0.0 {
         return Err(document.error(
             joints.span.clone(),
             "a pad without a joint holds the ply in its direction, and these pads are points",
             "give the size of the pads, as in pad_radius = \"15 mm\" in [grippers]",
         ));
     }
-    Ok(Some(ply.flat_axes(start)))
+    Ok(Some(layup.ply.flat_axes(start)))
 }
 
 fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, SceneError> {
@@ -130,10 +129,10 @@ fn axis(
     };
     let speed = match &table.speed {
         Some(speed) => {
-            speed.believed(document, &usual::SPEED)?;
+            speed.believed(document, &Usual::of::<Speed>(&Practice::SPEED))?;
             speed.within_for(document, SPEEDS, "an axis")?
         }
-        None => limits.speed,
+        None => limits.most(Name::Speed),
     };
     Ok(Axis { name: name.into(), direction, stroke, speed })
 }

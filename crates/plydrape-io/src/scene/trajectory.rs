@@ -7,9 +7,8 @@ use super::located::Located;
 use super::motion::DURATIONS;
 use super::places::{Places, X, Y, Z, csv_file, index, point};
 use super::units::Dimension;
-use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
+use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
 use plydrape::ply::{GripperId, Ply, gripper_name, read_gripper_name};
-use plydrape::scene::Motion;
 use std::ops::Range;
 use std::path::Path;
 

@@ -4,7 +4,9 @@
 //! 100 m. So a plain number that is more than [`MARGIN`] away from what is found in practice is refused, with the unit in which it
 //! would make sense. A value whose unit is written out is believed: `"100 m"` is 100 m.
 
+use super::quantity::Measure;
 use super::units::{self, Dimension};
+use plydrape::measure::Practice;
 
 /// How far a plain number may be outside of what is found in practice: ten times to either side. Units that are taken for each
 /// other differ by a thousand, so that the margin can be wide and still tells them apart.
@@ -70,10 +72,6 @@ usual! {
     DRAWN: "a tolerance of", "m", [1e-6, 5e-3], "tolerances of drawings are 0.001 mm to 5 mm", LENGTHS;
     /// A part of a cell.
     MESH: "meshes of", "m", [0.001, 0.1], "meshes are 1 mm to 100 mm wide", LENGTHS;
-    /// Folds, gaps and errors of position that someone would accept.
-    LIMIT: "a limit of", "m", [0.0, 0.01], "limits of heights, gaps and positions are up to 10 mm", LENGTHS;
-    /// Room between grippers, or between bodies and what they must not touch.
-    DISTANCE: "a distance of", "m", [0.001, 0.5], "such distances are 1 mm to 500 mm", LENGTHS;
     /// How far a gripper moves in one step of a plan.
     MOVE: "moves of", "m", [0.0005, 0.2], "grippers move 0.5 mm to 200 mm in a step", LENGTHS;
     /// Waves of a mold that is off its drawing.
@@ -94,19 +92,25 @@ usual! {
     MOUNT: "a mount of", "N/m", [20.0, 1e7], "mounts have 20 N/m to 1e7 N/m", &["N/mm"];
     /// From ice to rubber.
     FRICTION: "a coefficient of friction of", "", [0.0, 2.0], "coefficients of friction are up to 2", &["%"];
-    /// What robots do.
-    SPEED: "a speed of", "m/s", [1e-3, 5.0], "grippers move at 1 mm/s to 5 m/s", &["mm/s"];
-    /// What robots do; the fastest pick small parts with 15 times the acceleration of gravity.
-    ACCELERATION: "an acceleration of", "m/s^2", [0.01, 150.0], "robots accelerate with 0.01 m/s^2 to 150 m/s^2", &["mm/s^2"];
-    /// What robots do.
-    JERK: "a jerk of", "m/s^3", [0.05, 5e3], "robots have jerks of 0.05 m/s^3 to 5000 m/s^3", &["mm/s^3"];
-    /// Half a turn a second is fast for a gripper that holds fabric.
-    TURN: "a rate of", "rad/s", [1e-3, 3.0], "grippers and frames turn at 0.001 rad/s to 3 rad/s", &["deg/s"];
     /// On the Moon and on Earth.
     GRAVITY: "a gravity of", "m/s^2", [1.6, 9.9], "gravity is 1.6 m/s^2 on the Moon and 9.81 m/s^2 on Earth", &["mm/s^2"];
 }
 
 impl Usual {
+    /// What is found in practice of a limit or what is like it.
+    pub fn of<M: Measure>(practice: &Practice) -> Self {
+        let others: &[&str] = match M::UNIT {
+            "m" => LENGTHS,
+            "m/s" => &["mm/s"],
+            "m/s^2" => &["mm/s^2"],
+            "m/s^3" => &["mm/s^3"],
+            "rad/s" => &["deg/s"],
+            _ => &[],
+        };
+        let Practice { what, found, words } = *practice;
+        Usual { what, unit: M::UNIT, found, range: words, others }
+    }
+
     /// Whether a plain number is believed. Zero and small negative numbers are not judged here: where they are wrong, it is not for
     /// their unit.
     pub fn holds(&self, value: f64) -> bool {
@@ -138,6 +142,7 @@ impl Usual {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use plydrape::measure::Name;
 
     /// Units that are taken for each other differ by a thousand: a value in the middle of what is found, said in the wrong one of
     /// them, is never believed where the range is narrower than that.
@@ -159,8 +164,9 @@ mod tests {
     fn the_guide_says_what_is_found_in_practice() {
         let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/guide/scene.md");
         let guide = std::fs::read_to_string(guide).unwrap();
-        for (name, usual) in ALL {
-            assert!(guide.contains(&format!("| {} |\n", usual.range)), "{name}: {}", usual.range);
+        let limits = Name::bounded().filter_map(|(_, bound)| Some(bound.practice?.words));
+        for words in ALL.iter().map(|(_, usual)| usual.range).chain(limits) {
+            assert!(guide.contains(&format!("| {words} |\n")), "{words}");
         }
     }
 

@@ -1,8 +1,8 @@
 //! Cells that the boundary of a ply cuts, as they are drawn.
 
 use super::SheetMesh;
+use plydrape::layup::Settings;
 use plydrape::ply::Ply;
-use plydrape::scene::Settings;
 use plydrape::sheet::Fabric;
 use serde::Serialize;
 use std::collections::HashMap;

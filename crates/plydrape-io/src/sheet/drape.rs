@@ -1,23 +1,23 @@
-//! A drape of the sheet whose kept states go into their file as they come.
+//! A drape by any model, with the states of its sheet in a file: they go there as they come, or from memory.
 
 use super::kept::SheetKept;
 use super::{SheetError, SheetMesh, SheetSpool, SheetState};
 use crate::size::{self, SizeError};
-use plydrape::planner::PlannedSheet;
+use plydrape::layup::Model;
+use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, ModelError, Step, Summary};
 use plydrape::scene::Scene;
 use plydrape::sheet::fabric::Cell;
-use plydrape::sheet::measure::Summary;
-use plydrape::sheet::{self, Drape, Fabric, Sheet, State, Tuning, is_kept};
+use plydrape::sheet::{Fabric, Sheet, State, is_kept};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
-/// Why the sheet of a scene was not draped.
+/// Why a scene was not draped by a model, or the states of its sheet were not kept.
 #[derive(Debug, thiserror::Error)]
 pub enum SheetDrapeError {
-    /// The scene has no sheet.
+    /// The scene lacks what the model needs.
     #[error(transparent)]
-    Sheet(#[from] sheet::SheetError),
+    Model(#[from] ModelError),
     /// It would take too much memory.
     #[error(transparent)]
     Size(#[from] SizeError),
@@ -31,9 +31,7 @@ impl SheetDrapeError {
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {
-            SheetDrapeError::Sheet(_) => {
-                "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
-            }
+            SheetDrapeError::Model(fault) => model_remedy(fault),
             SheetDrapeError::Size(fault) => fault.remedy(),
             SheetDrapeError::States(SheetError::Io(_)) => {
                 "make room on the disk, or choose a folder on another one with -o"
@@ -45,15 +43,28 @@ impl SheetDrapeError {
     }
 }
 
-/// A finished drape of the sheet.
+/// What would help where a scene lacks what a model needs.
+#[must_use]
+pub fn model_remedy(fault: &ModelError) -> &'static str {
+    match fault {
+        ModelError::Sheet(_) => {
+            "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
+        }
+        ModelError::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
+    }
+}
+
+/// A finished drape by one model, the states of its sheet in a file.
 #[derive(Debug)]
-pub struct SheetDrape {
-    /// What was measured, and the verdict.
+pub struct KeptDrape {
+    /// How it came out.
     pub summary: Summary,
-    /// The states that were kept.
-    pub states: SheetKept,
-    /// Time that it took; no part of the result, which is the same on every machine.
-    pub duration: Duration,
+    /// The ply in every step.
+    pub steps: Vec<Step>,
+    /// The states of the sheet that were kept; `None` of catenaries.
+    pub states: Option<SheetKept>,
+    /// Time that the model took; no part of the result, which is the same on every machine.
+    pub solving: Duration,
 }
 
 /// How large the sheet of a scene is.
@@ -73,85 +84,124 @@ impl SheetSize {
     /// # Errors
     /// [`SheetDrapeError`] if the scene has no sheet, or one that is too large.
     pub fn of(scene: &Scene) -> Result<Self, SheetDrapeError> {
-        let sheet = Sheet::new(scene)?;
-        let (nodes, states) = (sheet.fabric.places.len(), kept(scene));
+        let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
+        SheetSize::of_sheet(&sheet, scene)
+    }
+
+    fn of_sheet(sheet: &Sheet, scene: &Scene) -> Result<Self, SheetDrapeError> {
+        let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
         Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })
     }
 }
 
 /// Most states that the drape of a scene keeps.
-fn kept(scene: &Scene) -> usize {
+fn most_states(scene: &Scene) -> usize {
+    let layup = &scene.layup;
     // and the one after a release
-    let released = usize::from(scene.release.is_some());
-    scene.settings.sheet.keep.min(scene.motion.positions.len()) + released
+    let released = usize::from(layup.release.is_some());
+    layup.settings.sheet.keep.min(layup.motion.positions.len()) + released
 }
 
-/// Drapes the sheet of a scene along its motion. Its states are kept in a hidden folder within `dir`; `progress` is called
-/// with each step that is done, and `stop` is asked often whether to end there, with the states so far.
+/// Drapes a scene along its motion by a model, that which decides or the other one. States of the sheet go into a hidden folder within
+/// `dir` as they come; `progress` is called with each step that is done, and `stop` is asked often whether to end there, with what was
+/// done so far.
 ///
 /// # Errors
-/// [`SheetDrapeError`] if the scene has no sheet, one that is too large, or the disk refuses.
+/// [`SheetDrapeError`] if the scene lacks what the model needs, has a sheet that is too large, or the disk refuses.
 pub fn drape(
     scene: &Scene,
+    model: Model,
     dir: &Path,
-    stop: &dyn Fn() -> bool,
+    stop: &(dyn Fn() -> bool + Sync),
     mut progress: impl FnMut(usize),
-) -> Result<SheetDrape, SheetDrapeError> {
-    SheetSize::of(scene)?;
-    let sheet = Sheet::new(scene)?;
-    let releases = scene.release.is_some();
-    let mut spool = SheetSpool::new(dir, mesh(&sheet, releases))?;
-    let (steps, keep) = (scene.motion.positions.len(), scene.settings.sheet.keep);
-    let (mut last, mut fault) = (0, None);
-    let draped = sheet::drape(scene, Tuning::default(), stop, |seen| {
-        progress(seen.step);
-        if is_kept(seen.step, steps, keep) {
-            if let Err(refused) = spool.push(&state(seen, &sheet.fabric, releases)) {
-                fault = Some(refused);
-                return ControlFlow::Break(());
-            }
-            last = seen.step;
+) -> Result<KeptDrape, SheetDrapeError> {
+    let layup = &scene.layup;
+    let (steps, keep) = (layup.motion.positions.len(), layup.settings.sheet.keep);
+    let mut spool = match model {
+        Model::Sheet => Some(Spool::new(scene, dir)?),
+        Model::Catenaries => None,
+    };
+
+    // the states that are kept, until the disk refuses one
+    let mut fault = None;
+    let mut see = |step: usize, state: Option<&State>| {
+        progress(step);
+        if let (Some(spool), Some(state)) = (&mut spool, state)
+            && is_kept(state.step, steps, keep)
+            && let Err(refused) = spool.push(state)
+        {
+            fault = Some(refused);
+            return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
-    })?;
+    };
+    let drape = outcome::drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
     if let Some(fault) = fault {
         return Err(fault.into());
     }
-    finished(draped, last, spool, releases)
+    finished(drape, spool)
 }
 
-/// The drape that decided on a plan, with the states that it keeps. They go into a hidden folder within `dir`, as those of
-/// [`drape`], and the file is the same.
+/// A drape whose states are in memory, with these in a file: they go into a hidden folder within `dir`, as those of [`drape`], and the file
+/// is the same.
 ///
 /// # Errors
 /// [`SheetDrapeError`] if the disk refuses.
-pub fn keep(planned: PlannedSheet, dir: &Path) -> Result<SheetDrape, SheetDrapeError> {
-    let PlannedSheet { drape, states } = planned;
-    let releases = !drape.summary.events.is_empty();
-    let mut spool = SheetSpool::new(dir, mesh(&drape.sheet, releases))?;
-    let last = states.last().map_or(0, |kept| kept.step);
-    for kept in states {
-        spool.push(&state(&kept, &drape.sheet.fabric, releases))?;
-    }
-    finished(drape, last, spool, releases)
+pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, SheetDrapeError> {
+    let Some(DrapedSheet { drape: draped, states }) = &drape.sheet else {
+        return finished(drape, None);
+    };
+    let releases = !draped.events.is_empty();
+    let mut spool = Spool::of_sheet(draped.sheet.clone(), releases, dir)?;
+    states.iter().try_for_each(|state| spool.push(state))?;
+    finished(drape, Some(spool))
 }
 
-/// The drape whose states are in the spool, up to the one of step `last`; with `releases` they say which pads hold.
-fn finished(
-    draped: Drape,
-    last: usize,
-    mut spool: SheetSpool,
+/// The states of a drape of a sheet on their way into their file.
+struct Spool {
+    sheet: Sheet,
+    /// Whether pads let go, so that states say which of them hold.
     releases: bool,
-) -> Result<SheetDrape, SheetDrapeError> {
-    let Drape { sheet, summary, landing_step, last: end, duration, .. } = draped;
-    if end.step != last {
-        // where the drape ended early, its end is kept too
-        spool.push(&state(&end, &sheet.fabric, releases))?;
+    states: SheetSpool,
+    /// Step of the last state.
+    last: usize,
+}
+
+impl Spool {
+    fn new(scene: &Scene, dir: &Path) -> Result<Self, SheetDrapeError> {
+        let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
+        SheetSize::of_sheet(&sheet, scene)?;
+        Ok(Spool::of_sheet(sheet, scene.layup.release.is_some(), dir)?)
     }
-    let landed: Vec<u32> = landing_step.iter().map(|step| step.map_or(0, |n| n as u32)).collect();
-    let states = SheetKept::made(spool.finish(&landed)?);
-    Ok(SheetDrape { summary, states, duration })
+
+    fn of_sheet(sheet: Sheet, releases: bool, dir: &Path) -> Result<Self, SheetError> {
+        let states = SheetSpool::new(dir, mesh(&sheet, releases))?;
+        Ok(Spool { sheet, releases, states, last: 0 })
+    }
+
+    fn push(&mut self, kept: &State) -> Result<(), SheetError> {
+        self.last = kept.step;
+        self.states.push(&state(kept, &self.sheet.fabric, self.releases))
+    }
+}
+
+/// The drape whose states are in the spool, those of a sheet.
+fn finished(drape: Drape, spool: Option<Spool>) -> Result<KeptDrape, SheetDrapeError> {
+    let Drape { summary, steps, sheet, solving } = drape;
+    let states = match (spool, sheet) {
+        (Some(mut spool), Some(DrapedSheet { drape, .. })) => {
+            if drape.last.step != spool.last {
+                // where the drape ended early, its end is kept too
+                spool.push(&drape.last)?;
+            }
+            let landed = drape.landing_step.iter().map(|step| step.map_or(0, |n| n as u32));
+            let landed: Vec<u32> = landed.collect();
+            Some(SheetKept::made(spool.states.finish(&landed)?))
+        }
+        _ => None,
+    };
+    Ok(KeptDrape { summary, steps, states, solving })
 }
 
 /// What is the same in all states of a sheet; with `releases` these say which pads hold.

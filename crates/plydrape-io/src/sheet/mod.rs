@@ -22,7 +22,7 @@ mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
 pub(crate) use cut_cell::CutCell;
-pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape, keep};
+pub use drape::{KeptDrape, SheetDrapeError, SheetSize, drape, keep, model_remedy};
 pub(crate) use ended::{ended, overstrained};
 pub use error::SheetError;
 pub use kept::SheetKept;

@@ -2,7 +2,7 @@
 
 use super::{SheetMesh, SheetState, SheetStates};
 use crate::read::ReadError;
-use plydrape::mold::distance;
+use plydrape::geometry::distance;
 use std::collections::HashMap;
 
 impl SheetStates {

@@ -2,7 +2,7 @@
 
 use super::aligned;
 use crate::result::ResultFile;
-use plydrape::draping::record::LimitedBy;
+use plydrape::planner::LimitedBy;
 use plydrape::ply::gripper_name;
 
 /// One row for each limit that the motion meets, that of the longest time first; empty of a result without a plan.

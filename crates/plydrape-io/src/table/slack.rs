@@ -1,8 +1,8 @@
 //! The slack at the end in the currencies of an engineer: as an angle of the fibers and as the height of a wrinkle.
 
 use super::significant;
-use plydrape::draping::record::{Summary, Verdict};
-use plydrape::measure::{Name, angle_of_slack};
+use plydrape::measure::{Name, Verdict, angle_of_slack};
+use plydrape::outcome::Summary;
 
 /// The worst slack of the catenaries at the end in words, each currency once: those that have a limit of their own have a row of
 /// their own. None without slack, or where slack is not judged.

@@ -22,8 +22,9 @@
 //! | `slack_mm`, `slack_ratio`, `wrinkle_mm`, `overstretch`, `overstretch_mm` | as in `steps.csv`, of this piece; 0 for what is in contact |
 
 use super::polydata::{Array, Kind, PolyData};
-use crate::result::ResultFile;
-use plydrape::draping::record::{CatenaryState, Hold, SpanState, Step};
+use crate::result::{ResultFile, catenaries as lines_of};
+use plydrape::draping::record::{CatenaryState, Hold, SpanState};
+use plydrape::outcome::Step;
 use plydrape::ply::Kind as Family;
 
 /// A piece of a catenary.
@@ -68,7 +69,7 @@ pub(super) fn catenaries(result: &ResultFile, step: &Step) -> PolyData {
     let curves = result.curves(step);
     let (ply, gravity) = (&result.scene.ply, result.scene.settings.gravity);
     let mut pieces = Vec::new();
-    for (number, (line, curves)) in step.catenaries.iter().zip(&curves).enumerate() {
+    for (number, (line, curves)) in lines_of(step).iter().zip(&curves).enumerate() {
         for (span, points) in line.spans.iter().zip(curves) {
             let wrinkle = span.ruck(ply, gravity, line).map_or(0.0, |ruck| 1e3 * ruck.height());
             pieces.push(Piece { number, line, span: Some(span), points, wrinkle });

@@ -10,7 +10,7 @@
 //! | `target_distance_mm`, `has_target` | distance from where the ideal drape puts it (mm), and 1 where that is known; else both 0 |
 
 use super::polydata::{Array, Kind, PolyData};
-use plydrape::draping::record::{Gripper, Step};
+use plydrape::outcome::{Gripper, Step};
 use plydrape::ply::gripper_name;
 
 /// The grippers of a step.

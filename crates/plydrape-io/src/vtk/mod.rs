@@ -2,9 +2,9 @@
 //!
 //! | files | what |
 //! |---|---|
-//! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads (`ply`); none of a strip |
-//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`) |
-//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`) |
+//! | `ply.pvd`, `ply_0001.vtp` … | the surface between the catenaries in quads (`ply`); none of a strip, nor where no catenaries were draped |
+//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`); none where none were draped |
+//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`), by the model that decides |
 //! | `sheet.pvd`, `sheet_0001.vtp` … | the cells of the sheet in each step that was kept (`sheet`); none without a sheet |
 //! | `pads.pvd`, `pads_0001.vtp` … | the pads of the sheet and the forces on them |
 //! | `mold.vtp` | the mold under the drape (`mold`), if there is one |
@@ -26,6 +26,7 @@ use super::OutputError;
 use crate::result::ResultFile;
 use crate::sheet::SheetSides;
 use collection::{Collection, Part};
+use plydrape::layup::Model;
 
 /// All files: names and contents. Same result, same bytes.
 ///
@@ -41,13 +42,16 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
     let digits = result.steps.last().map_or(1, |step| step.step).to_string().len().max(4);
     let mold = mold::mold(result);
 
+    // the catenaries that decide, or those that were asked for beside
+    let lines = result.steps_of(Model::Catenaries).unwrap_or_default();
     for step in &result.steps {
+        let hanging = lines.get(step.step.saturating_sub(1));
         for (part, (name, collection)) in series.iter_mut().enumerate() {
-            let data = match *name {
-                "ply" if !surface => continue,
-                "ply" => ply::ply(result, step),
-                "catenaries" => catenaries::catenaries(result, step),
-                _ => grippers::grippers(step),
+            let data = match (*name, hanging) {
+                ("grippers", _) => grippers::grippers(step),
+                ("ply", Some(hanging)) if surface => ply::ply(result, hanging),
+                ("catenaries", Some(hanging)) => catenaries::catenaries(result, hanging),
+                _ => continue,
             };
             let file = format!("{name}_{:0digits$}.vtp", step.step);
             let own = Part { time: step.time, part, name, file: file.clone() };

@@ -15,7 +15,7 @@
 use super::polydata::{Array, Kind, PolyData};
 use crate::result::ResultFile;
 use crate::surface::Surface;
-use plydrape::draping::record::Step;
+use plydrape::outcome::Step;
 use plydrape::ply::Direction;
 
 /// Quads of a step, about, and intervals along a side of a cell, at most.
@@ -66,7 +66,7 @@ pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
     };
     let within: Vec<[usize; 2]> = quads.clone().map(|quad| quad.map(|k| k / intervals)).collect();
     let shear = |[i, j]: &[usize; 2]| {
-        let cell = step.cells.get(j * (grid.nu - 1) + i);
+        let cell = step.catenaries.as_ref().and_then(|step| step.cells.get(j * (grid.nu - 1) + i));
         cell.map_or(0.0, |cell| cell.shear_deg)
     };
     let in_cells = vec![
@@ -86,5 +86,5 @@ pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
 
 /// A vector of length one; zero stays zero.
 fn unit(vector: [f64; 3]) -> [f64; 3] {
-    plydrape::mold::vector::unit(vector).unwrap_or_default()
+    plydrape::geometry::vector::unit(vector).unwrap_or_default()
 }

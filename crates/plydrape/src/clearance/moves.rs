@@ -1,8 +1,8 @@
 //! How what bodies are mounted on moves between two times, and bounds of it.
 
 use super::poses::Poses;
+use crate::geometry::vector::{along, between, cross, norm, sub};
 use crate::mold::Pose;
-use crate::mold::vector::{along, between, cross, norm, sub};
 use crate::motion::{Attitudes, TimedMotion, slerp, turn};
 
 /// What a body is mounted on.

@@ -5,18 +5,18 @@
 //! are halved: first from sample to sample of the motion, with L the sum over the samples between, then between two samples. Balls
 //! and capsules around the bodies give the first bounds, and the pairs that are nearest at a few times the first distance to compare with.
 
-use super::body::{Mount, Solids};
 use super::moves::{Legs, Moves, Origin, Planned, Reach, Straight};
 use super::over_mold::OverMold;
 use super::poses::Poses;
-use super::solid::{Apart, Solid, between_segments};
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
-use crate::mold::vector::norm;
+use crate::bodies::{Apart, Solid, between_segments};
+use crate::bodies::{Mount, Solids};
+use crate::geometry::Point;
+use crate::geometry::vector::norm;
+use crate::layup::Layup;
 use crate::mold::{Pose, distance};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::ply::{Ply, gripper_name};
-use crate::scene::Scene;
 use rayon::prelude::*;
 
 /// A body of one gripper, or of the flange.
@@ -57,65 +57,53 @@ pub struct Nearest {
 impl Nearest {
     /// Who is near whom, by name.
     #[must_use]
-    pub fn label(&self, scene: &Scene) -> String {
-        label(scene, self.part, self.near)
+    pub fn label(&self, layup: &Layup) -> String {
+        label(layup, self.part, self.near)
     }
 }
 
 /// A body and what it is near to, by name.
-pub(crate) fn label(scene: &Scene, part: Part, near: Near) -> String {
-    let name = |part: Part| part_label(part, scene, &scene.ply);
+pub(crate) fn label(layup: &Layup, part: Part, near: Near) -> String {
+    let name = |part: Part| part_label(part, layup, &layup.ply);
     match near {
         Near::Part(other) => format!("{} and {}", name(part), name(other)),
         Near::Obstacle(n) => {
-            format!("{} and obstacle {}", name(part), scene.bodies.obstacles()[n].name)
+            format!("{} and obstacle {}", name(part), layup.bodies.obstacles()[n].name)
         }
         Near::Mold => format!("{} and the mold", name(part)),
     }
 }
 
-fn part_label(Part { body, gripper }: Part, scene: &Scene, ply: &Ply) -> String {
-    let name = &scene.bodies.bodies()[body].name;
+fn part_label(Part { body, gripper }: Part, layup: &Layup, ply: &Ply) -> String {
+    let name = &layup.bodies.bodies()[body].name;
     match gripper {
         Some(n) => format!("{name} of {}", gripper_name(ply.id(n))),
         None => name.clone(),
     }
 }
 
-/// The nearest pair at one time, with its time 0; none of a scene without bodies, or without anything that they could meet.
+/// The nearest pair at one time, with its time 0, resolved by a share of a `limit` (m); none of a layup without bodies, or without anything that they could meet.
 #[must_use]
-pub fn at(scene: &Scene, poses: &Poses) -> Option<Nearest> {
-    along(scene, &Straight::new(poses, poses), &[0.0], f64::INFINITY)
+pub fn at(layup: &Layup, limit: f64, poses: &Poses) -> Option<Nearest> {
+    along(layup, limit, &Straight::new(poses, poses), &[0.0], f64::INFINITY)
 }
 
 /// The nearest pair between two steps, with the share of the step as its time.
 #[must_use]
-pub(crate) fn between_steps(scene: &Scene, from: &Poses, to: &Poses) -> Option<Nearest> {
-    along(scene, &Straight::new(from, to), &[0.0, 1.0], f64::INFINITY)
-}
-
-/// The nearest pair along the steps of a search, by the lines between the grippers; its time counts steps, from 0.
-#[must_use]
-pub(crate) fn along_positions(scene: &Scene, positions: &[Vec<Point>]) -> Option<Nearest> {
-    if scene.bodies.is_empty() {
-        return None;
-    }
-    let neighbours = scene.ply.neighbours();
-    let poses = |step: &Vec<Point>| Poses::by_neighbours(scene, &neighbours, step);
-    let poses: Vec<Poses> = positions.iter().map(poses).collect();
-    if let [only] = &poses[..] {
-        return at(scene, only);
-    }
-    let legs = poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
-    let times: Vec<f64> = (0..positions.len()).map(|n| n as f64).collect();
-    along(scene, &Legs(legs), &times, f64::INFINITY)
+pub(crate) fn between_steps(
+    layup: &Layup,
+    limit: f64,
+    from: &Poses,
+    to: &Poses,
+) -> Option<Nearest> {
+    along(layup, limit, &Straight::new(from, to), &[0.0, 1.0], f64::INFINITY)
 }
 
 /// The distance of bodies from obstacles (m) at one time, if it is below `least` (m).
 #[must_use]
-pub(crate) fn from_obstacles(scene: &Scene, poses: &Poses, least: f64) -> Option<f64> {
+pub(crate) fn from_obstacles(layup: &Layup, poses: &Poses, least: f64) -> Option<f64> {
     let moves = Straight::new(poses, poses);
-    let mut search = Search::among(scene, &moves, None);
+    let mut search = Search::among(layup, least, &moves, None);
     let hulls = search.hulls(0.0);
     let mut found = least;
     for body in 0..hulls.len() {
@@ -133,17 +121,29 @@ impl Nearest {
     /// The nearest pair of a planned motion; of a tool, straight from sample to sample of the motion as it is written.
     #[must_use]
     pub(crate) fn of_motion(
-        scene: &Scene,
+        layup: &Layup,
+        limit: f64,
+        rate: f64,
         motion: &TimedMotion,
         attitudes: &Attitudes,
     ) -> Option<Nearest> {
-        Nearest::of_motion_within(scene, motion, attitudes, [0.0, motion.duration()], f64::INFINITY)
+        Nearest::of_motion_within(
+            layup,
+            limit,
+            rate,
+            motion,
+            attitudes,
+            [0.0, motion.duration()],
+            f64::INFINITY,
+        )
     }
 
     /// The same between two times of the motion (s), if it is nearer than `below` (m).
     #[must_use]
     pub(crate) fn of_motion_within(
-        scene: &Scene,
+        layup: &Layup,
+        limit: f64,
+        rate: f64,
         motion: &TimedMotion,
         attitudes: &Attitudes,
         [from, to]: [f64; 2],
@@ -153,23 +153,23 @@ impl Nearest {
             let inner = times.iter().copied().filter(|t| from < *t && *t < to);
             [from].into_iter().chain(inner).chain((from < to).then_some(to)).collect()
         };
-        if scene.tool.is_none() {
+        if layup.tool.is_none() {
             let times = within(motion.times());
-            return along(scene, &Planned { motion, attitudes }, &times, below);
+            return along(layup, limit, &Planned { motion, attitudes }, &times, below);
         }
-        let times = within(&motion.samples(scene.plan.rate).ok()?);
+        let times = within(&motion.samples(rate).ok()?);
         let poses = |t: &f64| {
             let positions = motion.at(*t);
-            Poses::of(scene, &positions, &attitudes.at(*t), &positions)
+            Poses::of(layup, &positions, &attitudes.at(*t), &positions)
         };
         let poses: Vec<Poses> = times.par_iter().map(poses).collect();
         let legs: Vec<Straight> =
             poses.par_windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
         if legs.is_empty() {
-            return at(scene, poses.first()?);
+            return at(layup, limit, poses.first()?);
         }
         let counts: Vec<f64> = (0..times.len()).map(|n| n as f64).collect();
-        let nearest = along(scene, &Legs(legs), &counts, below)?;
+        let nearest = along(layup, limit, &Legs(legs), &counts, below)?;
         let n = (nearest.time as usize).min(times.len() - 2);
         let time = times[n] + (nearest.time - n as f64) * (times[n + 1] - times[n]);
         Some(Nearest { time, ..nearest })
@@ -180,15 +180,16 @@ impl Nearest {
 /// the resolution allows.
 #[must_use]
 pub(crate) fn along(
-    scene: &Scene,
+    layup: &Layup,
+    limit: f64,
     moves: &dyn Moves,
     times: &[f64],
     below: f64,
 ) -> Option<Nearest> {
-    if scene.bodies.is_empty() || times.is_empty() {
+    if layup.bodies.is_empty() || times.is_empty() {
         return None;
     }
-    let mut search = Search::new(scene, moves);
+    let mut search = Search::new(layup, limit, moves);
     search.below = below;
     let hulls: Vec<Hulls> = times.iter().map(|time| search.hulls(*time)).collect();
     let samples = Samples { times, hulls: &hulls, ways: search.ways(times) };
@@ -271,25 +272,30 @@ enum Other {
 type Hulls = Vec<(Point, [Point; 2])>;
 
 impl<'a> Search<'a> {
-    fn new(scene: &'a Scene, moves: &'a dyn Moves) -> Self {
-        let solids = scene.bodies.made();
-        let meets_mold = scene.bodies.bodies().iter().any(|body| body.on != Mount::Pad);
-        let mold = scene.mold.as_ref().filter(|_| meets_mold);
-        Search::among(scene, moves, mold.map(|mold| OverMold::new(mold, solids)))
+    fn new(layup: &'a Layup, limit: f64, moves: &'a dyn Moves) -> Self {
+        let solids = layup.bodies.made();
+        let meets_mold = layup.bodies.bodies().iter().any(|body| body.on != Mount::Pad);
+        let mold = layup.mold.as_ref().filter(|_| meets_mold);
+        Search::among(layup, limit, moves, mold.map(|mold| OverMold::new(mold, solids)))
     }
 
     /// Over a mold, if it counts.
-    fn among(scene: &'a Scene, moves: &'a dyn Moves, mold: Option<OverMold<'a>>) -> Self {
-        let solids = scene.bodies.made();
+    fn among(
+        layup: &'a Layup,
+        limit: f64,
+        moves: &'a dyn Moves,
+        mold: Option<OverMold<'a>>,
+    ) -> Self {
+        let solids = layup.bodies.made();
         let mut judged = Vec::new();
-        for (n, body) in scene.bodies.bodies().iter().enumerate() {
+        for (n, body) in layup.bodies.bodies().iter().enumerate() {
             let Solid { ball, capsule, .. } = solids.bodies[n];
             let mut add = |gripper: Option<usize>, origin: Origin| {
                 let part = Part { body: n, gripper };
                 let reach = norm(ball.0) + ball.1;
                 judged.push(Judged { part, origin, mount: body.on, ball, capsule, reach });
             };
-            let grippers = 0..scene.ply.grippers();
+            let grippers = 0..layup.ply.grippers();
             match body.on {
                 Mount::Pad => grippers.for_each(|g| add(Some(g), Origin::Pad(g))),
                 Mount::Stem => grippers.for_each(|g| add(Some(g), Origin::Stem(g))),
@@ -301,9 +307,9 @@ impl<'a> Search<'a> {
             moves,
             solids,
             judged,
-            obstacles: scene.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
+            obstacles: layup.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
             mold,
-            limit: scene.limits.clearance,
+            limit,
             below: f64::INFINITY,
             best: None,
         }

@@ -13,10 +13,10 @@
 //!
 //! Waves and plies that lie on a mold count with their greatest height everywhere.
 
-use super::body::Solids;
-use super::solid::{Apart, Solid};
-use super::surface::{Patch, Surface};
 use super::tuning::TUNING;
+use crate::bodies::Solids;
+use crate::bodies::{Apart, Solid};
+use crate::bodies::{Patch, Surface};
 use crate::mold::{Face, Mold, Pose, Relief, Steepness};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

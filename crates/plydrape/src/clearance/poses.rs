@@ -1,10 +1,9 @@
 //! Where the pads, the stems and the flange are at one time.
 
-use crate::draping::attitude::by_neighbours;
+use crate::geometry::vector::{along, dot, sub};
+use crate::layup::Layup;
 use crate::mold::Pose;
-use crate::mold::vector::{along, dot, sub};
-use crate::ply::Neighbours;
-use crate::scene::Scene;
+use crate::ply::{Neighbours, orientations};
 
 /// Where everything is that bodies are mounted on, at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,16 +29,16 @@ impl Poses {
         }
     }
 
-    /// Of the grippers of a scene, with the stems and the flange of its tool if one carries them.
+    /// Of the grippers of a layup, with the stems and the flange of its tool if one carries them.
     #[must_use]
     pub fn of(
-        scene: &Scene,
+        layup: &Layup,
         positions: &[[f64; 3]],
         turned: &[[f64; 4]],
         commanded: &[[f64; 3]],
     ) -> Self {
         let free = Poses::free(positions, turned, commanded);
-        let Some(tool) = &scene.tool else { return free };
+        let Some(tool) = &layup.tool else { return free };
         let frame = tool.posture(commanded).frame;
         let stem = |p: &[f64; 3]| Pose { position: *p, ..frame };
         let stems = commanded.iter().map(stem).collect();
@@ -50,15 +49,15 @@ impl Poses {
     /// joints: before any drape.
     #[must_use]
     pub(crate) fn by_neighbours(
-        scene: &Scene,
+        layup: &Layup,
         neighbours: &[Neighbours],
         positions: &[[f64; 3]],
     ) -> Self {
-        let turned = match scene.fixed_pads(positions) {
+        let turned = match layup.fixed_pads(positions) {
             Some(fixed) => vec![fixed; positions.len()],
-            None => by_neighbours(&scene.ply, neighbours, positions),
+            None => orientations(&layup.ply, neighbours, positions),
         };
-        Poses::of(scene, positions, &turned, positions)
+        Poses::of(layup, positions, &turned, positions)
     }
 
     /// The same carried as one body: each place p becomes `centre + R (p − from)`. Stems turn with a flange, and stay upright without.

@@ -3,22 +3,25 @@
 use super::moves::{Legs, Moves, Origin, Planned, Straight};
 use super::nearest::along;
 use super::over_mold::OverMold;
-use super::solid::Solid;
-use super::surface::Surface;
 use super::*;
-use crate::mold::vector::norm;
+use crate::bodies::{Bodies, Body, Mount, Obstacle, Shape, Solid, Surface};
+use crate::geometry::vector::norm;
+use crate::layup::{Layup, Settings};
 use crate::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface as Height, Torus,
     distance,
 };
+use crate::motion::Motion;
 use crate::motion::{Attitudes, Bounds, TimedMotion};
 use crate::ply::{Grid, cloth};
-use crate::scene::{Motion, Scene, Settings};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
-/// A scene of so many grippers, without a mold.
-fn scene(grid: Grid, bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Scene {
+/// The limit of clearances that are resolved (m).
+const LIMIT: f64 = 5e-3;
+
+/// A layup of so many grippers, without a mold.
+fn layup(grid: Grid, bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Layup {
     let (ply, settings) = (cloth(grid), Settings::default());
     let place = |n: usize| {
         let [i, j] = grid.id(n).map(|k| 0.1 * k as f64);
@@ -26,7 +29,7 @@ fn scene(grid: Grid, bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Scene {
     };
     let positions = vec![(0..grid.grippers()).map(place).collect()];
     let motion = Motion { times: vec![0.0], positions };
-    Scene { bodies: Bodies::new(bodies, obstacles), ..Scene::new(ply, settings, motion) }
+    Layup { bodies: Bodies::new(bodies, obstacles), ..Layup::new(ply, settings, motion) }
 }
 
 fn body(name: &str, on: Mount, shape: Shape) -> Body {
@@ -307,23 +310,23 @@ proptest! {
     ) {
         let bodies = vec![body("cup", Mount::Pad, cylinder(0.015, 0.0, 0.06))];
         let obstacle = Obstacle { name: "clamp".into(), pose: place, shape: cube(0.04) };
-        let scene = scene(Grid { nu: 2, nv: 1 }, bodies, vec![obstacle]);
+        let layup = layup(Grid { nu: 2, nv: 1 }, bodies, vec![obstacle]);
         let poses = |n: usize| Poses {
             pads: ends[2 * n..2 * n + 2].to_vec(),
             stems: ends[2 * n..2 * n + 2].to_vec(),
             flange: None,
         };
         let (from, to) = (poses(0), poses(1));
-        let found = super::between_steps(&scene, &from, &to).unwrap();
+        let found = super::between_steps(&layup, LIMIT, &from, &to).unwrap();
         let straight = Straight::new(&from, &to);
         let mut least = f64::INFINITY;
         for k in 0..=2000 {
             let time = f64::from(k) / 2000.0;
             let pads: Vec<Pose> = (0..2).map(|n| straight.pose(Origin::Pad(n), time)).collect();
             let now = Poses { stems: pads.clone(), pads, flange: None };
-            least = least.min(super::at(&scene, &now).unwrap().distance);
+            least = least.min(super::at(&layup, LIMIT, &now).unwrap().distance);
         }
-        let resolution = 0.011 * found.distance.abs().max(scene.limits.clearance);
+        let resolution = 0.011 * found.distance.abs().max(LIMIT);
         if found.distance > 0.0 {
             prop_assert!(least >= found.distance - resolution, "{} {}", least, found.distance);
             prop_assert!(found.distance >= least - 1e-4, "{} {}", least, found.distance);
@@ -432,21 +435,21 @@ fn a_wall_between_two_steps_is_met() {
     let bodies = vec![body("cup", Mount::Pad, cylinder(0.01, 0.0, 0.05))];
     let shape = Shape::Box { size: [0.001, 1.0, 1.0], at: [0.0; 3] };
     let wall = Obstacle { name: "wall".into(), pose: Pose::upright([0.5, 0.0, 0.2]), shape };
-    let scene = scene(Grid { nu: 2, nv: 1 }, bodies, vec![wall]);
+    let layup = layup(Grid { nu: 2, nv: 1 }, bodies, vec![wall]);
     let level = [[0.0, 0.0, 0.0, 1.0]; 2];
     let poses = |x: f64| {
         let places = [[x, 0.0, 0.1], [x + 0.1, 0.0, 0.1]];
         Poses::free(&places, &level, &places)
     };
     let (from, to) = (poses(0.0), poses(1.0));
-    let ends = [&from, &to].map(|poses| super::at(&scene, poses).unwrap().distance);
+    let ends = [&from, &to].map(|poses| super::at(&layup, LIMIT, poses).unwrap().distance);
     assert!(ends.iter().all(|distance| *distance > 0.07), "{ends:?}");
-    let found = super::between_steps(&scene, &from, &to).unwrap();
+    let found = super::between_steps(&layup, LIMIT, &from, &to).unwrap();
     assert!(found.distance <= 0.0, "{found:?}");
     assert_eq!(found.near, Near::Obstacle(0));
     assert!((found.place[0] - 0.5).abs() < 0.02, "{found:?}");
-    assert_eq!(found.label(&scene).split(" of ").next(), Some("cup"));
-    assert!(found.label(&scene).ends_with("and obstacle wall"), "{}", found.label(&scene));
+    assert_eq!(found.label(&layup).split(" of ").next(), Some("cup"));
+    assert!(found.label(&layup).ends_with("and obstacle wall"), "{}", found.label(&layup));
 }
 
 /// Pads are not judged against the mold, stems are; bodies of one gripper are not judged against each other, those of two are.
@@ -458,10 +461,10 @@ fn what_belongs_together_is_not_judged() {
     let places = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]];
     let poses = Poses::free(&places, &[[0.0, 0.0, 0.0, 1.0]; 2], &places);
     let near = |bodies: Vec<Body>, with_mold: bool| {
-        let mut scene = scene(grid, bodies, Vec::new());
+        let mut layup = layup(grid, bodies, Vec::new());
         let plane = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
-        scene.mold = with_mold.then_some(Mold::Plane(plane));
-        super::at(&scene, &poses)
+        layup.mold = with_mold.then_some(Mold::Plane(plane));
+        super::at(&layup, LIMIT, &poses)
     };
     assert!((near(vec![pad(), stem()], false).unwrap().distance - 0.07).abs() < 1e-9);
     assert!((near(vec![pad()], true).unwrap().distance - 0.07).abs() < 1e-9);
@@ -481,19 +484,19 @@ fn a_flange_is_judged_against_what_stands() {
     ];
     let pose = Pose::upright([0.5, 0.0, 0.25]);
     let clamp = Obstacle { name: "clamp".into(), pose, shape: cube(0.1) };
-    let scene = scene(Grid { nu: 2, nv: 1 }, bodies, vec![clamp]);
+    let layup = layup(Grid { nu: 2, nv: 1 }, bodies, vec![clamp]);
     let places = [[0.0, 0.0, 0.1], [0.1, 0.0, 0.1]];
     let mut poses = Poses::free(&places, &[[0.0, 0.0, 0.0, 1.0]; 2], &places);
     poses.flange = Some(Pose::upright([0.05, 0.0, 0.25]));
-    let found = super::at(&scene, &poses).unwrap();
+    let found = super::at(&layup, LIMIT, &poses).unwrap();
     assert!((found.distance - 0.09).abs() < 1e-9, "{found:?}");
     poses.flange = Some(Pose::upright([0.37, 0.0, 0.25]));
-    let found = super::at(&scene, &poses).unwrap();
+    let found = super::at(&layup, LIMIT, &poses).unwrap();
     assert!((found.distance - 0.03).abs() < 1e-9, "{found:?}");
     assert_eq!((found.part, found.near), (Part { body: 0, gripper: None }, Near::Obstacle(0)));
 }
 
-/// A scene that is a thousand times as large, its limit too, has distances a thousand times as large, at the same time.
+/// A layup that is a thousand times as large, its limit too, has distances a thousand times as large, at the same time.
 #[test]
 fn a_scaled_cell_has_scaled_clearances() {
     let of = |scale: f64| {
@@ -504,17 +507,20 @@ fn a_scaled_cell_has_scaled_clearances() {
         let pose = Pose::new([0.2, 0.03, 0.1].map(|c| scale * c), [0.3, 0.2, 0.1]);
         let shape = cube(0.04 * scale);
         let clamp = Obstacle { name: "clamp".into(), pose, shape };
-        let mut scene = scene(Grid { nu: 2, nv: 1 }, bodies, vec![clamp]);
-        scene.limits.clearance *= scale;
+        let mut layup = layup(Grid { nu: 2, nv: 1 }, bodies, vec![clamp]);
         let plane = Plane { point: [0.0, 0.0, -0.02 * scale], normal: [0.0, 0.0, 1.0] };
-        scene.mold = Some(Mold::Plane(plane));
+        layup.mold = Some(Mold::Plane(plane));
         let step = |x: f64| {
             vec![[x, 0.0, 0.2], [x + 0.1, 0.01, 0.2]]
                 .into_iter()
                 .map(|p: [f64; 3]| p.map(|c| scale * c))
                 .collect::<Vec<_>>()
         };
-        super::along_positions(&scene, &[step(0.0), step(0.2), step(0.5)]).unwrap()
+        let neighbours = layup.ply.neighbours();
+        let poses = [step(0.0), step(0.2), step(0.5)]
+            .map(|step| Poses::by_neighbours(&layup, &neighbours, &step));
+        let legs = poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
+        along(&layup, LIMIT * scale, &Legs(legs), &[0.0, 1.0, 2.0], f64::INFINITY).unwrap()
     };
     let (one, thousand) = (of(1.0), of(1e3));
     assert!((thousand.distance / one.distance - 1e3).abs() < 1e-3, "{one:?} {thousand:?}");
@@ -532,15 +538,15 @@ fn no_sample_of_a_planned_motion_is_nearer_than_is_reported() {
     ];
     let pose = Pose::new([0.12, 0.27, 0.05], [0.2, 0.0, 0.5]);
     let clamp = Obstacle { name: "clamp".into(), pose, shape: cube(0.04) };
-    let scene = scene(Grid { nu: 2, nv: 1 }, bodies, vec![clamp]);
-    let found = Nearest::of_motion(&scene, &motion, &attitudes).unwrap();
+    let layup = layup(Grid { nu: 2, nv: 1 }, bodies, vec![clamp]);
+    let found = Nearest::of_motion(&layup, LIMIT, 100.0, &motion, &attitudes).unwrap();
     let moves = Planned { motion: &motion, attitudes: &attitudes };
     let mut least = f64::INFINITY;
     for k in 0..=20_000 {
         let time = motion.duration() * f64::from(k) / 20_000.0;
-        least = least.min(along(&scene, &moves, &[time], f64::INFINITY).unwrap().distance);
+        least = least.min(along(&layup, LIMIT, &moves, &[time], f64::INFINITY).unwrap().distance);
     }
-    let resolution = 0.011 * found.distance.abs().max(scene.limits.clearance);
+    let resolution = 0.011 * found.distance.abs().max(LIMIT);
     assert!(found.distance > 0.0 && least >= found.distance - resolution, "{least} {found:?}");
     assert!(found.distance >= least - 1e-5, "{least} {found:?}");
 }

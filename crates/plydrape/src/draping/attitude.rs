@@ -1,9 +1,10 @@
 //! How a gripper is tilted: its ball joint follows the ply, and a pad without a joint the frame that carries it.
 
-use super::spans::Point;
 use super::tuning::TUNING;
 use crate::equilibrium::{Solver, heading};
-use crate::mold::vector::{cross, dot, unit};
+use crate::geometry::Point;
+use crate::geometry::rotation::{continued, normal, of_tangents, oriented, x_axis};
+use crate::geometry::vector::unit;
 use crate::ply::{Grid, Neighbours, Ply, tangents};
 
 /// Slopes of the ply at a gripper and the orientation that follows from them.
@@ -36,8 +37,9 @@ impl Attitude {
         }
         let own = normal(self.quaternion);
         let mixed = [0, 1, 2].map(|n| (1.0 - share) * own[n] + share * mold[n]);
-        let normal = unit(mixed).unwrap_or(own);
-        Attitude { slope: self.slope, ..oriented(normal, x_axis(self.quaternion), before) }
+        let mixed = unit(mixed).unwrap_or(own);
+        let quaternion = continued(oriented(mixed, x_axis(self.quaternion)), before);
+        Attitude { slope: self.slope, tilt: mixed[2].clamp(-1.0, 1.0).acos(), quaternion }
     }
 }
 
@@ -70,22 +72,6 @@ pub fn attitude(
     across(tangent(u, slope[0]), tangent(v, slope[1]), slope, before)
 }
 
-/// How each gripper is turned (x, y, z, w) by the lines to its neighbors, whatever the ply between them does.
-#[must_use]
-pub fn by_neighbours(ply: &Ply, neighbours: &[Neighbours], positions: &[Point]) -> Vec<[f64; 4]> {
-    let one = |n: usize| {
-        let [u, v] = tangents(ply, neighbours, positions, n);
-        across(u, v, [None; 2], None).quaternion
-    };
-    (0..positions.len()).map(one).collect()
-}
-
-/// An orientation (x, y, z, w) turned so that its z axis is along a unit normal, its x axis as near to what it was as that allows.
-#[must_use]
-pub fn on_normal(turned: [f64; 4], normal: Point) -> [f64; 4] {
-    oriented(normal, x_axis(turned), None).quaternion
-}
-
 /// The attitude of a gripper at which u and v run along two tangents.
 fn across(
     along_u: Point,
@@ -93,85 +79,11 @@ fn across(
     slope: [Option<f64>; 2],
     before: Option<[f64; 4]>,
 ) -> Attitude {
-    let up = [0.0, 0.0, 1.0];
-    let normal =
-        unit(cross(along_u, along_v)).map_or(up, |n| if n[2] < 0.0 { n.map(|x| -x) } else { n });
-    let x = unit(along_u).unwrap_or([1.0, 0.0, 0.0]);
-    Attitude { slope, ..oriented(normal, x, before) }
+    let quaternion = continued(of_tangents(along_u, along_v), before);
+    Attitude { slope, tilt: upright_angle(quaternion), quaternion }
 }
 
-/// With its z axis along a unit normal and its x axis as near to `along` as that allows.
-fn oriented(normal: Point, along: Point, before: Option<[f64; 4]>) -> Attitude {
-    let aside = dot(along, normal);
-    let x = unit([0, 1, 2].map(|n| along[n] - aside * normal[n])).unwrap_or([1.0, 0.0, 0.0]);
-    let quaternion = continued(quaternion([x, cross(normal, x), normal]), before);
-    Attitude { slope: [None; 2], tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
-}
-
-/// An orientation (x, y, z, w) with the sign that continues the one before.
-#[must_use]
-pub fn continued(quaternion: [f64; 4], before: Option<[f64; 4]>) -> [f64; 4] {
-    let cosine = |before: [f64; 4]| quaternion.iter().zip(before).map(|(a, b)| a * b).sum::<f64>();
-    if before.is_some_and(|before| cosine(before) < 0.0) {
-        return quaternion.map(|c| -c);
-    }
-    quaternion
-}
-
-/// The x axis of an orientation (x, y, z, w).
-fn x_axis([x, y, z, w]: [f64; 4]) -> Point {
-    [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)]
-}
-
-/// Unit normal of the ply at a gripper: the z axis of its orientation (x, y, z, w).
-#[must_use]
-pub fn normal([x, y, z, w]: [f64; 4]) -> Point {
-    [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]
-}
-
-/// Unit quaternion (x, y, z, w) of the rotation whose columns are the given axes.
-pub fn quaternion([x, y, z]: [Point; 3]) -> [f64; 4] {
-    let trace = x[0] + y[1] + z[2];
-    let q = if trace > 0.0 {
-        [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace]
-    } else if x[0] >= y[1] && x[0] >= z[2] {
-        [1.0 + x[0] - y[1] - z[2], y[0] + x[1], z[0] + x[2], y[2] - z[1]]
-    } else if y[1] >= z[2] {
-        [y[0] + x[1], 1.0 + y[1] - x[0] - z[2], z[1] + y[2], z[0] - x[2]]
-    } else {
-        [z[0] + x[2], z[1] + y[2], 1.0 + z[2] - x[0] - y[1], x[1] - y[0]]
-    };
-    let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
-    q.map(|c| c / length)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A quaternion turns the unit vectors into the axes it was made of, from any of its four branches.
-    #[test]
-    fn a_quaternion_turns_the_unit_vectors_into_the_axes() {
-        let (s, c) = 0.6_f64.sin_cos();
-        let flip = |a: Point| [a[0], -a[1], -a[2]];
-        let axes = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]];
-        let cases = [
-            axes,
-            [axes[1], axes[2], axes[0]],
-            axes.map(flip),
-            [[-c, -s, 0.0], [s, -c, 0.0], [0.0, 0.0, 1.0]],
-            [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
-        ];
-        for axes in cases {
-            let [x, y, z, w] = quaternion(axes);
-            let turned = [
-                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
-                [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
-                [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
-            ];
-            for (a, b) in turned.iter().flatten().zip(axes.iter().flatten()) {
-                assert!((a - b).abs() < 1e-15, "{axes:?} {turned:?}");
-            }
-        }
-    }
+/// Angle between the z axis of an orientation (x, y, z, w) and the vertical (rad).
+fn upright_angle(quaternion: [f64; 4]) -> f64 {
+    normal(quaternion)[2].clamp(-1.0, 1.0).acos()
 }

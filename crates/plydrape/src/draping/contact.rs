@@ -10,15 +10,15 @@
 //! the tolerance over a short length: otherwise every step would add a little contact to a ply that does not move, and
 //! the result would depend on the number of steps.
 
-use super::bracket::farthest;
 use super::bridge::Bridge;
 use super::gap::{GapSamples, Run};
 use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
-use crate::mold::vector::{cross, unit};
+use crate::geometry::bracket::farthest;
+use crate::geometry::vector::{cross, unit};
+use crate::layup::ContactSettings;
 use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::{ContactSegment, Fibres, LandedCell, shear};
-use crate::scene::ContactSettings;
 
 /// A diagonal about to land, and its cell at that moment.
 ///

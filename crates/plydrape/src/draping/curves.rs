@@ -5,14 +5,14 @@
 //! shown, not the solve.
 
 use super::misfit::taut;
-use super::record::{Hold, SpanState, Step};
+use super::record::{CatenaryState, Hold, SpanState};
 use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
 use crate::catenary::{EndCondition, Profile, Span, SpanState as Tension};
+use crate::geometry::vector::along;
+use crate::layup::Settings;
 use crate::mold::Mold;
-use crate::mold::vector::along;
 use crate::ply::{Fibres, Lines, Ply};
-use crate::scene::Settings;
 use std::sync::{Arc, OnceLock};
 
 /// Points of a span in a record.
@@ -23,18 +23,20 @@ pub fn hanging(span: &FreeSpan) -> Vec<Point> {
     (0..STATIONS).map(|n| span.point(n as f64 / (STATIONS - 1) as f64)).collect()
 }
 
-/// The curves of a step (m): for each catenary, one for each of its [`crate::draping::record::CatenaryState::spans`] from its first end to its
-/// second. Slack of a lying segment is drawn as a ruck; a catenary that lies whole has its curve in its contact and none here.
+/// The curves of a recorded step (m): for each of its `catenaries`, one for each of its
+/// [`spans`](crate::draping::record::CatenaryState::spans) from its first end to its second. `positions` are those of its grippers (m).
+/// Slack of a lying segment is drawn as a ruck; a catenary that lies whole has its curve in its contact and none here.
 #[must_use]
 pub fn curves(
     ply: &Ply,
     settings: &Settings,
     mold: Option<&Mold>,
-    step: &Step,
+    positions: &[Point],
+    catenaries: &[CatenaryState],
 ) -> Vec<Vec<Vec<Point>>> {
-    let recorded = Recorded { ply, lines: ply.lines(), settings, step };
-    let mut out: Vec<Vec<Vec<Point>>> = Vec::with_capacity(step.catenaries.len());
-    for (n, catenary) in step.catenaries.iter().enumerate() {
+    let recorded = Recorded { ply, lines: ply.lines(), settings, positions, catenaries };
+    let mut out: Vec<Vec<Vec<Point>>> = Vec::with_capacity(catenaries.len());
+    for (n, catenary) in catenaries.iter().enumerate() {
         let curve = |span: &SpanState| match (span.hold, mold) {
             (Hold::Lying, Some(mold)) => recorded.lying(n, span, mold),
             _ => hanging(&recorded.span(n, span)),
@@ -47,34 +49,39 @@ pub fn curves(
     out
 }
 
-/// The free spans of a step as they hang (m), each with its catenary; none is drawn through another one.
-pub(crate) fn free_curves(ply: &Ply, settings: &Settings, step: &Step) -> Vec<(usize, Vec<Point>)> {
-    let recorded = Recorded { ply, lines: ply.lines(), settings, step };
-    let mut out = Vec::with_capacity(step.catenaries.len());
-    for (n, catenary) in step.catenaries.iter().enumerate() {
+/// The free spans of a recorded step as they hang (m), each with its catenary; none is drawn through another one.
+pub(crate) fn free_curves(
+    ply: &Ply,
+    settings: &Settings,
+    positions: &[Point],
+    catenaries: &[CatenaryState],
+) -> Vec<(usize, Vec<Point>)> {
+    let recorded = Recorded { ply, lines: ply.lines(), settings, positions, catenaries };
+    let mut out = Vec::with_capacity(catenaries.len());
+    for (n, catenary) in catenaries.iter().enumerate() {
         let free = catenary.spans.iter().filter(|span| span.hold != Hold::Lying);
         out.extend(free.map(|span| (n, hanging(&recorded.span(n, span)))));
     }
     out
 }
 
-/// A step and what its record leaves to the scene.
+/// A step and what its record leaves to the layup.
 struct Recorded<'a> {
     ply: &'a Ply,
     lines: Arc<Lines>,
     settings: &'a Settings,
-    step: &'a Step,
+    positions: &'a [Point],
+    catenaries: &'a [CatenaryState],
 }
 
 impl Recorded<'_> {
     fn grippers(&self, catenary: usize) -> [Point; 2] {
-        let place = |gripper: usize| self.step.grippers[gripper].position;
-        self.lines.ends(catenary).map(place)
+        self.lines.ends(catenary).map(|gripper| self.positions[gripper])
     }
 
     /// A span that hangs or is straight, as it was solved.
     fn span(&self, n: usize, span: &SpanState) -> FreeSpan {
-        let catenary = &self.step.catenaries[n];
+        let catenary = &self.catenaries[n];
         let [first, second] = self.grippers(n);
         let contact = catenary.contact.as_ref().map(|contact| &contact.points);
         let ends = match (contact, span.segment) {
@@ -121,7 +128,7 @@ impl Recorded<'_> {
 
     /// A segment that lies: its slack stands up as a ruck in its middle.
     fn lying(&self, n: usize, span: &SpanState, mold: &Mold) -> Vec<Point> {
-        let catenary = &self.step.catenaries[n];
+        let catenary = &self.catenaries[n];
         let Some(contact) =
             catenary.contact.as_ref().filter(|contact| contact.length() < catenary.length)
         else {
@@ -146,7 +153,7 @@ impl Recorded<'_> {
     /// For each cell whose diagonals hang whole and miss each other: the lower one's catenary and its points (m), drawn through
     /// the higher one.
     fn lowered(&self) -> Vec<(usize, Vec<Point>)> {
-        let catenaries = &self.step.catenaries;
+        let catenaries = self.catenaries;
         let mut out = Vec::new();
         for cell in self.lines.cells().iter().filter(|cell| cell.fibres == Fibres::Sides) {
             let pair = cell.bias.map(|bias| bias.list()[0]);

@@ -1,8 +1,8 @@
 //! Gap samples: how far a span is from the mold along its run, and where it touches.
 
-use super::bracket::crossing;
 use super::sampling::GapCache;
 use super::spans::FreeSpan;
+use crate::geometry::bracket::crossing;
 use crate::mold::Mold;
 
 /// A run of touching points of a span, as fractions of its run.

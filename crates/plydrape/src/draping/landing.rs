@@ -2,10 +2,10 @@
 
 use super::spans::Point;
 use super::tuning::TUNING;
-use crate::mold::vector::{cross, dot, norm, sub, unit};
-use crate::mold::{SurfaceCurve, distance};
+use crate::geometry::vector::{cross, dot, norm, sub, unit};
+use crate::layup::Layup;
+use crate::mold::distance;
 use crate::ply::ContactSegment;
-use crate::scene::Scene;
 
 /// The landing errors of a contact segment.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,25 +17,16 @@ pub struct Landing {
     pub fibre_angle: Option<(f64, Point)>,
 }
 
-impl Landing {
-    /// The largest distance (m) and the point of the segment that has it.
-    #[must_use]
-    pub fn worst(&self, line: &SurfaceCurve) -> Option<(f64, Point)> {
-        let known = self.errors.iter().zip(&line.points).filter_map(|(e, p)| e.map(|e| (e, *p)));
-        known.max_by(|a, b| a.0.total_cmp(&b.0))
-    }
-}
-
 /// Fabric coordinates (u, v) (m) of a catenary at a share of its length from its first gripper.
-pub(crate) fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
-    scene.ply.lines().point(catenary, share)
+pub(crate) fn fabric(layup: &Layup, catenary: usize, share: f64) -> [f64; 2] {
+    layup.ply.lines().point(catenary, share)
 }
 
 /// Compares a contact segment with the ideal drape; none if that is not known.
-pub fn landing(scene: &Scene, catenary: usize, contact: &ContactSegment) -> Option<Landing> {
-    let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
+pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Option<Landing> {
+    let (mold, drape) = (layup.mold.as_ref()?, layup.target.as_ref()?.drape.as_ref()?);
     let line = &contact.line;
-    let at = |arc: f64| fabric(scene, catenary, arc / contact.length);
+    let at = |arc: f64| fabric(layup, catenary, arc / contact.length);
     let place = |arc: f64| drape.place(mold, at(arc));
     let errors = line
         .arc
@@ -43,7 +34,7 @@ pub fn landing(scene: &Scene, catenary: usize, contact: &ContactSegment) -> Opti
         .zip(&line.points)
         .map(|(arc, point)| place(*arc).map(|ideal| distance(*point, ideal)))
         .collect();
-    let fibre_angle = (catenary < scene.ply.lines().edges()).then(|| {
+    let fibre_angle = (catenary < layup.ply.lines().edges()).then(|| {
         let ([from, to], [a, b]) = (contact.arc(), contact.point());
         let landed =
             unit(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;

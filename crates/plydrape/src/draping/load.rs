@@ -1,53 +1,43 @@
 //! Forces of the ply on each gripper: vertical load and horizontal pretension.
 //!
-//! Each family of edges has the weight of the whole ply in the model, so where there are two families each counts half. A line inside the ply stands for
-//! a strip one cell wide, one on its boundary for half a strip. So the loads of a hanging ply add up to its weight.
+//! Each family of edges has the weight of the whole ply in the model, so where there are two families each counts half. A line inside the
+//! ply stands for a strip one cell wide, one on its boundary for half a strip. So the loads of a hanging ply add up to its weight.
 
 use super::Snapshot;
-use crate::scene::Scene;
+use crate::layup::Layup;
 
-/// Forces of the ply on a gripper (N).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Load {
-    /// Downwards.
-    pub vertical: f64,
-    /// Horizontally along x and y.
-    pub pull: [f64; 2],
-}
-
-/// The loads of all grippers, in the order of [`crate::ply::Ply::index`].
+/// The forces of the ply on all grippers (N), in the order of [`crate::ply::Ply::index`].
 ///
 /// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
 /// artifact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
 #[must_use]
-pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
-    let (ply, lines) = (&scene.ply, scene.ply.lines());
+pub fn forces(layup: &Layup, snapshot: &Snapshot) -> Vec<[f64; 3]> {
+    let (ply, lines) = (&layup.ply, layup.ply.lines());
     if let Some(mounts) = &snapshot.mounts {
-        let load = |[x, y, z]: &[f64; 3]| Load { vertical: -z, pull: [*x, *y] };
-        return mounts.force.iter().map(load).collect();
+        return mounts.force.clone();
     }
-    let mut out = vec![Load::default(); ply.grippers()];
+    let mut out = vec![[0.0; 3]; ply.grippers()];
     for span in snapshot.shape.spans.iter().filter(|span| span.catenary < lines.edges()) {
         let share = lines.tributary(span.catenary);
         let grippers = lines.ends(span.catenary);
         let kind = lines.catenary(span.catenary).kind;
-        let half_weight = 0.5 * ply.line(kind).mass * scene.settings.gravity * span.length;
+        let half_weight = 0.5 * ply.line(kind).mass * layup.settings.gravity * span.length;
         if snapshot.contacts[span.catenary].is_some() {
-            out[grippers[span.segment]].vertical += share * half_weight;
+            out[grippers[span.segment]][2] -= share * half_weight;
             continue;
         }
         let [x, y] = span.heading();
         for (end, sign) in [(0, -1.0), (1, 1.0)] {
-            let load = &mut out[grippers[end]];
-            load.vertical += share
+            let on_gripper = &mut out[grippers[end]];
+            // each end is drawn towards the other
+            let force = -sign * share * span.force.unwrap_or(0.0);
+            on_gripper[0] += force * x;
+            on_gripper[1] += force * y;
+            on_gripper[2] -= share
                 * match &span.profile {
                     Some(profile) => sign * profile.station(end as f64 * span.run()).vertical_force,
                     None => half_weight,
                 };
-            // each end is drawn towards the other
-            let force = -sign * share * span.force.unwrap_or(0.0);
-            load.pull[0] += force * x;
-            load.pull[1] += force * y;
         }
     }
     out

@@ -6,9 +6,9 @@
 //! past the end makes a fold, which is all slack and never stretch. The path of a segment that lies on the mold runs along the mold.
 
 use super::spans::{FreeSpan, Point};
-use super::tuning::TUNING;
 use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::ContactSegment;
+use crate::state::excess;
 
 /// Fabric length and taut path of one free or lying segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,23 +32,11 @@ impl Misfit {
         self.length - self.path
     }
 
-    /// Fabric length beyond the path (m), not negative.
-    #[must_use]
-    pub fn slack(&self) -> f64 {
-        slack(self.excess(), self.whole)
-    }
-
     /// Path beyond the fabric length (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {
-        slack(-self.excess(), self.whole)
+        excess(-self.excess(), self.whole)
     }
-}
-
-/// Slack (m) of an excess of fabric (m) in a catenary of length `whole` (m): zero where the excess is negative or rounding; NaN
-/// stays NaN.
-pub fn slack(excess: f64, whole: f64) -> f64 {
-    if excess <= TUNING.length_rounding * whole { 0.0 } else { excess }
 }
 
 fn middle(a: Point, b: Point) -> Point {

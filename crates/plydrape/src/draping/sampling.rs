@@ -12,10 +12,10 @@
 //! neighbor, and is evaluated again only where both bounds leave a decision open. The samples that matter are
 //! therefore the same with and without the cache.
 
-use super::bracket::minimum;
 use super::gap::GapSamples;
 use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
+use crate::geometry::bracket::minimum;
 use crate::mold::{Mold, Steepness, distance};
 
 /// Intervals between the stations of a span.

@@ -2,12 +2,10 @@
 
 use crate::catenary::{Profile, SpanState};
 use crate::equilibrium::{Equilibrium, Solver, StateTangent};
+pub use crate::geometry::Point;
 use crate::mold::distance;
 use crate::ply::{ContactSegment, Ply};
 use std::sync::OnceLock;
-
-/// A point in space (m).
-pub type Point = [f64; 3];
 
 /// One free span as it hangs, or a line that a stretched diagonal draws.
 #[derive(Debug, Clone)]

@@ -10,8 +10,8 @@
 use super::spans::Point;
 use super::tuning::TUNING;
 use crate::equilibrium::{MountLaw, MountedSolver, Standing};
+use crate::geometry::vector::dot;
 use crate::mold::Mold;
-use crate::mold::vector::dot;
 use crate::ply::{ContactSegment, Lines};
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ impl Ground<'_> {
     /// the ply.
     fn place(&self, law: &MountLaw, pad: Point) -> Standing {
         let mut place = pad;
-        for _ in 0..TUNING.minimum_iterations {
+        for _ in 0..TUNING.pad_rounds {
             let closest = self.mold.closest_point(place);
             let resolved = TUNING.penetration * TUNING.penetration * self.tolerance;
             if !law.yields(2) || closest.distance.abs() <= resolved {

@@ -3,25 +3,23 @@
 use super::bridge::Bridge;
 use super::contact::{self, Diagonal};
 use super::gap::GapSamples;
-use super::report::Report;
 use super::sampling::GapCache;
 use super::snapshot::MountState;
 use super::spans::{FreeSpan, Point, Shape, shape};
 use super::standing::Ground;
 use super::tuning::TUNING;
-use super::{CellShear, ContactStatus, Drape, Snapshot};
+use super::{CellShear, ContactStatus, Snapshot};
 use crate::equilibrium::{Continuation, Equilibrium, MountedSolver, Solver, Status};
+use crate::layup::{Layup, Stepping};
 use crate::ply::{ContactSegment, Kind, Lines, shear};
-use crate::scene::{Scene, Stepping};
 use crate::stopwatch::Stopwatch;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// A drape under way.
 #[derive(Clone)]
 pub(crate) struct Draping<'a> {
-    scene: &'a Scene,
+    pub(super) layup: &'a Layup,
     /// The lines of the ply.
     lines: Arc<Lines>,
     /// The solver, as it was left by the last move.
@@ -42,22 +40,22 @@ pub(crate) struct Draping<'a> {
     contact_status: ContactStatus,
     /// Equilibria after which a step is not cut any further.
     pub(super) most: usize,
-    solving: Duration,
+    pub(super) solving: Duration,
 }
 
 impl<'a> Draping<'a> {
-    pub(crate) fn new(scene: &'a Scene) -> Self {
-        let count = scene.ply.lines().catenaries();
+    pub(crate) fn new(layup: &'a Layup) -> Self {
+        let count = layup.ply.lines().catenaries();
         Draping {
-            scene,
-            lines: scene.ply.lines(),
-            solver: Solver::new(&scene.ply, &scene.settings),
-            mounts: (count > 0).then(|| MountedSolver::new(&scene.ply, &scene.settings)).flatten(),
-            positions: scene.motion.positions[0].clone(),
+            layup,
+            lines: layup.ply.lines(),
+            solver: Solver::new(&layup.ply, &layup.settings),
+            mounts: (count > 0).then(|| MountedSolver::new(&layup.ply, &layup.settings)).flatten(),
+            positions: layup.motion.positions[0].clone(),
             contacts: vec![None; count],
             bridges: vec![None; count],
             deepest: None,
-            gap_cache: GapCache::new(scene.mold.as_ref(), count),
+            gap_cache: GapCache::new(layup.mold.as_ref(), count),
             equilibria: 0,
             unsolved: None,
             contact_status: ContactStatus::Followed,
@@ -66,32 +64,13 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// Drapes along the whole motion: the record, and the ply where it has come to.
-    pub(crate) fn run(
-        &mut self,
-        progress: &mut impl FnMut(usize) -> ControlFlow<()>,
-    ) -> (Drape, Option<Shape>) {
-        let mut report = Report::new(self.scene);
-        let mut last = None;
-        for step in 0..self.scene.motion.positions.len() {
-            let snapshot = self.advance(step);
-            let goes_on = report.add(&snapshot, &self.solver);
-            last = Some(snapshot.shape);
-            if progress(step + 1).is_break() || !goes_on {
-                break;
-            }
-        }
-        let (steps, summary) = report.finish();
-        (Drape { steps, summary, solving: self.solving }, last)
-    }
-
     /// Solves the equilibrium at gripper positions; where mounts are hard to balance, by all means or only by a direct search.
     fn solve(&mut self, positions: &[Point], continuation: Continuation) -> Shape {
         let watch = Stopwatch::start();
         let equilibrium: Equilibrium = match &mut self.mounts {
             None => self.solver.solve(positions, &self.contacts),
             Some(mounts) => {
-                if let Some(ground) = ground(self.scene, &self.contacts) {
+                if let Some(ground) = ground(self.layup, &self.contacts) {
                     ground.lead(mounts, positions);
                 }
                 mounts.solve(&mut self.solver, positions, &self.contacts, continuation)
@@ -103,7 +82,7 @@ impl<'a> Draping<'a> {
             self.unsolved.get_or_insert(equilibrium);
         }
         let pads = self.mounts.as_ref().map_or(positions, MountedSolver::pads);
-        shape(&self.scene.ply, &self.solver, equilibrium, pads, &self.contacts)
+        shape(&self.layup.ply, &self.solver, equilibrium, pads, &self.contacts)
     }
 
     /// Where the fabric is held (m): the pads, or the grippers themselves where their mounts are rigid.
@@ -113,7 +92,7 @@ impl<'a> Draping<'a> {
 
     /// Lets pads come to stand on the mold, and at first lifts off those that do no longer; whether any did.
     fn update_pads(&mut self, lift: bool) -> bool {
-        let (Some(mounts), Some(ground)) = (&mut self.mounts, ground(self.scene, &self.contacts))
+        let (Some(mounts), Some(ground)) = (&mut self.mounts, ground(self.layup, &self.contacts))
         else {
             return false;
         };
@@ -124,11 +103,11 @@ impl<'a> Draping<'a> {
     /// Moves the grippers to the positions of a step, counted from 0.
     pub(super) fn advance(&mut self, step: usize) -> Snapshot {
         let before = self.equilibria;
-        let goal = &self.scene.motion.positions[step];
+        let goal = &self.layup.motion.positions[step];
         let shape = self.move_to(goal);
         Snapshot {
             step: step + 1,
-            time: self.scene.motion.times[step],
+            time: self.layup.motion.times[step],
             positions: self.pads().to_vec(),
             mounts: self.mounts.as_ref().map(|mounts| MountState::of(mounts, goal)),
             contacts: self.contacts.clone(),
@@ -142,11 +121,11 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// Moves the grippers and follows the contact, by the scene's rule for steps.
+    /// Moves the grippers and follows the contact, by the layup's rule for steps.
     pub(crate) fn move_to(&mut self, goal: &[Point]) -> Shape {
         (self.unsolved, self.contact_status) = (None, ContactStatus::Followed);
         self.deepest = None;
-        let shape = match self.scene.settings.contact.stepping {
+        let shape = match self.layup.settings.contact.stepping {
             Stepping::Once => self.arrive(goal),
             Stepping::Cut => self.cut_to(goal),
         };
@@ -159,7 +138,7 @@ impl<'a> Draping<'a> {
         let shearing = self.solver.problem().shearing.iter().enumerate();
         let shear = |(cell, stretched): (usize, &Option<(f64, bool)>)| {
             let (path, falling) = (*stretched)?;
-            let sides = self.scene.ply.trellis(&self.lines.cells()[cell], &self.contacts);
+            let sides = self.layup.ply.trellis(&self.lines.cells()[cell], &self.contacts);
             Some(CellShear { angle: shear::angle(sides, path), path, falling })
         };
         shearing.map(shear).collect()
@@ -267,16 +246,16 @@ impl<'a> Draping<'a> {
 
     /// Whether a pad in the air is deeper below the mold than the tolerance.
     fn pad_is_deep(&self) -> bool {
-        let ground = ground(self.scene, &self.contacts);
+        let ground = ground(self.layup, &self.contacts);
         self.mounts.as_ref().zip(ground).is_some_and(|(mounts, ground)| ground.is_deep(mounts))
     }
 
     /// Gap samples of every span; none without a mold.
     fn gaps(&mut self, shape: &Shape) -> Vec<GapSamples> {
-        let Some(mold) = &self.scene.mold else {
+        let Some(mold) = &self.layup.mold else {
             return Vec::new();
         };
-        let tolerance = self.scene.settings.contact.tolerance;
+        let tolerance = self.layup.settings.contact.tolerance;
         shape.spans.iter().map(|span| self.gap_cache.samples(span, mold, tolerance)).collect()
     }
 
@@ -284,8 +263,8 @@ impl<'a> Draping<'a> {
     /// change are left out: those of the grippers, and second touches. Diagonals that have landed are left out too, because they
     /// are no fibers, and jump where the slopes at their grippers do.
     fn deep(&self, shape: &Shape, gaps: &[GapSamples]) -> Option<usize> {
-        let mold = self.scene.mold.as_ref()?;
-        let tolerance = self.scene.settings.contact.tolerance;
+        let mold = self.layup.mold.as_ref()?;
+        let tolerance = self.layup.settings.contact.tolerance;
         let deep = |(span, gaps): &(&FreeSpan, &GapSamples)| {
             let in_contact = self.contacts[span.catenary].is_some();
             let follows = !in_contact || span.catenary < self.lines.edges();
@@ -314,7 +293,7 @@ impl<'a> Draping<'a> {
     fn diagonal(&self, catenary: usize) -> Option<Diagonal> {
         let cells = self.lines.cells_of(catenary);
         let shear = |cell: usize| {
-            let sides = self.scene.ply.trellis(&self.lines.cells()[cell], &self.contacts);
+            let sides = self.layup.ply.trellis(&self.lines.cells()[cell], &self.contacts);
             self.solver.problem().shearing[cell].map_or(0.0, |(path, falling)| {
                 CellShear { angle: shear::angle(sides, path), path, falling }.signed()
             })
@@ -325,17 +304,17 @@ impl<'a> Draping<'a> {
             [one, _] => one?,
         };
         let cell = &self.lines.cells()[cells.clone().next()?];
-        let sides = cell.trellis.map(|side| side * self.scene.ply.length_factor);
+        let sides = cell.trellis.map(|side| side * self.layup.ply.length_factor);
         let sign = if self.lines.catenary(catenary).kind == Kind::Rising { 1.0 } else { -1.0 };
         Some(Diagonal { sides, fibres: cell.fibres, shear, sign })
     }
 
     /// Updates the contact of every span once; true if it has changed.
     fn update_contact(&mut self, shape: &Shape, gaps: &[GapSamples]) -> bool {
-        let Some(mold) = &self.scene.mold else {
+        let Some(mold) = &self.layup.mold else {
             return false;
         };
-        let rule = &self.scene.settings.contact;
+        let rule = &self.layup.settings.contact;
         let mut changed = false;
         for bridge in &mut self.bridges {
             *bridge = None;
@@ -373,11 +352,11 @@ struct Kept {
 }
 
 /// What pads on mounts that yield can stand on; none without a mold.
-fn ground<'a>(scene: &'a Scene, contacts: &'a [Option<ContactSegment>]) -> Option<Ground<'a>> {
+fn ground<'a>(layup: &'a Layup, contacts: &'a [Option<ContactSegment>]) -> Option<Ground<'a>> {
     Some(Ground {
-        mold: scene.mold.as_ref()?,
-        tolerance: scene.settings.contact.tolerance,
-        lines: scene.ply.lines(),
+        mold: layup.mold.as_ref()?,
+        tolerance: layup.settings.contact.tolerance,
+        lines: layup.ply.lines(),
         contacts,
     })
 }

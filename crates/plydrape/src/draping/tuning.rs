@@ -1,13 +1,13 @@
 //! The tuning constants of the drape. None is a length: contact is scaled by its tolerance, fabric by its own length.
 
-/// Tolerances and limits of [`super::Drape`]'s contact, steps and results.
+/// Tolerances and limits of contact, steps and what is handed over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tuning {
     /// Depth from which a span penetrates the mold, as a share of the contact tolerance. 1e-3: above the rounding of a
     /// distance, and far below a depth that is seen.
     pub penetration: f64,
     /// Stretch that a new contact may add to the free segment beside it, as a share of that segment. 1e-4: a tenth of
-    /// the overstretch that a scene allows by default.
+    /// the overstretch that a layup allows by default.
     pub contact_stretch: f64,
     /// Smallest share of a step to which a step is cut. 1/256: a fiber that still jumps farther than the tolerance then is
     /// reported as penetration.
@@ -17,15 +17,6 @@ pub(crate) struct Tuning {
     pub contact_rounds: usize,
     /// Share of the tolerance by which a bound of a distance must clear it. 1e-6: far above the rounding of distances.
     pub bound_margin: f64,
-    /// Most iterations of the search for the closest point of a span between two stations. 20: parabolas contract faster
-    /// than linearly.
-    pub minimum_iterations: usize,
-    /// Width, as a share of the run, at which that search ends. 1e-9: the distance changes by its square.
-    pub minimum_width: f64,
-    /// Most iterations of the search for the place where a touch begins. 60: as many as bisection needs.
-    pub crossing_iterations: usize,
-    /// Width, as a share of the run, at which that search ends. 1e-12: the distance is linear there.
-    pub crossing_width: f64,
     /// Heights over the mold, in contact tolerances, between which a gripper turns from the ply's normal to the mold's. A
     /// gripper stands on the mold from one tolerance on. The ply's own slope is not resolved just above: a free
     /// segment of twenty tolerances beside the gripper leads down by one of them.
@@ -33,11 +24,6 @@ pub(crate) struct Tuning {
     /// Length of a contact segment, as a share of its catenary, up to which its direction is not compared with the ideal
     /// drape. 1e-2: below it the direction is mostly the error of its two ends.
     pub shortest_direction: f64,
-    /// Length, as a share of the catenary, up to which slack and overstretch are rounding. 1e-12: sums of arc lengths keep
-    /// some thirteen digits.
-    pub length_rounding: f64,
-    /// Distance outside the workspace, as a share of the shorter side of a cell, that is rounding.
-    pub workspace_rounding: f64,
     /// Sine of the angle in plan below which the two diagonals of a cell are parallel and do not cross.
     pub parallel_diagonals: f64,
     /// Share of its run at both ends in which a diagonal is not drawn through the other one: half spans that short have no
@@ -46,6 +32,8 @@ pub(crate) struct Tuning {
     /// Pull of the mold on a pad that stands on it, as a share of the largest force of the ply, from which the pad is lifted
     /// off. 1e-6: what a balance may leave.
     pub lifting_force: f64,
+    /// Most rounds in which a pad is led to the mold. 20: each takes off all of the height but what the mold curves.
+    pub pad_rounds: usize,
     /// Least vertical part of the mold's normal with which a pad is led up or down to the mold.
     pub upright_pad: f64,
     /// Stretch of an edge, as a share of its length, beyond which a drape ends. 0.1: carbon fiber breaks at 1.5 to
@@ -62,17 +50,12 @@ pub(crate) const TUNING: Tuning = Tuning {
     smallest_cut: 1.0 / 256.0,
     contact_rounds: 50,
     bound_margin: 1e-6,
-    minimum_iterations: 20,
-    minimum_width: 1e-9,
-    crossing_iterations: 60,
-    crossing_width: 1e-12,
     landing_heights: [1.0, 10.0],
     shortest_direction: 1e-2,
-    length_rounding: 1e-12,
-    workspace_rounding: 1e-8,
     parallel_diagonals: 1e-9,
     crossing_margin: 0.01,
     lifting_force: 1e-6,
+    pad_rounds: 20,
     upright_pad: 0.1,
     breaking_stretch: 0.1,
     large_landing_error: 0.1,

@@ -15,8 +15,8 @@ use super::status::{Equilibrium, Status};
 use super::tuning::Tuning;
 use super::warm_start::WarmStart;
 use crate::catenary::{Span, SpanState};
+use crate::layup::{Settings, SlopeRule};
 use crate::ply::{ContactSegment, Lines, Ply};
-use crate::scene::{Settings, SlopeRule};
 use std::sync::Arc;
 
 /// Finds equilibria, one after the other.

@@ -1,6 +1,6 @@
-//! The scene of one real cell.
+//! The layup of one real cell.
 //!
-//! The commanded motion p_i(t) of gripper i becomes the motion of the fabric point that the scene calls the gripper's, in this order:
+//! The commanded motion p_i(t) of gripper i becomes the motion of the fabric point that the layup calls the gripper's, in this order:
 //!
 //! 1. gripper: p + a_i + s_i (p(t) − p(0)), the shift a_i and the shares s_i along the axes;
 //! 2. tool frame: turned about the mean of all grippers of the step, then shifted;
@@ -14,11 +14,12 @@
 //! small as the tilt. Limits stay as they are, those of the workspace too.
 
 use super::draw::{Draw, MaterialError, PickUpError, RigidError};
+use crate::geometry::vector::{along, sub, turned};
+use crate::layup::Layup;
 use crate::material::{Material, Section, ShearCurve};
-use crate::mold::vector::{along, sub, turned};
 use crate::mold::{Mold, Raised};
+use crate::motion::Motion;
 use crate::ply::{Ply, tangents};
-use crate::scene::{Motion, Scene};
 use crate::tool::Tool;
 use std::sync::Arc;
 
@@ -27,21 +28,20 @@ use std::sync::Arc;
 const LEAST_SHARE: f64 = 0.1;
 
 impl Draw {
-    /// The same scene as the real cell would run it, with the same commanded motion; it has no `errors` any more.
+    /// The layup as the real cell would run it, with the same commanded motion.
     ///
     /// Masses, rigidities, shear forces and lengths never fall below a tenth of the nominal ones. Grippers beyond those
     /// that were drawn have no error of their own.
     #[must_use]
-    pub fn apply(&self, scene: &Scene) -> Scene {
-        let (carried, _) = scene.carried();
-        Scene {
-            ply: self.ply(&scene.ply),
-            mold: scene.mold.as_ref().map(|mold| self.mold(mold)),
+    pub fn apply(&self, layup: &Layup) -> Layup {
+        let (carried, _) = layup.carried();
+        Layup {
+            ply: self.ply(&layup.ply),
+            mold: layup.mold.as_ref().map(|mold| self.mold(mold)),
             motion: self.motion(&carried),
-            errors: None,
             // errors are of what the tool has made: it does not take them back
-            tool: scene.tool.clone().map(|tool| Tool { with_errors: true, ..tool }),
-            ..scene.clone()
+            tool: layup.tool.clone().map(|tool| Tool { with_errors: true, ..tool }),
+            ..layup.clone()
         }
     }
 
@@ -58,9 +58,9 @@ impl Draw {
         }
     }
 
-    fn motion(&self, scene: &Scene) -> Motion {
-        let Motion { times, positions } = &scene.motion;
-        let landed = match &scene.target {
+    fn motion(&self, layup: &Layup) -> Motion {
+        let Motion { times, positions } = &layup.motion;
+        let landed = match &layup.target {
             Some(target) => Some(&target.grippers),
             None => positions.last(),
         };
@@ -76,7 +76,7 @@ impl Draw {
             }
             self.frame.apply(&mut at);
             self.mold.motion.inverse(&mut at, middle);
-            self.pick_up.apply(&scene.ply, &mut at);
+            self.pick_up.apply(&layup.ply, &mut at);
             at
         };
         Motion { times: times.clone(), positions: positions.iter().map(real).collect() }

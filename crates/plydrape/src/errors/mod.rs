@@ -7,26 +7,20 @@
 //!
 //! 1. `term`: a standard deviation or a bound;
 //! 2. `draw`: the values of one sample, each from its own place in a stream of random numbers;
-//! 3. `apply`: the scene with these values;
-//! 4. `sample`: the verdict over complete drapes of many cells, and the largest errors that a plan stands;
-//! 5. `robustness`: which of both a finished drape is judged with.
+//! 3. `apply`: the layup with these values.
+//!
+//! The verdict over complete drapes of many cells is in [`crate::outcome`].
 //!
 //! Errors are constant over one drape. All values of a sample are linear in the terms, so that [`Draw::scaled`] is the same
 //! cell with all errors larger by a factor.
 
 mod apply;
 mod draw;
-mod robustness;
-mod sample;
-#[cfg(test)]
-mod sample_tests;
 mod term;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use draw::{Draw, GripperError, MaterialError, MoldError, PickUpError, RigidError};
-pub use robustness::Robustness;
-pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
 pub use term::Term;
 
 /// How far a real cell may be from its scene.

@@ -1,14 +1,15 @@
-//! What draws and the scenes of real cells must agree with: laws of chance, rigid motions, closed forms.
+//! What draws and the layups of real cells must agree with: laws of chance, rigid motions, closed forms.
 
 use super::*;
 use crate::catenary::{EndCondition, Span};
 use crate::clearance::Poses;
 use crate::equilibrium::Solver;
+use crate::geometry::vector::{along, sub, turned};
+use crate::layup::{Layup, Model, Settings, Target};
 use crate::material::{Material, Section, ShearCurve, TensionLaw};
-use crate::mold::vector::{along, sub, turned};
 use crate::mold::{Relief, distance};
+use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
-use crate::scene::{Model, Motion, Scene, Settings, Target};
 use crate::sheet::Sheet;
 use crate::tool::{Axis, Tool};
 use rayon::prelude::*;
@@ -38,7 +39,7 @@ fn budget() -> Errors {
 }
 
 /// `nu` × `nv` grippers over a level array that comes down in three steps, each turned and shrunk a little.
-pub(super) fn scene(nu: usize, nv: usize) -> Scene {
+pub(crate) fn layup(nu: usize, nv: usize) -> Layup {
     let grid = Grid { nu, nv };
     let material = Material {
         name: "paper".into(),
@@ -64,8 +65,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
     let positions: Vec<_> = (0..3).map(step).collect();
     let target = Target { grippers: positions[2].clone(), drape: None };
     let motion = Motion { times: vec![0.0, 1.0, 2.0], positions };
-    let (target, errors) = (Some(target), Some(budget()));
-    Scene { target, errors, ..Scene::new(ply, settings, motion) }
+    Layup { target: Some(target), ..Layup::new(ply, settings, motion) }
 }
 
 /// No error.
@@ -132,7 +132,7 @@ fn no_number_is_drawn_twice() {
     assert_eq!(numbers.len(), drawn);
 }
 
-/// Twice the draw is the draw of twice the terms; none of it leaves the scene as it is, to the last bit.
+/// Twice the draw is the draw of twice the terms; none of it leaves the layup as it is, to the last bit.
 #[test]
 fn a_draw_is_linear_in_a_common_factor() {
     let errors = budget();
@@ -166,9 +166,9 @@ fn a_draw_is_linear_in_a_common_factor() {
     // a factor of two rounds nothing
     assert_eq!(errors.draw(3, 4).scaled(2.0), double.draw(3, 4));
 
-    let scene = scene(4, 2);
-    let nominal = errors.draw(3, 8).scaled(0.0).apply(&scene);
-    assert_eq!((&nominal.motion, &nominal.ply), (&scene.motion, &scene.ply));
+    let layup = layup(4, 2);
+    let nominal = errors.draw(3, 8).scaled(0.0).apply(&layup);
+    assert_eq!((&nominal.motion, &nominal.ply), (&layup.motion, &layup.ply));
     assert!(Errors::default().is_zero() && !errors.is_zero());
 }
 
@@ -234,13 +234,13 @@ fn waves_have_their_deviation_over_one_mold_and_keep_their_bound() {
 /// A tool frame that is off moves all grippers of a step as one body: their distances stay, their mean moves by the shift.
 #[test]
 fn a_frame_error_is_a_rigid_motion() {
-    let scene = scene(4, 3);
+    let layup = layup(4, 3);
     let turn = [0.02, -0.01, 0.03];
     let shift = [1e-3, -2e-3, 5e-4];
     let draw = Draw { frame: RigidError { shift, turn }, ..none(12) };
-    let real = draw.apply(&scene);
+    let real = draw.apply(&layup);
     let mean = |step: &[[f64; 3]]| [0, 1, 2].map(|n| step.iter().map(|p| p[n]).sum::<f64>() / 12.0);
-    for (before, after) in scene.motion.positions.iter().zip(&real.motion.positions) {
+    for (before, after) in layup.motion.positions.iter().zip(&real.motion.positions) {
         for a in 0..12 {
             for b in 0..a {
                 let [was, is] = [before, after].map(|step| distance(step[a], step[b]));
@@ -254,30 +254,30 @@ fn a_frame_error_is_a_rigid_motion() {
     }
 }
 
-/// A cell keeps the tool of its scene: stems and flange are turned as the frame is, with the error of its angle, and no errors are taken
+/// A cell keeps the tool of its layup: stems and flange are turned as the frame is, with the error of its angle, and no errors are taken
 /// back, those of single grippers that axes along z cannot make either.
 #[test]
 fn a_cell_stands_as_its_tool_does_with_the_errors_of_its_frame() {
-    let plain = scene(4, 3);
+    let plain = layup(4, 3);
     let lean = |step: &Vec<[f64; 3]>| step.iter().map(|p| turned([0.3, 0.0, 0.0], *p)).collect();
     let mut positions = plain.motion.positions.clone();
     positions[2] = lean(&positions[1]);
     let (name, direction, stroke) = ("z".into(), [0.0, 0.0, 1.0], [-0.1, 0.1]);
     let axis = Axis { name, direction, stroke, speed: 1.0 };
     let tool = Some(Tool::new(&positions[0], vec![axis]));
-    let scene = Scene { tool, motion: Motion { positions, ..plain.motion.clone() }, ..plain };
-    let (made, _) = scene.carried();
+    let layup = Layup { tool, motion: Motion { positions, ..plain.motion.clone() }, ..plain };
+    let (made, _) = layup.carried();
     let turn = [0.02, -0.01, 0.03];
     let frame = RigidError { turn, ..RigidError::default() };
     let mut draw = Draw { frame, ..none(12) };
-    let poses = |scene: &Scene, step: usize| {
-        let places = &scene.motion.positions[step];
+    let poses = |layup: &Layup, step: usize| {
+        let places = &layup.motion.positions[step];
         let level = vec![[0.0, 0.0, 0.0, 1.0]; places.len()];
-        Poses::of(scene, places, &level, places)
+        Poses::of(layup, places, &level, places)
     };
-    let real = draw.apply(&scene);
+    let real = draw.apply(&layup);
     for step in 0..3 {
-        let [was, is] = [&*made, &real].map(|scene| poses(scene, step).flange.expect("a flange"));
+        let [was, is] = [&*made, &real].map(|layup| poses(layup, step).flange.expect("a flange"));
         for (a, b) in was.axes.iter().zip(is.axes) {
             assert!(distance(turned(turn, *a), b) < 1e-9, "{step}: {a:?} {b:?}");
         }
@@ -286,7 +286,7 @@ fn a_cell_stands_as_its_tool_does_with_the_errors_of_its_frame() {
         assert!(stem.axes[2][2] < 0.9999, "{stem:?}");
     }
     draw.grippers[4].position = [1e-3, -1e-3, 1e-3];
-    let real = draw.apply(&scene);
+    let real = draw.apply(&layup);
     assert_eq!(real.carried().0.motion, real.motion);
 }
 
@@ -294,14 +294,14 @@ fn a_cell_stands_as_its_tool_does_with_the_errors_of_its_frame() {
 /// motion ends, it is the frame turned back.
 #[test]
 fn a_mold_error_is_the_inverse_of_a_frame_error() {
-    let scene = scene(3, 3);
+    let layup = layup(3, 3);
     let [shift, turn] = [[1e-3, 2e-3, -3e-3], [0.01, -0.02, 0.0]];
     let back = |v: [f64; 3]| v.map(|x| -x);
     let mold = |motion| {
         let draw = none(9);
-        Draw { mold: MoldError { motion, ..draw.mold }, ..draw }.apply(&scene).motion
+        Draw { mold: MoldError { motion, ..draw.mold }, ..draw }.apply(&layup).motion
     };
-    let frame = |frame| Draw { frame, ..none(9) }.apply(&scene).motion;
+    let frame = |frame| Draw { frame, ..none(9) }.apply(&layup).motion;
     let still = [0.0; 3];
     let [offset, other] = [
         mold(RigidError { shift, turn: still }),
@@ -318,10 +318,10 @@ fn a_mold_error_is_the_inverse_of_a_frame_error() {
     // of a tilted and shifted mold, the place of a gripper over the mold is what it would be over the real one
     let moved = mold(RigidError { shift, turn });
     let middle = [0, 1, 2].map(|n| {
-        let target = &scene.target.as_ref().expect("a target").grippers;
+        let target = &layup.target.as_ref().expect("a target").grippers;
         target.iter().map(|p| p[n]).sum::<f64>() / 9.0
     });
-    for (p, q) in moved.positions[0].iter().zip(&scene.motion.positions[0]) {
+    for (p, q) in moved.positions[0].iter().zip(&layup.motion.positions[0]) {
         let real = along(along(middle, 1.0, turned(turn, sub(*p, middle))), 1.0, shift);
         assert!(distance(real, *q) < 1e-15);
     }
@@ -332,25 +332,25 @@ fn a_mold_error_is_the_inverse_of_a_frame_error() {
 #[test]
 fn a_pick_up_error_moves_all_fabric_points_as_the_fabric_lies() {
     for (nu, nv) in [(4, 3), (3, 1)] {
-        let scene = scene(nu, nv);
+        let layup = layup(nu, nv);
         let pick_up = PickUpError { offset: [2e-3, -1e-3], yaw: 0.0 };
-        let real = Draw { pick_up, ..none(nu * nv) }.apply(&scene);
+        let real = Draw { pick_up, ..none(nu * nv) }.apply(&layup);
         for (k, (before, after)) in
-            scene.motion.positions.iter().zip(&real.motion.positions).enumerate()
+            layup.motion.positions.iter().zip(&real.motion.positions).enumerate()
         {
-            // the arrays of the scene are turned about z
+            // the arrays of the layup are turned about z
             let off = turned([0.0, 0.0, 0.1 * k as f64], [-2e-3, 1e-3, 0.0]);
             for (p, q) in before.iter().zip(after) {
                 assert!(distance(along(*p, 1.0, off), *q) < 1e-15, "{nu} × {nv} step {k}");
             }
         }
     }
-    let scene = scene(4, 3);
+    let layup = layup(4, 3);
     let yaw = 1e-3;
     let pick_up = PickUpError { offset: [0.0; 2], yaw };
-    let real = Draw { pick_up, ..none(12) }.apply(&scene);
+    let real = Draw { pick_up, ..none(12) }.apply(&layup);
     let mean = |step: &[[f64; 3]]| [0, 1, 2].map(|n| step.iter().map(|p| p[n]).sum::<f64>() / 12.0);
-    for (before, after) in scene.motion.positions.iter().zip(&real.motion.positions) {
+    for (before, after) in layup.motion.positions.iter().zip(&real.motion.positions) {
         let middle = mean(before);
         for (p, q) in before.iter().zip(after) {
             let back = along(middle, 1.0, turned([0.0, 0.0, -yaw], sub(*p, middle)));
@@ -364,28 +364,28 @@ fn a_pick_up_error_moves_all_fabric_points_as_the_fabric_lies() {
 /// A gripper whose way is too long by a share is where it should be at the start, and past its end by that share of the way.
 #[test]
 fn a_stroke_error_grows_with_the_way() {
-    let scene = scene(2, 2);
+    let layup = layup(2, 2);
     let mut draw = none(4);
     draw.grippers[1] = GripperError { position: [0.0; 3], stroke: [0.01, 0.02, -0.03] };
-    let real = draw.apply(&scene);
-    let [start, end] = [0, 2].map(|k| scene.motion.positions[k][1]);
-    assert_eq!(real.motion.positions[0], scene.motion.positions[0]);
+    let real = draw.apply(&layup);
+    let [start, end] = [0, 2].map(|k| layup.motion.positions[k][1]);
+    assert_eq!(real.motion.positions[0], layup.motion.positions[0]);
     for (axis, share) in [0.01, 0.02, -0.03].into_iter().enumerate() {
         let past = real.motion.positions[2][1][axis] - end[axis];
         assert!((past - share * (end[axis] - start[axis])).abs() < 1e-15);
     }
     for other in [0, 2, 3] {
-        assert_eq!(real.motion.positions[2][other], scene.motion.positions[2][other]);
+        assert_eq!(real.motion.positions[2][other], layup.motion.positions[2][other]);
     }
 }
 
 /// Mass, bending and shear are scaled each by its own share, and never below a tenth.
 #[test]
 fn material_errors_scale_what_they_are_of() {
-    let scene = scene(2, 2);
+    let layup = layup(2, 2);
     let errors = |areal_mass, bending, shear| {
         let material = MaterialError { areal_mass, bending, shear, length: 0.0 };
-        Draw { material, ..none(4) }.apply(&scene).ply.material
+        Draw { material, ..none(4) }.apply(&layup).ply.material
     };
     let real = errors(0.1, -0.2, 0.5);
     let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-15, "{a} {b}");
@@ -396,7 +396,7 @@ fn material_errors_scale_what_they_are_of() {
     near(warp_rigidity, 0.8 * 9e-5);
     near(weft_rigidity, 0.8 * 8e-5);
     let force = |material: &Material| material.shear_curve.as_ref().expect("a curve").force(0.4).0;
-    near(force(&real), 1.5 * force(&scene.ply.material));
+    near(force(&real), 1.5 * force(&layup.ply.material));
     let Section::Areal { mass, .. } = errors(-3.0, 0.0, 0.0).section else {
         panic!("a section by area")
     };
@@ -406,18 +406,18 @@ fn material_errors_scale_what_they_are_of() {
 /// A ply without an error of its length is what it was, to the last bit.
 #[test]
 fn a_length_factor_of_one_changes_nothing() {
-    let scene = scene(3, 2);
+    let layup = layup(3, 2);
     let plain = crate::sheet::Fabric::rectangle([vec![0.0, 0.1, 0.25], vec![0.0, 0.07]], 0.1);
     assert_eq!(plain.clone().enlarged(1.0), plain);
-    assert_eq!(scene.ply.fabric_cell(), scene.ply.cell);
-    let longer = Ply { length_factor: 1.01, ..scene.ply.clone() };
-    for n in 0..scene.ply.lines().catenaries() {
-        let share = longer.flat_length(n) / scene.ply.flat_length(n);
+    assert_eq!(layup.ply.fabric_cell(), layup.ply.cell);
+    let longer = Ply { length_factor: 1.01, ..layup.ply.clone() };
+    for n in 0..layup.ply.lines().catenaries() {
+        let share = longer.flat_length(n) / layup.ply.flat_length(n);
         assert!((share - 1.01).abs() < 1e-15);
     }
     #[cfg(feature = "serde")]
     {
-        let text = serde_json::to_string(&scene.ply).expect("JSON");
+        let text = serde_json::to_string(&layup.ply).expect("JSON");
         assert!(!text.contains("length_factor"));
         let text = serde_json::to_string(&longer).expect("JSON");
         assert_eq!(serde_json::from_str::<Ply>(&text).expect("a ply"), longer);
@@ -427,21 +427,21 @@ fn a_length_factor_of_one_changes_nothing() {
 /// 1 % more fabric between two grippers hangs with the force of a catenary of that length, in the model of catenaries by its closed form.
 #[test]
 fn a_longer_fabric_pulls_as_a_catenary_of_its_length() {
-    let mut scene = scene(2, 1);
-    scene.motion.positions = vec![vec![[0.0; 3], [0.098, 0.0, 0.0]]];
-    scene.motion.times = vec![0.0];
-    scene.target = None;
+    let mut layup = layup(2, 1);
+    layup.motion.positions = vec![vec![[0.0; 3], [0.098, 0.0, 0.0]]];
+    layup.motion.times = vec![0.0];
+    layup.target = None;
     let material = MaterialError { length: 0.01, ..MaterialError::default() };
-    let real = Draw { material, ..none(2) }.apply(&scene);
+    let real = Draw { material, ..none(2) }.apply(&layup);
     let line = real.ply.line(crate::ply::Kind::EdgeU);
     let span = Span {
         run: 0.098,
         rise: 0.0,
         length: 0.101,
         ends: [EndCondition::Free; 2],
-        weight: line.mass * scene.settings.gravity,
+        weight: line.mass * layup.settings.gravity,
         flexural_rigidity: line.flexural_rigidity,
-        axial_stiffness: scene.settings.axial_stiffness,
+        axial_stiffness: layup.settings.axial_stiffness,
     };
     let expected = span.solve(None).force.expect("it hangs");
     let mut solver = Solver::new(&real.ply, &real.settings);
@@ -454,22 +454,22 @@ fn a_longer_fabric_pulls_as_a_catenary_of_its_length() {
 /// The sheet of a longer ply is that of a ply whose cells are as much longer: its fabric coordinates alone are the nominal ones.
 #[test]
 fn a_longer_sheet_is_the_sheet_of_longer_cells() {
-    let mut scene = scene(3, 2);
-    scene.settings.pad.radius = 0.01;
-    scene.settings.sheet.overhang = 0.02;
-    scene.settings.sheet.mesh = Some(0.02);
+    let mut layup = layup(3, 2);
+    layup.settings.pad.radius = 0.01;
+    layup.settings.sheet.overhang = 0.02;
+    layup.settings.sheet.mesh = Some(0.02);
     let factor = 1.25;
-    let longer = Sheet::new(&Scene {
-        ply: Ply { length_factor: factor, ..scene.ply.clone() },
-        ..scene.clone()
+    let longer = Sheet::new(&Layup {
+        ply: Ply { length_factor: factor, ..layup.ply.clone() },
+        ..layup.clone()
     });
-    let mut large = scene.clone();
+    let mut large = layup.clone();
     large.ply.cell = large.ply.cell.map(|side| factor * side);
     large.settings.pad.radius *= factor;
     large.settings.sheet.overhang *= factor;
     large.settings.sheet.mesh = Some(0.02 * factor);
     let [longer, large, nominal] =
-        [longer, Sheet::new(&large), Sheet::new(&scene)].map(|sheet| sheet.expect("a sheet"));
+        [longer, Sheet::new(&large), Sheet::new(&layup)].map(|sheet| sheet.expect("a sheet"));
     assert_eq!(longer.fabric.places, nominal.fabric.places);
     let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
     for (a, b) in longer.fabric.segments.iter().zip(&large.fabric.segments) {

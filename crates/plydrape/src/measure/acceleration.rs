@@ -1,22 +1,29 @@
-//! Acceleration: the largest of a gripper in a planned motion.
+//! Acceleration: the largest of a gripper along a motion in time.
 
-use super::{Description, Measure, Scope, Subject, Unit, Worth};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Practice, Scope, Unit, WholeMotion, Worth};
 
 /// Acceleration; see the head of this file.
 pub struct Acceleration;
 
 impl Measure for Acceleration {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Whole,
-            worth: Worth::Kept,
-            subject: Subject::Motion,
-            ..Description::new("acceleration", "acceleration", "acceleration", Unit::plain("m/s²"))
-        }
+        let own =
+            Description::new("acceleration", "acceleration", "acceleration", Unit::plain("m/s²"));
+        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(scene.limits.acceleration)
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within("Acceleration of a gripper", [1e-6, 1e4], "a gripper")
+                .found(Practice::ACCELERATION)
+                .usually(
+                    1.0,
+                    "our assumption of a robot that carries a light tool, from no data sheet",
+                ),
+        )
+    }
+
+    fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
+        Some(whole.gripper_peak(whole.peaks.acceleration))
     }
 }

@@ -1,22 +1,28 @@
-//! Axis speed: of the axis of a tool that is nearest to its limit in a planned motion, as a share of that limit.
+//! Axis speed: of the axis of a tool that is nearest to its limit along a motion in time, as a share of that limit.
 
-use super::{Description, Measure, Scope, Subject, Unit, Worth};
-use crate::scene::Scene;
+use super::{Description, Found, Limits, Measure, Scope, Unit, WholeMotion, Worth};
+use crate::layup::Layup;
+use crate::state::Site;
 
 /// Axis speed; see the head of this file.
 pub struct AxisSpeed;
 
 impl Measure for AxisSpeed {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Whole,
-            worth: Worth::Kept,
-            subject: Subject::Motion,
-            ..Description::new("axis_speed", "axis_speed", "axis speed", Unit::SHARE)
-        }
+        let own = Description::new("axis_speed", "axis_speed", "axis speed", Unit::SHARE);
+        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.tool.as_ref().map(|_| 1.0)
+    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+        layup.tool.as_ref().map(|_| 1.0)
+    }
+
+    fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
+        let (peaks, tool) = (whole.tool?, whole.layup.tool.as_ref()?);
+        // a tool may have no axes
+        tool.axes.get(peaks.axis)?;
+        let peak = peaks.axis_share;
+        let site = Site::Axis(peaks.axis, peak.gripper);
+        Some((Found { value: peak.value, site, place: None }, Some(peak.time)))
     }
 }

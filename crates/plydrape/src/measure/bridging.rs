@@ -3,30 +3,34 @@
 //! A diagonal is no fiber: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
 //! the fabric lies in. Its gaps stand in its record.
 
-use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
+use crate::layup::Layup;
 
 /// Bridging; see the head of this file.
 pub struct Bridging;
 
 impl Measure for Bridging {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::End,
-            ..Description::new("bridging", "bridging_mm", "bridging", Unit::MILLIMETRE)
-        }
+        let own =
+            Description::of_catenaries("bridging", "bridging_mm", "bridging", Unit::MILLIMETRE);
+        Description { scope: Scope::End, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        (scene.mold.is_some() && scene.target.is_some()).then_some(scene.limits.bridging * 1e3)
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::gap("Bridging gap").usually(1e-3, "our choice; no source gives it"))
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        state.scene.mold.as_ref()?;
+    fn applies(&self, layup: &Layup) -> bool {
+        layup.mold.is_some() && layup.target.is_some()
+    }
+
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.layup.mold.as_ref()?;
+        seen.edges().next()?;
         let mut most = Most::default();
-        for (n, bridge) in state.snapshot.bridges.iter().enumerate().take(state.edges()) {
-            if let Some(bridge) = bridge {
-                most.meet(bridge.gap, Site::Catenary(n), bridge.place);
+        for (_, line) in seen.edges() {
+            if let Some((gap, place)) = line.bridge {
+                most.meet(gap, line.site, place);
             }
         }
         Some(most.in_units_of(1e-3).unwrap_or(Found::NONE))

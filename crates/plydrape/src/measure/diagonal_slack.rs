@@ -3,14 +3,14 @@
 //! A diagonal is no fiber and this is no wrinkle: what counts is the shear that its cell landed with
 //! (`landing_shear.rs`).
 
-use super::{Description, Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Observation, Unit};
 
 /// Slack of diagonals; see the head of this file.
 pub struct DiagonalSlack;
 
 impl Measure for DiagonalSlack {
     fn description(&self) -> Description {
-        Description::new(
+        Description::of_catenaries(
             "diagonal_slack",
             "diagonal_slack_mm",
             "slack of diagonals",
@@ -18,10 +18,10 @@ impl Measure for DiagonalSlack {
         )
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
         let mut most = Most::default();
-        for m in state.misfits().iter().filter(|m| m.catenary >= state.edges()) {
-            most.meet(m.slack(), Site::Catenary(m.catenary), m.place);
+        for (_, line) in seen.catenaries().filter(|(_, line)| !line.is_fiber) {
+            most.meet(line.slack(), line.site, line.place);
         }
         most.in_units_of(1e-3)
     }

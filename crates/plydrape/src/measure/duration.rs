@@ -1,27 +1,26 @@
-//! Duration: how long the motion has taken. Where pads let go after its end, it ends when they do: until then the cell is busy and the
-//! ply is held. The catenaries know no releases; [`crate::draping::record::Summary::decide_by`] takes that time from the sheet.
+//! Duration: how long the motion has taken. Where pads let go after its end, it ends when they do, because until then the cell is busy
+//! and the ply is held.
 
-use super::{Description, Found, Measure, Scope, Site, State, Subject, Unit, Worth};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Observation, Scope, Unit, Worth};
+use crate::state::Site;
 
 /// Duration; see the head of this file.
 pub struct Duration;
 
 impl Measure for Duration {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Time,
-            worth: Worth::Kept,
-            subject: Subject::Motion,
-            ..Description::new("duration", "duration_s", "duration", Unit::SECOND)
-        }
+        let own = Description::new("duration", "duration_s", "duration", Unit::SECOND);
+        Description { scope: Scope::Time, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.limits.duration
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within("Longest time that the motion may take", [1e-6, 1e7], "a motion")
+                .such_as(30.0),
+        )
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        Some(Found { value: state.snapshot.time, site: Site::AllGrippers, place: None })
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        Some(Found { value: seen.state.time, site: Site::AllGrippers, place: None })
     }
 }

@@ -7,9 +7,7 @@ pub struct Equilibrium;
 
 impl Measure for Equilibrium {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Whole,
-            ..Description::new("equilibrium", "equilibrium", "equilibrium", Unit::SLOPE)
-        }
+        let own = Description::new("equilibrium", "equilibrium", "equilibrium", Unit::SLOPE);
+        Description { scope: Scope::Whole, ..own }
     }
 }

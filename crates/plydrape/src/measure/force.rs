@@ -3,31 +3,26 @@
 //! Segments that the mold holds are left out: their force is that of the axial stiffness, and so are diagonals, which
 //! are no fibers.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Most, Observation, Unit, Worth};
 
 /// Force; see the head of this file.
 pub struct Force;
 
 impl Measure for Force {
     fn description(&self) -> Description {
-        Description {
-            worth: Worth::Kept,
-            ..Description::new("force", "force_n", "horizontal force", Unit::NEWTON)
-        }
+        let own = Description::of_catenaries("force", "force_n", "horizontal force", Unit::NEWTON);
+        Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.limits.force
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::force("Horizontal force of a span").such_as(20.0))
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
         let mut most = Most::default();
-        for span in &state.snapshot.shape.spans {
-            let hangs =
-                span.catenary < state.edges() && state.snapshot.contacts[span.catenary].is_none();
-            if let Some(force) = span.force.filter(|_| hangs) {
-                most.meet(force.abs(), Site::Catenary(span.catenary), span.point(0.5));
+        for (_, line) in seen.edges().filter(|(_, line)| line.hangs) {
+            if let Some(force) = line.force {
+                most.meet(force.abs(), line.site, line.place);
             }
         }
         most.found()

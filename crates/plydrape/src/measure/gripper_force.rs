@@ -1,19 +1,23 @@
-//! Force of the sheet on one gripper. It is found on the sheet alone, [`crate::sheet`].
+//! Gripper force: the force of the ply on one gripper, in whatever direction.
 
-use super::{Description, Measure, Scope, Unit};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Observation, Unit, Worth};
+use crate::geometry::vector::norm;
 
-/// Force of the sheet on one gripper; see the head of this file.
+/// Gripper force; see the head of this file.
 pub struct GripperForce;
 
 impl Measure for GripperForce {
     fn description(&self) -> Description {
         let own =
             Description::new("gripper_force", "gripper_force_n", "gripper force", Unit::NEWTON);
-        Description { scope: Scope::Whole, ..own }
+        Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.limits.gripper_force
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::force("Force of the ply on one gripper").such_as(15.0))
+    }
+
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_grippers(|gripper| norm(gripper.force)).found()
     }
 }

@@ -1,33 +1,24 @@
-//! Pull: the horizontal force of the ply on a gripper, of spans from gripper to gripper alone.
-//!
-//! Edges count as for the load (`gripper_load.rs`). With rigid grippers the pull of a taut span is that of the axial stiffness: 0.01 % of stretch
-//! are 10 N a line in the paper's ply.
+//! Pull: the horizontal force of the ply on a gripper.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
-use crate::draping::load::loads;
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Observation, Unit, Worth};
+use crate::state::GripperState;
 
 /// Pull; see the head of this file.
 pub struct GripperPull;
 
 impl Measure for GripperPull {
     fn description(&self) -> Description {
-        Description {
-            worth: Worth::Kept,
-            ..Description::new("gripper_pull", "gripper_pull_n", "gripper pull", Unit::NEWTON)
-        }
+        let own = Description::new("gripper_pull", "gripper_pull_n", "gripper pull", Unit::NEWTON);
+        Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.limits.gripper_pull
+    fn bound(&self) -> Option<Bound> {
+        let about =
+            "Horizontal pull of the ply at one gripper; a vacuum cup of 30 mm slips at 4 to 10 N";
+        Some(Bound::force(about).such_as(4.0))
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mut most = Most::default();
-        for (n, load) in loads(state.scene, state.snapshot).into_iter().enumerate() {
-            let [x, y] = load.pull;
-            most.meet(x.hypot(y), Site::Gripper(n), state.snapshot.positions[n]);
-        }
-        most.found()
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_grippers(GripperState::pull).found()
     }
 }

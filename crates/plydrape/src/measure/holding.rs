@@ -1,10 +1,10 @@
 //! Holding: the load that draws the ply off a pad, across the ply, against the largest one that a pad holds, with a safety.
 //!
-//! In the catenaries it is the force on the gripper downwards. What presses the pad on the mold does not count.
+//! What presses the pad on the mold does not count.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
-use crate::draping::load::loads;
-use crate::scene::Scene;
+use super::{Description, Found, Limits, Measure, Observation, Unit, Worth};
+use crate::layup::Layup;
+use crate::state::GripperState;
 
 /// Holding; see the head of this file.
 pub struct Holding;
@@ -15,16 +15,12 @@ impl Measure for Holding {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.settings.pad.holding_force.map(|force| force / scene.limits.grip_safety)
+    fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
+        layup.settings.pad.holding_force.map(|force| force / limits.grip_safety)
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        state.scene.settings.pad.holding_force?;
-        let mut most = Most::default();
-        for (n, load) in loads(state.scene, state.snapshot).into_iter().enumerate() {
-            most.meet(load.vertical.max(0.0), Site::Gripper(n), state.snapshot.positions[n]);
-        }
-        most.found()
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.layup.settings.pad.holding_force?;
+        seen.most_of_grippers(GripperState::load_across).found()
     }
 }

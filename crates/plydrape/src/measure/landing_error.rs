@@ -1,9 +1,9 @@
 //! Landing error: how far a landed point or gripper is from its place in the ideal drape, the larger of
-//! `landing_contact.rs` and `landing_gripper.rs`, in every step.
+//! `position.rs` and `landing_gripper.rs`, in every step.
 
-use super::landing_contact::LandingContact;
 use super::landing_gripper::landed_gripper;
-use super::{Description, Found, Measure, Sense, State, Unit};
+use super::position::Position;
+use super::{Description, Found, Measure, Observation, Sense, Unit};
 
 /// Landing error; see the head of this file.
 pub struct LandingError;
@@ -13,8 +13,8 @@ impl Measure for LandingError {
         Description::new("landing_error", "landing_error_mm", "landing error", Unit::MILLIMETRE)
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let both = [LandingContact.evaluate(state), landed_gripper(state, true)];
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        let both = [Position.evaluate(seen), landed_gripper(seen, true)];
         both.into_iter().flatten().reduce(|most, next| {
             if Sense::AtMost.is_worse(next.value, most.value) { next } else { most }
         })

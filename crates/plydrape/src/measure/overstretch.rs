@@ -1,25 +1,23 @@
 //! Overstretch: the way of a free or lying segment of an edge beyond its fabric, as a share of the whole edge.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Observation, Unit};
 
 /// Overstretch; see the head of this file.
 pub struct Overstretch;
 
 impl Measure for Overstretch {
     fn description(&self) -> Description {
-        Description::new("overstretch", "overstretch", "overstretch", Unit::SHARE)
+        Description::of_catenaries("overstretch", "overstretch", "overstretch", Unit::SHARE)
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(scene.limits.overstretch)
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::share("Chord beyond the free length as a share of the edge")
+                .usually(0.001, "our choice, of a whole edge; no source gives it"),
+        )
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mut most = Most::default();
-        for m in state.edge_misfits() {
-            most.meet(m.overstretch() / m.whole, Site::Catenary(m.catenary), m.place);
-        }
-        most.found()
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_edges(|line| line.overstretch() / line.whole).found()
     }
 }

@@ -1,13 +1,14 @@
 //! Overstretch as a length: the way of a segment of an edge beyond its fabric.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Observation, Unit};
+use crate::state::LineState;
 
 /// Overstretch as a length; see the head of this file.
 pub struct OverstretchLength;
 
 impl Measure for OverstretchLength {
     fn description(&self) -> Description {
-        Description::new(
+        Description::of_catenaries(
             "overstretch_length",
             "overstretch_mm",
             "overstretch length",
@@ -15,11 +16,7 @@ impl Measure for OverstretchLength {
         )
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mut most = Most::default();
-        for m in state.edge_misfits() {
-            most.meet(m.overstretch(), Site::Catenary(m.catenary), m.place);
-        }
-        most.in_units_of(1e-3)
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_edges(LineState::overstretch).in_units_of(1e-3)
     }
 }

@@ -1,13 +1,14 @@
-//! Penetration: the greatest depth of grippers and spans below the mold.
+//! Penetration: the greatest depth of the ply and of the grippers below the mold.
 //!
-//! Grippers are followed along their straight paths from the step before: the distance from the mold changes by no more
-//! than the length of the path, so halving the path finds the deepest point.
+//! Grippers of catenaries are followed along their straight paths from the step before: the distance from the mold changes by no more
+//! than the length of the path, so halving the path finds the deepest point. In the sheet they are points of the ply.
 
-use super::{Description, Found, Measure, Most, Site, State, TUNING, Unit};
-use crate::draping::spans::Point;
-use crate::mold::vector::between;
-use crate::mold::{Mold, distance};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Most, Observation, TUNING, Unit, UsualLimit};
+use crate::geometry::vector::between;
+use crate::geometry::{Point, distance};
+use crate::layup::{Layup, Model};
+use crate::mold::Mold;
+use crate::state::Site;
 
 /// Penetration; see the head of this file.
 pub struct Penetration;
@@ -17,21 +18,41 @@ impl Measure for Penetration {
         Description::new("penetration", "penetration_mm", "penetration", Unit::MILLIMETRE)
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.mold.as_ref().map(|_| scene.limits.penetration * 1e3)
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::depth("Depth of ply and grippers below the mold")
+                .follows("the contact's `tolerance`", 5e-4),
+        )
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mold = state.scene.mold.as_ref()?;
-        let resolution = TUNING.depth_resolution * state.scene.settings.contact.tolerance;
+    fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {
+        UsualLimit::new(layup.settings.contact.tolerance, "the tolerance of contact")
+    }
+
+    fn applies(&self, layup: &Layup) -> bool {
+        layup.mold.is_some()
+    }
+
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        let mold = seen.layup.mold.as_ref()?;
         let mut most = Most::default();
-        for (n, to) in state.snapshot.positions.iter().enumerate() {
-            let from = state.before.map_or(*to, |before| before.positions[n]);
-            let (depth, place) = deepest(mold, from, *to, resolution);
-            most.meet(depth, Site::Gripper(n), place);
+
+        // the straight paths of the grippers
+        if seen.state.model == Model::Catenaries {
+            let resolution = TUNING.depth_resolution * seen.layup.settings.contact.tolerance;
+            for (n, gripper) in seen.state.grippers.iter().enumerate() {
+                let to = gripper.position;
+                let from = seen.past.map_or(to, |past| past.positions[n]);
+                let (depth, place) = deepest(mold, from, to, resolution);
+                most.meet(depth, Site::Gripper(n), place);
+            }
         }
-        if let Some((depth, catenary, place)) = state.snapshot.deepest {
-            most.meet(depth, Site::Catenary(catenary), place);
+
+        // the ply
+        for point in &seen.state.points {
+            if let Some(height) = point.height {
+                most.meet(-height, point.site, point.place);
+            }
         }
         let found = most.in_units_of(1e-3)?;
         Some(if found.value <= 0.0 { Found::NONE } else { found })

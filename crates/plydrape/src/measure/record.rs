@@ -1,7 +1,8 @@
 //! What a result file keeps of the measures.
 
-use super::{Found, Name, Site};
-use crate::scene::Scene;
+use super::{Found, Name};
+use crate::layup::Layup;
+use crate::state::Site;
 
 /// A worst value and where it is.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,13 +21,13 @@ pub struct Worst {
 impl Worst {
     /// With its site as a label.
     #[must_use]
-    pub fn of(found: &Found, scene: &Scene) -> Worst {
+    pub fn of(found: &Found, layup: &Layup) -> Worst {
         let at = match (found.site, found.place) {
             (Site::Bodies { .. }, Some(place)) => {
                 let [x, y, z] = place.map(|c| c * 1e3);
-                format!("{} near ({x:.1}, {y:.1}, {z:.1}) mm", found.site.label(scene))
+                format!("{} near ({x:.1}, {y:.1}, {z:.1}) mm", found.site.label(layup))
             }
-            _ => found.site.label(scene),
+            _ => found.site.label(layup),
         };
         Worst { value: found.value, at, place: found.place }
     }

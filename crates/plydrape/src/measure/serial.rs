@@ -1,9 +1,10 @@
 //! How measures are written by serde: a [`Name`] as itself, values by the measure's key.
 
-use super::{ByName, Name};
+use super::{ByName, Limits, Name, Preset};
 use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
 use std::fmt;
 
 impl Serialize for Name {
@@ -57,5 +58,39 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
             }
         }
         from.deserialize_map(Keys(std::marker::PhantomData))
+    }
+}
+
+impl Serialize for Limits {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(None)?;
+        map.serialize_entry("preset", &self.preset)?;
+        map.serialize_entry("workspace", &self.workspace)?;
+        map.serialize_entry("grip_safety", &self.grip_safety)?;
+        for (name, bound) in self.iter() {
+            map.serialize_entry(&name, &bound)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Limits {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct Written {
+            preset: Option<Preset>,
+            workspace: Option<[[f64; 2]; 3]>,
+            grip_safety: f64,
+            #[serde(flatten)]
+            bounds: BTreeMap<Name, f64>,
+        }
+        let Written { preset, workspace, grip_safety, bounds } = Written::deserialize(from)?;
+        if let Some(name) = bounds.keys().find(|name| name.measure().bound().is_none()) {
+            let name = name.measure().name();
+            return Err(D::Error::custom(format!(
+                "the limit `{name}` follows from other settings"
+            )));
+        }
+        Ok(Limits { preset, bounds: bounds.into_iter().collect(), workspace, grip_safety })
     }
 }

@@ -1,32 +1,40 @@
 //! Shear: the largest shear angle of a cell, (6) of `docs/theory`.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
-use crate::mold::vector::between;
-use crate::scene::Scene;
+use super::{
+    Bound, DEGREE, Description, Found, Measure, Most, Observation, Unit, UsualLimit, Worth,
+};
+use crate::layup::Layup;
 
 /// Shear; see the head of this file.
 pub struct Shear;
 
 impl Measure for Shear {
     fn description(&self) -> Description {
-        Description {
-            worth: Worth::Kept,
-            ..Description::new("shear", "shear_deg", "shear", Unit::DEGREE)
+        let own = Description::new("shear", "shear_deg", "shear", Unit::DEGREE);
+        Description { worth: Worth::Kept, ..own }
+    }
+
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::angle("Shear angle")
+                .follows("the material's locking angle or else 45 deg", 40.0 * DEGREE),
+        )
+    }
+
+    fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {
+        match layup.ply.material.locking_angle {
+            Some(angle) => UsualLimit::new(angle, "the locking angle of the material"),
+            None => UsualLimit::new(
+                45_f64.to_radians(),
+                "our assumption, because the locking angle of the material is unknown",
+            ),
         }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        (!scene.ply.lines().cells().is_empty()).then(|| scene.limits.shear.to_degrees())
-    }
-
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let lines = state.scene.ply.lines();
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
         let mut most = Most::default();
-        for (cell, shear) in state.snapshot.shear.iter().enumerate() {
-            let [low, _, top, _] =
-                lines.cells()[cell].corners.map(|gripper| state.snapshot.positions[gripper]);
-            let angle = shear.map_or(0.0, |shear| shear.angle.to_degrees());
-            most.meet(angle, Site::Cell(cell), between(low, top, 0.5));
+        for cell in &seen.state.cells {
+            most.meet(cell.shear.to_degrees(), cell.site, cell.place);
         }
         most.found()
     }

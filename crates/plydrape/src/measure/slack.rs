@@ -1,20 +1,17 @@
 //! Slack: fabric of a free or lying segment of an edge beyond its way.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Observation, Unit};
+use crate::state::LineState;
 
 /// Slack; see the head of this file.
 pub struct Slack;
 
 impl Measure for Slack {
     fn description(&self) -> Description {
-        Description::new("slack", "slack_mm", "slack", Unit::MILLIMETRE)
+        Description::of_catenaries("slack", "slack_mm", "slack", Unit::MILLIMETRE)
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mut most = Most::default();
-        for m in state.edge_misfits() {
-            most.meet(m.slack(), Site::Catenary(m.catenary), m.place);
-        }
-        most.in_units_of(1e-3)
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_edges(LineState::slack).in_units_of(1e-3)
     }
 }

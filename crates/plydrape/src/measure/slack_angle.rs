@@ -5,15 +5,15 @@
 //! ruck it is steeper ([`super::Name::WrinkleAngle`]).
 
 use super::slack_ratio::loosest_edge;
-use super::{Description, Found, Measure, Scope, State, Unit};
-use crate::scene::Scene;
+use super::{Bound, DEGREE, Description, Found, Measure, Observation, Scope, Unit};
+use crate::layup::Layup;
 
 /// Slack angle; see the head of this file.
 pub struct SlackAngle;
 
 impl Measure for SlackAngle {
     fn description(&self) -> Description {
-        let own = Description::new(
+        let own = Description::of_catenaries(
             "slack_angle",
             "slack_angle_deg",
             "slack as fiber angle",
@@ -22,13 +22,17 @@ impl Measure for SlackAngle {
         Description { scope: Scope::End, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        let limit = scene.limits.slack_angle.map(f64::to_degrees);
-        limit.filter(|_| scene.mold.is_some() && scene.target.is_some())
+    fn bound(&self) -> Option<Bound> {
+        let about = "Slack as a fiber angle, 2√ε of the share ε; it sets `slack_ratio` where that is not given";
+        Some(Bound::angle(about).such_as(2.6 * DEGREE))
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let found = loosest_edge(state)?;
+    fn applies(&self, layup: &Layup) -> bool {
+        layup.mold.is_some() && layup.target.is_some()
+    }
+
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        let found = loosest_edge(seen)?;
         Some(Found { value: angle_of_slack(found.value).to_degrees(), ..found })
     }
 }
@@ -58,8 +62,7 @@ mod tests {
             let z = |n: usize| amplitude * (wave_number * n as f64 / count as f64).sin();
             let run = 1.0 / count as f64;
             let length: f64 = (0..count).map(|n| run.hypot(z(n + 1) - z(n))).sum();
-            let steepest =
-                (0..count).map(|n| ((z(n + 1) - z(n)) / run).atan()).fold(0.0, f64::max);
+            let steepest = (0..count).map(|n| ((z(n + 1) - z(n)) / run).atan()).fold(0.0, f64::max);
             let ratio = (length - 1.0) / length;
             let angle = angle_of_slack(ratio);
             assert!((angle / steepest - 1.0).abs() < 2.0 * ratio + 1e-5, "{angle} {steepest}");

@@ -2,42 +2,52 @@
 //!
 //! Its place is that of the largest slack in the edge.
 
-use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
+use crate::layup::Layup;
+use crate::state::Site;
+use std::collections::BTreeMap;
 
 /// Slack ratio; see the head of this file.
 pub struct SlackRatio;
 
 impl Measure for SlackRatio {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::End,
-            ..Description::new("slack_ratio", "slack_ratio", "slack ratio", Unit::SHARE)
-        }
+        let own =
+            Description::of_catenaries("slack_ratio", "slack_ratio", "slack ratio", Unit::SHARE);
+        Description { scope: Scope::End, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        (scene.mold.is_some() && scene.target.is_some()).then_some(scene.limits.slack_ratio)
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::share("Slack of a catenary, all its segments, as a share of its length")
+                .usually(0.0005, "our choice: spread over an edge, a fiber angle of 2.6°"),
+        )
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        loosest_edge(state)
+    fn applies(&self, layup: &Layup) -> bool {
+        layup.mold.is_some() && layup.target.is_some()
+    }
+
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        loosest_edge(seen)
     }
 }
 
-/// The edge with the largest slack ratio, and that ratio.
-pub fn loosest_edge(state: &State) -> Option<Found> {
-        let mut sums = vec![(0.0, 0.0, [0.0; 3]); state.edges()];
-        for m in state.edge_misfits() {
-            let (sum, largest, place) = &mut sums[m.catenary];
-            *sum += m.slack() / m.whole;
-            if m.slack() >= *largest {
-                (*largest, *place) = (m.slack(), m.place);
-            }
+/// The edge with the largest slack ratio, and that ratio; `None` where no edges hang.
+pub(super) fn loosest_edge(seen: &Observation) -> Option<Found> {
+    // of each edge the ratio, and the largest slack with its place
+    let mut edges = BTreeMap::new();
+    for (edge, line) in seen.edges() {
+        let (ratio, largest, place) = edges.entry(edge).or_insert((0.0, 0.0, line.place));
+        let slack = line.slack();
+        *ratio += slack / line.whole;
+        if slack > *largest {
+            (*largest, *place) = (slack, line.place);
         }
-        let mut most = Most::default();
-        for (n, (sum, _, place)) in sums.into_iter().enumerate() {
-            most.meet(sum, Site::Catenary(n), place);
-        }
-        most.found()
+    }
+    let mut most = Most::default();
+    for (edge, (ratio, _, place)) in edges {
+        most.meet(ratio, Site::Catenary(edge), place);
+    }
+    most.found()
 }

@@ -1,22 +1,28 @@
-//! Speed: the largest of a gripper in a planned motion.
+//! Speed: the largest of a gripper along a motion in time.
 
-use super::{Description, Measure, Scope, Subject, Unit, Worth};
-use crate::scene::Scene;
+use super::{Bound, Description, Found, Measure, Practice, Scope, Unit, WholeMotion, Worth};
 
 /// Speed; see the head of this file.
 pub struct Speed;
 
 impl Measure for Speed {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Whole,
-            worth: Worth::Kept,
-            subject: Subject::Motion,
-            ..Description::new("speed", "speed", "speed", Unit::plain("m/s"))
-        }
+        let own = Description::new("speed", "speed", "speed", Unit::plain("m/s"));
+        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(scene.limits.speed)
+    fn bound(&self) -> Option<Bound> {
+        Some(
+            Bound::within("Speed of a gripper", [1e-6, 1e2], "a gripper")
+                .found(Practice::SPEED)
+                .usually(
+                    0.25,
+                    "our assumption: the speed to which robots are reduced where people are near",
+                ),
+        )
+    }
+
+    fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
+        Some(whole.gripper_peak(whole.peaks.speed))
     }
 }

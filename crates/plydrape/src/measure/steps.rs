@@ -1,16 +1,13 @@
 //! Steps: how far a gripper of a stepwise plan is short of its target when the steps are spent.
 
-use super::{Description, Measure, Scope, Subject, Unit};
+use super::{Description, Measure, Scope, Unit};
 
 /// Steps; see the head of this file.
 pub struct Steps;
 
 impl Measure for Steps {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Whole,
-            subject: Subject::Motion,
-            ..Description::new("steps", "steps", "steps", Unit::MILLIMETRE)
-        }
+        let own = Description::new("steps", "steps", "steps", Unit::MILLIMETRE);
+        Description { scope: Scope::Whole, ..own }
     }
 }

@@ -1,31 +1,29 @@
 //! Tilt: the angle between the ply's normal at a gripper and its stem, which is upright unless a tool turns it.
 //!
-//! A pad without a joint does not tilt, and the lines of catenaries are not clamped at it: there it is how far they are from the
+//! A pad without a joint does not tilt, and a model that does not clamp the ply at it says by the tilt how far the ply is from the
 //! direction of the pad.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
-use crate::scene::Scene;
+use super::{Bound, DEGREE, Description, Found, Measure, Observation, Unit, UsualLimit, Worth};
+use crate::layup::Layup;
 
 /// Tilt; see the head of this file.
 pub struct Tilt;
 
 impl Measure for Tilt {
     fn description(&self) -> Description {
-        Description {
-            worth: Worth::Kept,
-            ..Description::new("tilt", "tilt_deg", "tilt", Unit::DEGREE)
-        }
+        let own = Description::new("tilt", "tilt_deg", "tilt", Unit::DEGREE);
+        Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(scene.limits.tilt.to_degrees())
+    fn bound(&self) -> Option<Bound> {
+        Some(Bound::angle("Gripper tilt").follows("the grippers' `max_tilt`", 35.0 * DEGREE))
     }
 
-    fn evaluate(&self, state: &State) -> Option<Found> {
-        let mut most = Most::default();
-        for (n, attitude) in state.attitudes().iter().enumerate() {
-            most.meet(attitude.tilt.to_degrees(), Site::Gripper(n), state.snapshot.positions[n]);
-        }
-        most.found()
+    fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {
+        UsualLimit::new(layup.settings.max_tilt, "the limit of the ball joints")
+    }
+
+    fn evaluate(&self, seen: &Observation) -> Option<Found> {
+        seen.most_of_grippers(|gripper| gripper.tilt.to_degrees()).found()
     }
 }

@@ -1,22 +1,23 @@
 //! Tool residual: the largest distance between where a gripper should be and where the tool brings it.
 
-use super::{Description, Measure, Scope, Subject, Unit, Worth};
-use crate::scene::Scene;
+use super::{Description, Limits, Measure, Scope, Unit, Worth};
+use crate::layup::Layup;
 
 /// Tool residual; see the head of this file.
 pub struct ToolResidual;
 
 impl Measure for ToolResidual {
     fn description(&self) -> Description {
-        Description {
-            scope: Scope::Whole,
-            worth: Worth::Kept,
-            subject: Subject::Motion,
-            ..Description::new("tool_residual", "tool_residual_mm", "tool residual", Unit::MILLIMETRE)
-        }
+        let own = Description::new(
+            "tool_residual",
+            "tool_residual_mm",
+            "tool residual",
+            Unit::MILLIMETRE,
+        );
+        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(1e3 * scene.tool.as_ref()?.residual?)
+    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+        Some(1e3 * layup.tool.as_ref()?.residual?)
     }
 }

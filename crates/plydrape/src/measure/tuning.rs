@@ -18,6 +18,8 @@ pub(crate) struct Tuning {
     pub depth_resolution: f64,
     /// Most parts of a gripper's path that are evaluated; a path of 1 m that slides on the mold needs half a million.
     pub path_parts: usize,
+    /// Distance outside the workspace, as a share of the shorter side of a cell, that is rounding.
+    pub workspace_rounding: f64,
 }
 
 /// The constants in use.
@@ -28,4 +30,5 @@ pub(crate) const TUNING: Tuning = Tuning {
     rate_window: 0.01,
     depth_resolution: 0.01,
     path_parts: 4_000_000,
+    workspace_rounding: 1e-8,
 };

@@ -1,5 +1,8 @@
 //! Units of measures: as they are recorded, and as limits show them.
 
+/// One degree (rad).
+pub(super) const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
 /// A unit, and the one that limits are shown in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
@@ -9,11 +12,13 @@ pub struct Unit {
     pub shown: &'static str,
     /// From the recorded value to the shown one.
     pub factor: f64,
+    /// The recorded unit in SI units, radians and shares: 0.001 of millimeters.
+    pub si: f64,
 }
 
 impl Unit {
     /// Millimetres.
-    pub const MILLIMETRE: Unit = Unit::plain("mm");
+    pub const MILLIMETRE: Unit = Unit { si: 1e-3, ..Unit::plain("mm") };
     /// Newtons.
     pub const NEWTON: Unit = Unit::plain("N");
     /// Seconds.
@@ -25,15 +30,18 @@ impl Unit {
     /// Slopes, rise over run.
     pub const SLOPE: Unit = Unit::plain("slope");
     /// Degrees.
-    pub const DEGREE: Unit = Unit { recorded: "deg", shown: "°", factor: 1.0 };
+    pub const DEGREE: Unit = Unit { recorded: "deg", shown: "°", factor: 1.0, si: DEGREE };
     /// Degrees a second.
-    pub const DEGREE_PER_SECOND: Unit = Unit { recorded: "deg/s", shown: "°/s", factor: 1.0 };
+    pub const DEGREE_PER_SECOND: Unit =
+        Unit { recorded: "deg/s", shown: "°/s", factor: 1.0, si: DEGREE };
+    /// Degrees per second squared.
+    pub const DEGREE_PER_SECOND_SQUARED: Unit = Unit { si: DEGREE, ..Unit::plain("°/s²") };
     /// Shares of a whole, shown in percent.
-    pub const SHARE: Unit = Unit { recorded: "1", shown: "%", factor: 1e2 };
+    pub const SHARE: Unit = Unit { recorded: "1", shown: "%", factor: 1e2, si: 1.0 };
 
     /// A unit that is shown as it is recorded.
     #[must_use]
     pub const fn plain(name: &'static str) -> Unit {
-        Unit { recorded: name, shown: name, factor: 1.0 }
+        Unit { recorded: name, shown: name, factor: 1.0, si: 1.0 }
     }
 }

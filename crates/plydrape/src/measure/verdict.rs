@@ -1,7 +1,6 @@
 //! Limits and whether they hold.
 
-use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Subject, TUNING, Worst};
-use crate::scene::Scene;
+use super::{Name, Sense, TUNING, Worst};
 use std::borrow::Cow;
 
 /// A limit and whether it holds.
@@ -73,138 +72,10 @@ impl Verdict {
     }
 }
 
-/// Collects the worst values of a drape step by step, and judges them at its end.
-#[derive(Debug)]
-pub(crate) struct Judge<'a> {
-    scene: &'a Scene,
-    /// Whether the steps have the times of a motion.
-    timed: bool,
-    worst: ByName<(usize, Found)>,
-    unfound: Option<(usize, f64, &'static str)>,
-}
-
-impl<'a> Judge<'a> {
-    /// For a scene; `timed` if its steps have the times of a motion, which those of a search do not have yet.
-    #[must_use]
-    pub fn new(scene: &'a Scene, timed: bool) -> Self {
-        Judge { scene, timed, worst: ByName::default(), unfound: None }
-    }
-
-    /// The limit of a measure that a drape is judged by.
-    fn limit(&self, name: Name) -> Option<f64> {
-        let measure = name.measure();
-        let judged = match measure.scope() {
-            Scope::EveryStep | Scope::End => true,
-            Scope::Time => self.timed,
-            Scope::Whole => false,
-        };
-        measure.limit(self.scene).filter(|_| judged && self.has(name))
-    }
-
-    /// Whether the catenaries can tell a measure: where none hang, only what is of the motion alone.
-    fn has(&self, name: Name) -> bool {
-        self.scene.ply.has_lines() || name.measure().subject() == Subject::Motion
-    }
-
-    /// Evaluates the limits of a step; `last` if no other follows.
-    pub fn see(&mut self, state: &State, last: bool) {
-        for name in Name::ALL {
-            let counts = last || name.measure().scope() != Scope::End;
-            if counts
-                && self.limit(*name).is_some()
-                && let Some(found) = name.measure().evaluate(state)
-            {
-                self.meet(*name, state.snapshot.step, found);
-            }
-        }
-        self.solved(state);
-    }
-
-    /// Evaluates every measure of a step, and returns them.
-    pub fn see_all(&mut self, state: &State) -> Measures {
-        let mut out = Vec::with_capacity(Name::ALL.len());
-        for name in Name::ALL {
-            if self.has(*name)
-                && let Some(found) = name.measure().evaluate(state)
-            {
-                self.meet(*name, state.snapshot.step, found);
-                out.push((*name, Worst::of(&found, state.scene)));
-            }
-        }
-        self.solved(state);
-        out.into_iter().collect()
-    }
-
-    fn solved(&mut self, state: &State) {
-        if self.unfound.is_none()
-            && let Some(why) = state.snapshot.failure()
-        {
-            let residual = state.snapshot.shape.equilibrium.residual;
-            self.unfound = Some((state.snapshot.step, residual, why));
-        }
-    }
-
-    fn meet(&mut self, name: Name, step: usize, found: Found) {
-        let measure = name.measure();
-        let beaten = self.worst.get(name).is_some_and(|(_, before)| match measure.sense() {
-            _ if measure.scope() == Scope::End => false,
-            sense => !sense.is_worse(found.value, before.value),
-        });
-        if !beaten {
-            self.worst.set(name, Some((step, found)));
-        }
-    }
-
-    /// Every limit that applies, in the order of [`Name::ALL`].
-    #[must_use]
-    pub fn verdicts(&self) -> Vec<Verdict> {
-        let judged = Name::ALL.iter().filter_map(|name| {
-            let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
-            Some(Verdict::of(*name, Worst::of(found, self.scene), limit, Some(*step)))
-        });
-        let mut out: Vec<Verdict> = judged.collect();
-        if let Some((step, residual, why)) = self.unfound {
-            let worst = Worst { value: residual, at: why.into(), place: None };
-            let verdict =
-                Verdict::of(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));
-            out.push(Verdict { ok: false, ..verdict });
-        }
-        out
-    }
-}
-
-/// The worst of each measure over all steps as a plain number; of those that count at the end too.
-#[must_use]
-pub(crate) fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
-    let mut out: Vec<Option<f64>> = vec![None; Name::ALL.len()];
-    for measures in steps {
-        for (name, worst) in measures.iter() {
-            let slot = &mut out[name as usize];
-            let sense = name.measure().sense();
-            if slot.is_none_or(|before| sense.is_worse(worst.value, before)) {
-                *slot = Some(worst.value);
-            }
-        }
-    }
-    reported(|name| out[name as usize])
-}
-
-/// The numbers of one step.
-#[must_use]
-pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
-    reported(|name| measures.and_then(|measures| measures.value(name)))
-}
-
-fn reported(value: impl Fn(Name) -> Option<f64>) -> Numbers {
-    let names = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
-    // clearances have no meaning in scenes without bodies, whose files say nothing of them
-    let shown = |(name, value): &(Name, Option<f64>)| value.is_some() || *name != Name::Clearance;
-    names.map(|name| (*name, value(*name))).filter(shown).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::Measures;
 
     fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
         Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
@@ -256,14 +127,14 @@ mod tests {
         for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
             let mut most = super::super::Most::default();
             for value in values {
-                most.meet(value, super::super::Site::AllEdges, [0.0; 3]);
+                most.meet(value, crate::state::Site::AllEdges, [0.0; 3]);
             }
             assert!(most.found().unwrap().value.is_nan());
             for name in [Name::Overstretch, Name::GripperDistance] {
                 let of = |value| Worst { value, at: String::new(), place: None };
                 let steps: Vec<Measures> =
                     values.iter().map(|v| [(name, of(*v))].into_iter().collect()).collect();
-                let worst = worst_numbers(steps.iter());
+                let worst = crate::measure::worst_numbers(steps.iter());
                 assert!(worst.value(name).is_some_and(f64::is_nan), "{name:?}");
             }
         }

@@ -4,11 +4,11 @@ use super::formula::Formula;
 use super::front_surface::FrontSurface;
 use super::height::{Height, Steepness};
 use super::height_grid::HeightGrid;
-use super::pose::Pose;
 use super::saddle::Saddle;
 use super::tuning::TUNING;
-use super::vector::{distance, dot, norm, sub, unit};
 use super::{ClosestPoint, Curvatures, Separation};
+use crate::geometry::Pose;
+use crate::geometry::vector::{distance, dot, norm, sub, unit};
 
 /// A height over the local xy plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,7 +188,7 @@ impl Graph {
         // the second derivatives along two unit tangents at right angles
         let across = (1.0 + fx * fx).sqrt();
         let first = [1.0 / across, 0.0, fx / across];
-        let second = super::vector::cross(normal, first);
+        let second = crate::geometry::vector::cross(normal, first);
         let [xx, xy, yy] = height.hessian;
         let bend = |a: [f64; 3], b: [f64; 3]| {
             -normal[2] * (xx * a[0] * b[0] + xy * (a[0] * b[1] + a[1] * b[0]) + yy * a[1] * b[1])

@@ -303,7 +303,7 @@ fn nearest(lines: &[[[f64; 2]; 2]], place: [f64; 2]) -> Option<Nearest> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mold::vector::{along, dot};
+    use crate::geometry::vector::{along, dot};
     use crate::mold::{
         Face, Graph, Mesh, Mold, Plane, Pose, Raised, Saddle, Sphere, Surface, distance,
     };

@@ -13,15 +13,14 @@ mod layered;
 pub mod mesh;
 pub mod patch;
 mod plane;
-mod pose;
 mod raised;
 mod round;
 mod saddle;
 mod section;
 mod tuning;
-pub mod vector;
 mod wavy;
 
+pub use crate::geometry::{Pose, distance};
 pub use formula::Formula;
 pub use front_surface::{FrontSurface, Rise};
 pub use graph::{Graph, Surface};
@@ -30,17 +29,15 @@ pub use height_grid::{HeightGrid, HeightGridError};
 pub use layered::{Layer, LayerError, Layers, overlap, ramp};
 pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
-pub use pose::Pose;
 pub use raised::{Raise, Raised, Relief};
 pub use round::{Cylinder, Face, Sphere, Torus};
 pub use saddle::Saddle;
-pub use vector::distance;
 pub use wavy::Waves;
 
+use crate::geometry::vector::{along, dot, norm, sub};
 use section::{Until, trace};
 use std::sync::Arc;
 use tuning::TUNING;
-use vector::{along, dot, norm, sub};
 
 /// A mold.
 #[derive(Debug, Clone, PartialEq)]
@@ -278,7 +275,9 @@ impl Mold {
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
         match self {
-            Mold::Plane(plane) => Curvatures::new([0.0; 2], vector::tangents(plane.normal)),
+            Mold::Plane(plane) => {
+                Curvatures::new([0.0; 2], crate::geometry::vector::tangents(plane.normal))
+            }
             Mold::Cylinder(cylinder) => cylinder.curvatures(p),
             Mold::Sphere(sphere) => sphere.curvatures(p),
             Mold::Torus(torus) => torus.curvatures(p),

@@ -7,8 +7,8 @@
 //! surface, exactly. Where it does, terms in w times the mold's curvature are left out of the slope.
 
 use super::tuning::TUNING;
-use super::vector::{along, cross, distance, dot, norm, sub, unit};
 use super::{ClosestPoint, Curvatures, Mold, Separation, Steepness};
+use crate::geometry::vector::{along, cross, distance, dot, norm, sub, unit};
 
 /// A height over a mold, along its normal.
 pub trait Relief {

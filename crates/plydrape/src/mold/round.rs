@@ -1,8 +1,8 @@
 //! Molds with a circle for a profile: cylinder, sphere and torus.
 
-use super::pose::Pose;
-use super::vector::dot;
 use super::{ClosestPoint, Curvatures, Separation};
+use crate::geometry::Pose;
+use crate::geometry::vector::dot;
 
 /// Which side of a round mold the ply lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,7 +150,8 @@ impl Cylinder {
     /// Principal curvatures at a point of the mold (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
-        let around = super::vector::cross(self.closest_point(p).normal, self.pose.axes[0]);
+        let around =
+            crate::geometry::vector::cross(self.closest_point(p).normal, self.pose.axes[0]);
         Curvatures::new([sign(self.face) / self.radius, 0.0], [around, self.pose.axes[0]])
     }
 }
@@ -180,8 +181,9 @@ impl Sphere {
         let normal = self.closest_point(p).normal;
         // any tangent is principal: the one closest to the local x axis
         let axis = self.pose.axes[usize::from(dot(normal, self.pose.axes[0]).abs() > 0.9)];
-        let across = super::vector::unit(super::vector::cross(normal, axis)).unwrap_or(axis);
-        Curvatures::new([curvature; 2], [super::vector::cross(across, normal), across])
+        let across = crate::geometry::vector::unit(crate::geometry::vector::cross(normal, axis))
+            .unwrap_or(axis);
+        Curvatures::new([curvature; 2], [crate::geometry::vector::cross(across, normal), across])
     }
 }
 
@@ -215,7 +217,7 @@ impl Torus {
         let outward = dot(self.pose.turn([cos, sin, 0.0]), normal);
         Curvatures::new(
             [sign(self.face) / self.tube_radius, outward / rho],
-            [super::vector::cross(around, normal), around],
+            [crate::geometry::vector::cross(around, normal), around],
         )
     }
 }

@@ -6,8 +6,8 @@
 //! mold's strongest bend; after each step the point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
 
 use super::tuning::TUNING;
-use super::vector::{along, cross, distance, dot, norm, unit};
 use super::{ClosestPoint, Mold, SurfaceCurve};
+use crate::geometry::vector::{along, cross, distance, dot, norm, unit};
 
 /// How far a curve is followed.
 #[derive(Debug, Clone, Copy)]

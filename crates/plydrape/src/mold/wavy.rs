@@ -68,7 +68,7 @@ impl Relief for Waves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mold::vector::{along, distance};
+    use crate::geometry::vector::{along, distance};
     use crate::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Raised, Saddle, Sphere, Surface};
 
     /// Slopes of up to 0.03 on waves of 150 mm.

@@ -16,8 +16,8 @@ mod error;
 mod path;
 mod peaks;
 mod quickest;
-mod recorded;
 mod spacing;
+mod steps;
 mod time_law;
 mod timing;
 pub mod tuning;
@@ -29,9 +29,9 @@ pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
 pub use quickest::{Course, Limiting, Moving};
 pub(crate) use spacing::farthest;
+pub use steps::Motion;
 
-use crate::mold::vector::{norm, sub};
-use crate::scene::{self, Limits};
+use crate::geometry::vector::{norm, sub};
 use path::{Path, Vector};
 use time_law::{State, TimeLaw};
 use tuning::TUNING;
@@ -45,13 +45,6 @@ pub struct Bounds {
     pub acceleration: f64,
     /// Jerk (m/s³).
     pub jerk: f64,
-}
-
-impl From<&Limits> for Bounds {
-    fn from(limits: &Limits) -> Self {
-        let Limits { speed, acceleration, jerk, .. } = *limits;
-        Bounds { speed, acceleration, jerk }
-    }
 }
 
 /// A motion of all grippers from rest to rest.
@@ -315,8 +308,8 @@ impl TimedMotion {
 
     /// The motion at [`Self::times`], one step for every planned step that moves.
     #[must_use]
-    pub fn steps(&self) -> scene::Motion {
-        scene::Motion { times: self.times.clone(), positions: self.positions.clone() }
+    pub fn steps(&self) -> Motion {
+        Motion { times: self.times.clone(), positions: self.positions.clone() }
     }
 
     /// Times (s) from 0 at a rate (Hz), the last exactly [`Self::duration`].
@@ -343,10 +336,10 @@ impl TimedMotion {
     ///
     /// # Errors
     /// Those of [`Self::samples`].
-    pub fn sampled(&self, rate: f64) -> Result<scene::Motion, MotionError> {
+    pub fn sampled(&self, rate: f64) -> Result<Motion, MotionError> {
         let times = self.samples(rate)?;
         let positions = times.iter().map(|t| self.at(*t)).collect();
-        Ok(scene::Motion { times, positions })
+        Ok(Motion { times, positions })
     }
 }
 

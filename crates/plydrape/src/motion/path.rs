@@ -7,7 +7,7 @@
 //! Any point of the path is a mean of four neighboring control points: a gripper that stands there
 //! stands, and none leaves the hull of what was planned (de Boor 1978).
 
-use crate::mold::vector::{along, sub};
+use crate::geometry::vector::{along, sub};
 
 /// Positions of one gripper or their derivatives, to the parameter or to time.
 pub(super) type Vector = [f64; 3];

@@ -11,7 +11,7 @@ use super::path::Path;
 use super::rates;
 use super::time_law::{State, TimeLaw, advance};
 use super::tuning::TUNING;
-use crate::mold::vector::norm;
+use crate::geometry::vector::norm;
 
 /// The largest value of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

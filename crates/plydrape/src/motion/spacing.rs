@@ -10,7 +10,7 @@
 use super::Bounds;
 use super::path::{Polygon, Vector};
 use super::tuning::TUNING;
-use crate::mold::vector::{distance, norm};
+use crate::geometry::vector::{distance, norm};
 
 /// Distances of the knots (m) such that a steady motion with ṡ = `cruise.speed` keeps to the bounds `cruise`.
 ///

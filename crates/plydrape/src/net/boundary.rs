@@ -9,8 +9,8 @@ use super::layup::Layup;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use super::{Coverage, Net};
+use crate::geometry::vector::{along, distance, dot, sub};
 use crate::mold::Mold;
-use crate::mold::vector::{along, distance, dot, sub};
 use crate::ply::Outline;
 
 /// A point of the ply on the mold.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::mold::vector::{distance, dot, norm};
+use crate::geometry::vector::{distance, dot, norm};
 use crate::mold::{Cylinder, Face, Graph, Mesh, Plane, Pose, Saddle, Sphere, Surface};
 
 fn level() -> Pose {

@@ -6,7 +6,7 @@ use super::meet::{Condition, meet};
 use super::missing::Reason;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
-use crate::mold::vector::{along, cross, dot};
+use crate::geometry::vector::{along, cross, dot};
 
 /// A node counted from [0, 0], or beside the net.
 pub(super) type Node = [isize; 2];

@@ -12,7 +12,7 @@
 //! the fourth order of the mesh width on others: c·Δn is its normal curvature times c², to second order.
 
 use super::surface_point::SurfacePoint;
-use crate::mold::vector::{along, cross, dot, norm, sub, unit};
+use crate::geometry::vector::{along, cross, dot, norm, sub, unit};
 
 /// How the fabric between two neighboring nodes is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -10,7 +10,7 @@ use super::meet::{Condition, meet};
 use super::shear::CellShear;
 use super::surface_point::SurfacePoint;
 use super::tuning::TUNING;
-use crate::mold::vector::{along, cross, dot, sub};
+use crate::geometry::vector::{along, cross, dot, sub};
 
 impl Build<'_> {
     /// The first node from the seed along u, of either sign: where its edge starts off in plan.

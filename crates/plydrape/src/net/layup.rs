@@ -2,8 +2,8 @@
 
 use super::edge::EdgeRule;
 use super::tuning::TUNING;
+use crate::geometry::vector::{along, cross, dot, unit};
 use crate::mold::Mold;
-use crate::mold::vector::{along, cross, dot, unit};
 
 /// How the two generators run, the lines of nodes through the seed from which all others follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

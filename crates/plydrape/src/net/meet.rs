@@ -7,7 +7,7 @@
 use super::edge::{EdgeRule, straightest};
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
-use crate::mold::vector::{along, cross, dot, norm, sub};
+use crate::geometry::vector::{along, cross, dot, norm, sub};
 
 /// A condition on a place.
 #[derive(Debug, Clone, Copy)]

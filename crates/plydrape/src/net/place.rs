@@ -7,8 +7,8 @@
 use super::Net;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
+use crate::geometry::vector::{along, dot, unit};
 use crate::mold::Mold;
-use crate::mold::vector::{along, dot, unit};
 
 /// The nodes that a place is interpolated from: the lowest one and how many each way.
 struct Patch {

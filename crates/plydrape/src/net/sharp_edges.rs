@@ -6,8 +6,8 @@
 use super::Net;
 use super::boundary::PlyPoint;
 use super::tuning::TUNING;
+use crate::geometry::vector::{along, between, cross, distance, dot, sub};
 use crate::mold::Mold;
-use crate::mold::vector::{along, between, cross, distance, dot, sub};
 use std::collections::HashMap;
 
 /// Sharp edges of the mold under the ply.

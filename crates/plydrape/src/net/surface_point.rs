@@ -1,7 +1,7 @@
 //! A point of the mold, or of its extension beyond the boundary.
 
+use crate::geometry::vector::{along, dot, sub};
 use crate::mold::Mold;
-use crate::mold::vector::{along, dot, sub};
 use std::cell::Cell;
 
 /// A place of the net with the mold's normal there.

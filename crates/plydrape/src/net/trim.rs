@@ -8,8 +8,8 @@ use super::boundary::{Boundary, Line, PlyPoint};
 use super::edge::EdgeRule;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
+use crate::geometry::vector::{along, between, cross, distance, dot, norm, sub, unit};
 use crate::mold::Mold;
-use crate::mold::vector::{along, between, cross, distance, dot, norm, sub, unit};
 
 /// A boundary that is wanted: a closed line on the mold.
 #[derive(Debug, Clone, PartialEq)]

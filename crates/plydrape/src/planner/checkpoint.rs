@@ -24,7 +24,7 @@ pub struct Checkpoint {
 
 /// Fabric coordinates of a scene's grippers (m).
 fn grippers(scene: &Scene) -> Vec<[f64; 2]> {
-    (0..scene.ply.grippers()).map(|n| scene.ply.place(n)).collect()
+    (0..scene.layup.ply.grippers()).map(|n| scene.layup.ply.place(n)).collect()
 }
 
 impl Checkpoint {
@@ -41,7 +41,7 @@ impl Checkpoint {
 
     /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
     pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Positions>)> {
-        let (strategy, start) = (self.strategy?, scene.motion.positions.first()?);
+        let (strategy, start) = (self.strategy?, scene.layup.motion.positions.first()?);
         let last = preload::ends(scene, &strategy);
         let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(&last)];
         let steps = self.positions.len() == scene.plan.steps;

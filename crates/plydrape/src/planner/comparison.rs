@@ -6,14 +6,12 @@
 
 mod drapes;
 
-use super::decision::PlannedSheet;
 use super::evaluation;
 use super::path::{Fronts, Strategy};
 use super::plan::PlanError;
 use super::search_state::{SearchState, Watcher};
-use crate::draping::{Drape, Judged};
-use crate::measure::{Subject, Verdict};
-use crate::motion::MotionError;
+use crate::measure::Verdict;
+use crate::outcome::{Drape, Judged, ModelError};
 use crate::scene::Scene;
 use drapes::{best_front, by_steps, straight};
 use rayon::prelude::*;
@@ -63,9 +61,9 @@ impl Display for StrategyName {
 /// Why there is no drape by a strategy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotDraped {
-    /// Its positions cannot become a motion.
+    /// Its positions cannot become a motion, or the model that decides cannot drape along it.
     #[error(transparent)]
-    Motion(#[from] MotionError),
+    Plan(#[from] PlanError),
     /// The comparison was ended before its drape was complete.
     #[error("interrupted before its drape was complete")]
     Interrupted,
@@ -83,11 +81,9 @@ pub struct Compared {
 /// The drape by one strategy.
 #[derive(Debug, Clone)]
 pub struct ComparedDrape {
-    /// The drape by catenaries, with the verdict of the model that decides.
+    /// The drape by the model that decides, with its last state if that is the sheet.
     pub drape: Drape,
-    /// The drape by the sheet with its last state, where the sheet decides.
-    pub sheet: Option<PlannedSheet>,
-    /// How the model that decides judges it. A planned motion is draped as a search decides on it: with a step half-way between all
+    /// How a search judges it. A planned motion is draped as a search decides on it: with a step half-way between all
     /// steps, too, and the worse drape counts.
     judged: Judged,
     /// The shortest time of the motion (s) within the limits of the grippers; in real time, the time in which it was draped.
@@ -98,17 +94,14 @@ impl ComparedDrape {
     /// Whether it keeps all limits.
     #[must_use]
     pub fn is_accepted(&self) -> bool {
-        self.judged.accepted && self.drape.summary.accepted
+        self.judged.accepted() && self.drape.summary.accepted()
     }
 
-    /// The limits that decide, each once: those of the deciding model first, then those of the motion. Of several verdicts on
-    /// one limit the worst.
+    /// Every limit once: of several verdicts on one limit the worst.
     #[must_use]
     pub fn limits(&self) -> Vec<&Verdict> {
-        let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
-        let of_motion = self.drape.summary.limits.iter().filter(of_motion);
         let mut limits: Vec<&Verdict> = Vec::new();
-        for verdict in self.judged.limits.iter().chain(of_motion) {
+        for verdict in self.judged.limits.iter().chain(&self.drape.summary.limits) {
             match limits.iter_mut().find(|limit| limit.name == verdict.name) {
                 Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
                 Some(_) => {}
@@ -140,7 +133,7 @@ impl ComparedDrape {
     /// The judgment with the limits of the motion.
     fn with_motion(&self) -> Judged {
         let limits = self.limits().into_iter().cloned().collect();
-        Judged { limits, accepted: self.is_accepted(), ..self.judged }
+        Judged { limits, ..self.judged }
     }
 }
 
@@ -168,9 +161,10 @@ impl Comparison {
 /// # Errors
 /// [`PlanError`] if the scene has no mold or target.
 pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError> {
-    if scene.mold.is_none() {
+    if scene.layup.mold.is_none() {
         return Err(PlanError::NoMold);
     }
+    ModelError::check(&scene.layup, scene.layup.settings.model)?;
     let fronts = Fronts::new(scene).ok_or(PlanError::NoTarget)?;
     let state = SearchState::new(StrategyName::ALL.len(), watcher);
     state.begin("draping the strategies");

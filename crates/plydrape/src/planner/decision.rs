@@ -3,26 +3,18 @@
 
 use super::evaluation;
 use super::path::Strategy;
+use super::plan::PlanError;
 use super::search_state::SearchState;
-use super::tuning::TUNING;
-use crate::draping::spans::Point;
-use crate::draping::{self, Judged};
+use crate::geometry::Point;
+use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
 use crate::measure::Verdict;
-use crate::motion::{Attitudes, Bounds, MotionError, TimedMotion};
-use crate::scene::{Model, Motion, ReleaseOrder, Scene};
+use crate::motion::{Attitudes, Motion, TimedMotion};
+use crate::outcome::{self, Drape, Judged, ModelError};
+use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The drape of the sheet along a planned motion.
-#[derive(Debug, Clone)]
-pub struct PlannedSheet {
-    /// The drape.
-    pub drape: sheet::Drape,
-    /// The states that the scene wants to be kept.
-    pub states: Vec<sheet::State>,
-}
 
 /// A plan on which was decided.
 #[derive(Debug, Clone)]
@@ -35,11 +27,20 @@ pub struct Decision {
     pub asked: Option<ToolRecord>,
     /// The motion in time.
     pub motion: TimedMotion,
-    /// The drape of the sheet, where that decides.
-    pub sheet: Option<PlannedSheet>,
-    /// Its limits and failures.
-    pub drape: Judged,
-    /// [`evaluation::score`] of it.
+    /// What follows from the motion by the model that decides.
+    pub decided: Decided,
+}
+
+/// The drape along a motion by the model that decides, and how a search judges it.
+#[derive(Debug, Clone)]
+pub struct Decided {
+    /// The drape.
+    pub drape: Drape,
+    /// How the grippers are turned in it.
+    pub attitudes: Attitudes,
+    /// Limits and failures of the drape, with those of a step half-way between all steps, and of a few cells with errors.
+    pub judged: Judged,
+    /// [`evaluation::score`] of that.
     pub score: f64,
 }
 
@@ -47,81 +48,88 @@ impl Decision {
     /// Drapes along planned positions (m).
     ///
     /// # Errors
-    /// If they cannot become a motion.
+    /// If they cannot become a motion, or the model that decides cannot drape.
     pub fn on(
         scene: &Scene,
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
         state: &SearchState,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, PlanError> {
         let decision = Self::uncounted(scene, strategy, positions, state)?;
-        state.record(&decision.drape, decision.score, true);
+        state.record(&decision.decided.judged, decision.decided.score, true);
         Ok(decision)
     }
 
-    /// The same, not counted among the decisions of a search.
+    /// Drapes along planned positions (m) without counting that among the decisions of a search.
     ///
     /// # Errors
-    /// If the positions cannot become a motion.
+    /// As [`Decision::on`].
     pub fn uncounted(
         scene: &Scene,
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
         state: &SearchState,
-    ) -> Result<Self, MotionError> {
-        let (positions, asked) = match &scene.tool {
+    ) -> Result<Self, PlanError> {
+        let (positions, asked) = match &scene.layup.tool {
             Some(tool) => {
                 let Carried { positions, record, .. } = tool.carry(&positions);
                 (positions, Some(record))
             }
             None => (positions, None),
         };
-        let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
-        let (sheet, drape, score) = decided(scene, &motion, state);
-        Ok(Decision { strategy, positions, asked, motion, sheet, drape, score })
+        let motion = TimedMotion::new(&positions, &scene.limits.motion_bounds())?;
+        let decided = decide(scene, &motion, state)?;
+        Ok(Decision { strategy, positions, asked, motion, decided })
     }
 
-    /// The same places in another time.
-    pub fn retimed(&mut self, scene: &Scene, motion: TimedMotion, state: &SearchState) {
+    /// Takes another time for the same places.
+    ///
+    /// # Errors
+    /// As [`Decision::on`].
+    pub fn retime(
+        &mut self,
+        scene: &Scene,
+        motion: TimedMotion,
+        state: &SearchState,
+    ) -> Result<(), PlanError> {
         let before = std::mem::replace(&mut self.motion, motion);
-        let dwells_on_the_way = scene
-            .release
-            .as_ref()
-            .is_some_and(|release| release.order == ReleaseOrder::Landed && release.dwell > 0.0);
-        if scene.settings.sheet.time == crate::scene::SheetTime::Real || dwells_on_the_way {
-            (self.sheet, self.drape, self.score) = decided(scene, &self.motion, state);
-            state.record(&self.drape, self.score, true);
-        } else if let Some(sheet) = &mut self.sheet {
-            let (end, now) = (before.duration(), self.motion.duration());
-            for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
-                let after = (state.time - end).max(0.0);
-                state.time = self.motion.times()[state.step - 1] + after;
-            }
-            for event in &mut sheet.drape.summary.events {
-                event.time = match event.time < end {
-                    true => self.motion.same_place(&before, event.time),
-                    // how long pads press after the motion is the scene's
-                    false => now + (event.time - end),
-                };
-            }
+        let dwells_on_the_way =
+            scene.layup.release.as_ref().is_some_and(|release| {
+                release.order == ReleaseOrder::Landed && release.dwell > 0.0
+            });
+        if scene.layup.settings.sheet.time == SheetTime::Real || dwells_on_the_way {
+            self.decided = decide(scene, &self.motion, state)?;
+            state.record(&self.decided.judged, self.decided.score, true);
+            return Ok(());
         }
+        // the shapes of the ply do not depend on time: only how fast everything goes does
+        let times = self.motion.times();
+        let (end, now) = (before.duration(), self.motion.duration());
+        let followed = evaluation::along_motion(&scene.layup, self.motion.steps());
+        let retimed = |step: usize, time: f64| match time < end {
+            true => self.motion.same_place(&before, time),
+            false if step < times.len() => times[step - 1],
+            // how long pads press after the motion is the scene's
+            false => now + (time - end),
+        };
+        self.decided.drape.retime(&followed, &scene.limits, times, retimed);
+        self.decided.attitudes = Attitudes::of(&self.decided.drape.steps)?;
+        Ok(())
     }
 }
 
 /// The drape along a motion, its limits and failures, and its score. The drape with a step half-way between all steps counts
 /// where it is the worse.
-fn decided(
-    scene: &Scene,
-    motion: &TimedMotion,
-    state: &SearchState,
-) -> (Option<PlannedSheet>, Judged, f64) {
+fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<Decided, PlanError> {
+    let followed = evaluation::along_motion(&scene.layup, motion.steps());
     // both at once, because most of a drape runs on one core; the second counts only where the first is accepted
     let refused = AtomicBool::new(false);
-    let ((mut sheet, mut drape), between) = rayon::join(
+    let (drape, between) = rayon::join(
         || {
-            let (sheet, drape) = draped(scene, motion, state);
-            refused.store(!drape.accepted, Ordering::Relaxed);
-            (sheet, drape)
+            let drape = draped(scene, &followed, state);
+            let accepted = drape.as_ref().is_ok_and(|drape| drape.summary.accepted());
+            refused.store(!accepted, Ordering::Relaxed);
+            drape
         },
         || {
             between_steps(scene, motion, &|| {
@@ -129,97 +137,66 @@ fn decided(
             })
         },
     );
-    let clearance = clearance(scene, motion);
-    drape = evaluation::also(drape, clearance.clone());
-    let mut score = evaluation::score(&drape);
-    if drape.accepted
-        && let Some(between) = between
-    {
-        if let Some(sheet) = &mut sheet {
-            sheet.drape.summary.judge_between(&between);
-        }
-        let judged = evaluation::also(evaluation::judged(&between, between.steps), clearance);
-        let worse = evaluation::score(&judged).max(score);
-        if !judged.accepted || worse > score {
-            (drape, score) = (judged, worse);
+    let mut drape = drape?;
+    let attitudes = Attitudes::of(&drape.steps)?;
+    let clearance = clearance(scene, motion, &attitudes);
+    drape.summary.judge_also(clearance.clone());
+    let mut judged = Judged::of(&drape.summary, &drape.steps);
+    let mut score = evaluation::score(&judged);
+    if let (true, Some(between)) = (judged.accepted(), between?) {
+        drape.summary.judge_between(&between);
+        let between = evaluation::also(between, clearance);
+        let worse = evaluation::score(&between).max(score);
+        if !between.accepted() || worse > score {
+            (judged, score) = (between, worse);
         }
     }
-    if drape.accepted && scene.settings.model == Model::Sheet {
-        let events = sheet.as_ref().map_or(&[][..], |sheet| &sheet.drape.summary.events);
-        let scene = sheet::event::at_these_times(scene, events);
-        let scene = evaluation::with_motion(&scene, motion.steps());
-        drape = evaluation::with_errors(&scene, drape, |cell| {
+    if judged.accepted() {
+        let layup = sheet::event::at_these_times(&followed, &drape.summary.events);
+        judged = evaluation::with_errors(&layup, scene.errors, judged, |cell| {
             let stop = || state.report().is_break();
-            let along = |_: &sheet::State| ControlFlow::Continue(());
-            let drape = sheet::drape(&cell, sheet::Tuning::default(), &stop, along).ok()?;
-            let ended = drape.summary.status != sheet::Status::Interrupted;
-            ended.then(|| evaluation::judged(&drape.summary, motion.times().len()))
+            let judged = outcome::judge(&cell, &scene.limits, usize::MAX, &stop);
+            // the errors may have left nothing that could be draped
+            let judged = judged.unwrap_or_else(|_| Judged::nothing());
+            (!judged.interrupted).then_some(judged)
         });
-        score = evaluation::score(&drape);
+        score = evaluation::score(&judged);
     }
-    (sheet, drape, score)
+    Ok(Decided { drape, attitudes, judged, score })
 }
 
-/// The verdict on the nearest pair of bodies along the whole motion, with pads turned as the motion file will say; none of a scene
-/// without bodies.
-fn clearance(scene: &Scene, motion: &TimedMotion) -> Option<Verdict> {
-    if scene.bodies.is_empty() {
-        return None;
-    }
-    let followed = evaluation::with_motion(scene, motion.steps());
-    let drape = draping::simulate(&followed, |_| ControlFlow::Continue(()));
-    let attitudes = Attitudes::of(&drape.steps).ok()?;
-    evaluation::clearance_of_motion(scene, motion, &attitudes)
+/// The verdict on the nearest pair of bodies along the whole motion, with pads turned as the motion file will say; `None` if the scene has
+/// no bodies.
+fn clearance(scene: &Scene, motion: &TimedMotion, attitudes: &Attitudes) -> Option<Verdict> {
+    evaluation::clearance_of_motion(scene, motion, attitudes)
 }
 
 /// The drape of the sheet along the motion with a step half-way between all its steps, because a good plan does not depend
-/// on where the motion is sampled; none of catenaries, or if it was stopped.
+/// on where the motion is sampled; `None` of catenaries, or if it was stopped.
 fn between_steps(
     scene: &Scene,
     motion: &TimedMotion,
     stop: &(dyn Fn() -> bool + Sync),
-) -> Option<sheet::Summary> {
-    if scene.settings.model != Model::Sheet {
-        return None;
+) -> Result<Option<Judged>, ModelError> {
+    if scene.layup.settings.model != Model::Sheet {
+        return Ok(None);
     }
     let mut times = motion.times().to_vec();
     times.extend(motion.times().windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
     times.sort_by(f64::total_cmp);
     let positions: Vec<Vec<Point>> = times.iter().map(|t| motion.at(*t)).collect();
-    let steps = times.len();
-    let scene = evaluation::with_motion(scene, Motion { times, positions });
-    let along = |_: &sheet::State| ControlFlow::Continue(());
-    let drape = sheet::drape(&scene, sheet::Tuning::default(), stop, along).ok()?;
-    (drape.summary.steps == steps).then_some(drape.summary)
+    let layup = evaluation::along_motion(&scene.layup, Motion { times, positions });
+    let judged = outcome::judge(&layup, &scene.limits, usize::MAX, stop)?;
+    Ok((!judged.interrupted && judged.missing == 0.0).then_some(judged))
 }
 
-fn draped(
-    scene: &Scene,
-    motion: &TimedMotion,
-    state: &SearchState,
-) -> (Option<PlannedSheet>, Judged) {
-    let steps = motion.times().len();
-    let scene = evaluation::with_motion(scene, motion.steps());
-    let mut states = Vec::new();
-    let keep = |state: &sheet::State| {
-        if sheet::is_kept(state.step, steps, scene.settings.sheet.keep) {
-            states.push(state.clone());
-        }
-        ControlFlow::Continue(())
+/// The drape of a layup by the model that decides, with the states of the sheet that the scene keeps.
+fn draped(scene: &Scene, layup: &Layup, state: &SearchState) -> Result<Drape, ModelError> {
+    let scene = Scene { layup: layup.clone(), errors: None, ..scene.clone() };
+    let mut go_on = |_: usize| match state.report() {
+        ControlFlow::Break(()) => ControlFlow::Break(()),
+        ControlFlow::Continue(()) => ControlFlow::Continue(()),
     };
     let stop = || state.report().is_break();
-    let drape = match scene.settings.model {
-        Model::Sheet => sheet::drape(&scene, sheet::Tuning::default(), &stop, keep).ok(),
-        Model::Catenaries => None,
-    };
-    match drape {
-        Some(drape) => {
-            let judged = evaluation::judged(&drape.summary, steps);
-            (Some(PlannedSheet { drape, states }), judged)
-        }
-        None => {
-            let most = TUNING.evaluation.most_equilibria * steps;
-            (None, draping::judge(&scene, most, |_| state.report()))
-        }
-    }
+    outcome::keeping_states(&scene, scene.layup.settings.model, &stop, &mut go_on)
 }

@@ -3,30 +3,24 @@
 //! The model of the scene decides. A sheet is draped with a coarse mesh to rank candidates, with the scene's own where
 //! that ranking led to no plan, and with this one to decide (`decision`).
 
-use crate::clearance::{self, Nearest};
-use crate::draping::{self, Judged};
+use crate::clearance::Nearest;
 use crate::errors::Errors;
-use crate::measure::{Name, Verdict, Worst, Worth, clearance_found};
-use crate::motion::{Attitudes, TimedMotion};
+use crate::layup::{Layup, Model, SheetTime, Stepping};
+use crate::measure::{Limits, Name, Verdict, Worst, Worth, clearance_found};
+use crate::motion::{Attitudes, Motion, TimedMotion};
+use crate::outcome::{self, Judged, ModelError};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{Evaluation, TUNING};
-use crate::scene::{Model, Motion, Scene, SheetTime, Stepping};
+use crate::scene::Scene;
 use crate::sheet;
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 
-/// A scene as plans are evaluated in it: with steps cut where the ply would penetrate the mold.
+/// A layup as plans are evaluated in it, along another motion: with steps cut where the ply would penetrate the mold.
 #[must_use]
-pub fn with_steps_cut(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    scene.settings.contact.stepping = Stepping::Cut;
-    scene
-}
-
-/// The same with another motion.
-#[must_use]
-pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
-    Scene { motion, ..with_steps_cut(scene) }
+pub fn along_motion(layup: &Layup, motion: Motion) -> Layup {
+    let mut layup = Layup { motion, ..layup.clone() };
+    layup.settings.contact.stepping = Stepping::Cut;
+    layup
 }
 
 /// The mesh with which the sheet is draped to rank candidates.
@@ -40,41 +34,54 @@ pub enum Mesh {
 
 /// The complete drape along planned positions of grippers (m), rounded as the motion will round them, of catenaries or a
 /// sheet; broken off where it needs too much or the search is stopped.
-#[must_use]
-pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], mesh: Mesh, state: &SearchState) -> Judged {
+///
+/// # Errors
+/// [`ModelError`] if the model that decides cannot drape the scene.
+pub fn drape(
+    scene: &Scene,
+    planned: &[Vec<[f64; 3]>],
+    mesh: Mesh,
+    state: &SearchState,
+) -> Result<Judged, ModelError> {
     let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    let scene = with_motion(scene, Motion { times, positions });
-    match scene.settings.model {
+    let layup = along_motion(&scene.layup, Motion { times, positions });
+    let limits = &scene.limits;
+    match layup.settings.model {
         Model::Catenaries => {
             let most = TUNING.evaluation.most_equilibria * planned.len();
-            draping::judge(&scene, most, |_| state.report())
+            outcome::judge(&layup, limits, most, &|| state.report().is_break())
         }
         Model::Sheet => {
-            let nominal = ranked_sheet(scene.clone(), mesh, state);
-            with_errors(&scene, nominal, |cell| Some(ranked_sheet(cell, mesh, state)))
+            let nominal = ranked_sheet(layup.clone(), limits, mesh, state)?;
+            Ok(with_errors(&layup, scene.errors, nominal, |cell| {
+                // the errors may have left no sheet that could be draped
+                let judged = ranked_sheet(cell, limits, mesh, state);
+                Some(judged.unwrap_or_else(|_| Judged::nothing()))
+            }))
         }
     }
 }
 
-/// The drape of a scene and those of a few cells with its errors as one: of each limit the worst. `drape` drapes a cell, none
+/// The drape of a layup and those of a few cells with errors as one: of each limit the worst. `drape` drapes a cell; it gives `None`
 /// if it was stopped. A drape that is far from a plan is as it is.
 ///
 /// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
 pub fn with_errors(
-    scene: &Scene,
+    layup: &Layup,
+    errors: Option<Errors>,
     mut worst: Judged,
-    drape: impl Fn(Scene) -> Option<Judged> + Sync,
+    drape: impl Fn(Layup) -> Option<Judged> + Sync,
 ) -> Judged {
-    let Some(errors) = scene.errors.filter(|errors| !errors.is_zero() && errors.samples > 0) else {
+    let Some(errors) = errors.filter(|errors| !errors.is_zero() && errors.samples > 0) else {
         return worst;
     };
     if score(&worst) > TUNING.evaluation.far {
         return worst;
     }
-    let planned = Errors { seed: !errors.seed, ..errors };
-    let grippers = scene.ply.grippers();
-    let cell = |sample: usize| drape(planned.draw(sample, grippers).apply(scene));
+    let planned = planned_errors(errors);
+    let grippers = layup.ply.grippers();
+    let cell = |sample: usize| drape(planned.draw(sample, grippers).apply(layup));
     let cells: Vec<Judged> =
         (0..TUNING.evaluation.cells).into_par_iter().filter_map(cell).collect();
     for cell in cells {
@@ -85,58 +92,44 @@ pub fn with_errors(
                 None => worst.limits.push(verdict),
             }
         }
-        worst.accepted &= cell.accepted;
+        worst.complete &= cell.complete;
         worst.missing = worst.missing.max(cell.missing);
         worst.unsolved += cell.unsolved;
     }
     worst
 }
 
+/// The errors of the cells that a plan is made with: of another seed than the sample by which it is judged in the end.
+#[must_use]
+pub fn planned_errors(errors: Errors) -> Errors {
+    Errors { seed: !errors.seed, ..errors }
+}
+
 /// The drape of a sheet with one of its meshes.
-fn ranked_sheet(mut scene: Scene, mesh: Mesh, state: &SearchState) -> Judged {
+fn ranked_sheet(
+    mut layup: Layup,
+    limits: &Limits,
+    mesh: Mesh,
+    state: &SearchState,
+) -> Result<Judged, ModelError> {
     if mesh == Mesh::Coarse {
-        let (pitch, radius) = (sheet::pitch(&scene.ply), scene.settings.pad.radius);
+        let (pitch, radius) = (sheet::pitch(&layup.ply), layup.settings.pad.radius);
         let coarse = (TUNING.evaluation.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
-        let own = scene.settings.sheet.mesh.unwrap_or(0.0);
-        scene.settings.sheet.mesh = Some(own.max(coarse));
+        let own = layup.settings.sheet.mesh.unwrap_or(0.0);
+        layup.settings.sheet.mesh = Some(own.max(coarse));
     }
     // in its own time a motion is draped once it has one, and only then pads can dwell on the way
-    scene.settings.sheet.time = SheetTime::QuasiStatic;
-    if let Some(release) = &mut scene.release {
+    layup.settings.sheet.time = SheetTime::QuasiStatic;
+    if let Some(release) = &mut layup.release {
         release.dwell = 0.0;
     }
-    let stop = || state.report().is_break();
-    let tuning = sheet::Tuning::default();
-    match sheet::drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
-        Ok(drape) => {
-            let nearest = clearance::along_positions(&scene, &scene.motion.positions);
-            let verdict = nearest.map(|nearest| {
-                let step = nearest.time.ceil() as usize + 1;
-                clearance_verdict(&scene, &nearest, step)
-            });
-            also(judged(&drape.summary, scene.motion.positions.len()), verdict)
-        }
-        // a scene without a sheet is refused before a search
-        Err(_) => Judged { limits: Vec::new(), accepted: false, missing: 1.0, unsolved: 1 },
-    }
+    outcome::judge(&layup, limits, usize::MAX, &|| state.report().is_break())
 }
 
-/// A drape of the sheet along so many steps as the search sees it.
-#[must_use]
-pub fn judged(summary: &sheet::Summary, steps: usize) -> Judged {
-    Judged {
-        limits: summary.limits.clone(),
-        accepted: summary.accepted,
-        missing: 1.0 - summary.steps as f64 / steps.max(1) as f64,
-        unsolved: usize::from(!summary.converged),
-    }
-}
-
-/// The same, judged by one more limit.
+/// A judgment with one more limit in place of an earlier one on the same measure.
 #[must_use]
 pub fn also(mut drape: Judged, verdict: Option<Verdict>) -> Judged {
     if let Some(verdict) = verdict {
-        drape.accepted &= verdict.ok;
         drape.limits.retain(|other| other.name != verdict.name);
         drape.limits.push(verdict);
     }
@@ -146,18 +139,20 @@ pub fn also(mut drape: Judged, verdict: Option<Verdict>) -> Judged {
 /// The verdict on the nearest pair of bodies, which is nearest on the way to a step.
 #[must_use]
 pub fn clearance_verdict(scene: &Scene, nearest: &Nearest, step: usize) -> Verdict {
-    let worst = Worst::of(&clearance_found(nearest, nearest.time), scene);
-    Verdict::of(Name::Clearance, worst, scene.limits.clearance * 1e3, Some(step))
+    let worst = Worst::of(&clearance_found(nearest, nearest.time), &scene.layup);
+    let limit = scene.limits.get(Name::Clearance).unwrap_or(0.0) * 1e3;
+    Verdict::of(Name::Clearance, worst, limit, Some(step))
 }
 
-/// The verdict on the nearest pair of bodies along the whole of a motion in time; none of a scene without bodies.
+/// The verdict on the nearest pair of bodies along the whole of a motion in time; `None` if the scene has no bodies.
 #[must_use]
 pub fn clearance_of_motion(
     scene: &Scene,
     motion: &TimedMotion,
     attitudes: &Attitudes,
 ) -> Option<Verdict> {
-    let nearest = Nearest::of_motion(scene, motion, attitudes)?;
+    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let nearest = Nearest::of_motion(&scene.layup, least, scene.plan.rate, motion, attitudes)?;
     let step = motion.times().partition_point(|t| *t < nearest.time) + 1;
     Some(clearance_verdict(scene, &nearest, step.min(motion.times().len())))
 }
@@ -251,7 +246,13 @@ mod tests {
             Verdict::of(Name::SlackRatio, worst, 5e-4, Some(1))
         };
         let evaluated = |value: f64, unsolved: usize, missing: f64| {
-            score(&Judged { limits: vec![at(value)], accepted: false, missing, unsolved })
+            score(&Judged {
+                limits: vec![at(value)],
+                complete: missing == 0.0,
+                missing,
+                unsolved,
+                interrupted: false,
+            })
         };
         let sound = evaluated(4e-4, 0, 0.0);
         assert!(sound < 1.0);
@@ -267,7 +268,7 @@ mod tests {
         let height = |value: f64| {
             let worst = Worst { value, at: String::new(), place: None };
             let limits = vec![Verdict::of(Name::Height, worst, 0.5, Some(1))];
-            Judged { limits, accepted: value <= 0.5, missing: 0.0, unsolved: 0 }
+            Judged { limits, complete: true, missing: 0.0, unsolved: 0, interrupted: false }
         };
         let mut bias = Bias::default();
         bias.learn(&height(0.10), &height(0.14));

@@ -5,14 +5,16 @@
 //! scene refuses them.
 
 use crate::clearance::{self, Poses};
-use crate::draping::attitude::{by_neighbours, on_normal};
-use crate::draping::reach::{closest, outside};
-use crate::measure::{Name, Site, Verdict, Worst};
-use crate::mold::vector::angle_between;
+use crate::geometry::rotation::{oriented, x_axis};
+use crate::geometry::vector::angle_between;
+use crate::layup::Target;
+use crate::measure::{Name, Verdict, Worst};
+use crate::measure::{closest_grippers, outside_workspace};
 use crate::mold::{Mold, distance};
 use crate::net::Missing;
-use crate::ply::{LineCell, shear};
-use crate::scene::{Scene, Target};
+use crate::ply::{LineCell, orientations, shear};
+use crate::scene::Scene;
+use crate::state::Site;
 
 /// A value and a text that says where it is.
 type Found = (f64, String);
@@ -24,17 +26,17 @@ type Found = (f64, String);
 /// targets that the scene gives by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
 #[must_use]
 pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
-    let start = scene.motion.positions.first().map(Vec::as_slice).unwrap_or_default();
+    let start = scene.layup.motion.positions.first().map(Vec::as_slice).unwrap_or_default();
     let mut out = Vec::new();
     out.extend(places(scene, start, "at the start", Some(1)));
-    let Some(target) = &scene.target else {
+    let Some(target) = &scene.layup.target else {
         return out;
     };
     out.extend(places(scene, &target.grippers, "at the target", None));
     out.extend(overstretch(scene, target));
     out.extend(shear(scene, target));
     out.extend(missing_nodes(scene, target));
-    if let Some(mold) = &scene.mold {
+    if let Some(mold) = &scene.layup.mold {
         out.extend(off_mold(scene, target, mold));
         out.extend(tilt(scene, target, mold));
         out.extend(clearance_at_target(scene, target, mold));
@@ -63,14 +65,19 @@ fn places(
     step: Option<usize>,
 ) -> impl Iterator<Item = Verdict> {
     let limits = &scene.limits;
-    let workspace =
-        limits.workspace.and_then(|workspace| outside(positions, workspace, scene.ply.cell));
+    let workspace = limits
+        .workspace
+        .and_then(|workspace| outside_workspace(positions, workspace, scene.layup.ply.cell));
     let found = [
         (Name::Workspace, 0.0, workspace),
-        (Name::GripperDistance, limits.gripper_distance * 1e3, closest(positions)),
+        (
+            Name::GripperDistance,
+            limits.most(Name::GripperDistance) * 1e3,
+            closest_grippers(positions),
+        ),
     ];
     found.into_iter().filter_map(move |(name, limit, found)| {
-        let worst = Worst::of(&found?, scene);
+        let worst = Worst::of(&found?, &scene.layup);
         let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
         Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
     })
@@ -78,9 +85,9 @@ fn places(
 
 /// Fabric between two targets (m): along the mold if both lie on it.
 fn fabric(scene: &Scene, a: [f64; 3], b: [f64; 3]) -> f64 {
-    let tolerance = scene.settings.contact.tolerance;
+    let tolerance = scene.layup.settings.contact.tolerance;
     let lies = |mold: &&Mold| [a, b].iter().all(|p| mold.signed_distance(*p).abs() <= tolerance);
-    match scene.mold.as_ref().filter(lies) {
+    match scene.layup.mold.as_ref().filter(lies) {
         Some(mold) => mold.path_length(a, b),
         None => distance(a, b),
     }
@@ -91,20 +98,21 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
     if target.drape.is_some() {
         return None;
     }
-    let lines = scene.ply.lines();
+    let lines = scene.layup.ply.lines();
     let share = |n: usize| {
         let [a, b] = lines.ends(n).map(|gripper| target.grippers[gripper]);
-        fabric(scene, a, b) / lines.flat_length(n, scene.ply.length_factor) - 1.0
+        fabric(scene, a, b) / lines.flat_length(n, scene.layup.ply.length_factor) - 1.0
     };
     let worst = largest((0..lines.edges()).map(|n| (share(n), n)));
-    let found = worst
-        .map(|(share, n)| (share, format!("{} at the target", Site::Catenary(n).label(scene))));
-    beyond(Name::Overstretch, scene.limits.overstretch, found)
+    let found = worst.map(|(share, n)| {
+        (share, format!("{} at the target", Site::Catenary(n).label(&scene.layup)))
+    });
+    beyond(Name::Overstretch, scene.limits.most(Name::Overstretch), found)
 }
 
 /// Shear of the ideal drape, or of the cells between the targets where it is not known.
 fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
-    let (lines, ply) = (scene.ply.lines(), &scene.ply);
+    let (lines, ply) = (scene.layup.ply.lines(), &scene.layup.ply);
     let found = match &target.drape {
         Some(net) => net.report.largest_shear.map(|(angle, [i, j])| {
             let [x, y, z] = net.node([i, j]).unwrap_or_default().map(|c| c * 1e3);
@@ -131,14 +139,14 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
         }
     };
     let found = found.map(|(angle, at)| (angle.to_degrees(), at));
-    beyond(Name::Shear, scene.limits.shear.to_degrees(), found)
+    beyond(Name::Shear, scene.limits.most(Name::Shear).to_degrees(), found)
 }
 
 /// Parts of the ideal drape without a place on the mold.
 fn missing_nodes(scene: &Scene, target: &Target) -> Option<Verdict> {
     let net = target.drape.as_ref()?;
-    let [low, high] = scene.ply.held_bounds();
-    let outline = scene.ply.cut.as_ref().map(|cut| &cut.outline);
+    let [low, high] = scene.layup.ply.held_bounds();
+    let outline = scene.layup.ply.cut.as_ref().map(|cut| &cut.outline);
     // what is beyond the grippers may hang beside the mold
     let between_grippers = |missing: &&Missing| {
         let uv = net.layup.fabric(missing.node);
@@ -170,15 +178,15 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
         } else {
             "inside it"
         };
-        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(scene)))
+        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(&scene.layup)))
     });
-    beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
+    beyond(Name::OffMold, scene.layup.settings.contact.tolerance * 1e3, found)
 }
 
 /// The mold's slope where a gripper is to stand on it: the gripper turns with the ply, and the ply follows the mold.
 fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
-    let tolerance = scene.settings.contact.tolerance;
-    let stem = scene.stems(&target.grippers);
+    let tolerance = scene.layup.settings.contact.tolerance;
+    let stem = scene.layup.stems(&target.grippers);
     let tilt = |place: [f64; 3]| {
         let closest = mold.closest_point(place);
         let stands = !closest.beyond && closest.distance.abs() <= tolerance;
@@ -186,31 +194,35 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {
-        (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(scene)))
+        (
+            tilt.to_degrees(),
+            format!("mold at the target of {}", Site::Gripper(n).label(&scene.layup)),
+        )
     });
-    beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
+    beyond(Name::Tilt, scene.limits.most(Name::Tilt).to_degrees(), found)
 }
 
 /// Bodies too near to each other, to an obstacle or to the mold where all grippers stand on the mold: their pads have its normal.
 fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
-    if scene.bodies.is_empty() {
+    if scene.layup.bodies.is_empty() {
         return None;
     }
-    let neighbours = scene.ply.neighbours();
-    let own = by_neighbours(&scene.ply, &neighbours, &target.grippers);
-    let fixed = scene.fixed_pads(&target.grippers);
-    let tolerance = scene.settings.contact.tolerance;
+    let neighbours = scene.layup.ply.neighbours();
+    let own = orientations(&scene.layup.ply, &neighbours, &target.grippers);
+    let fixed = scene.layup.fixed_pads(&target.grippers);
+    let tolerance = scene.layup.settings.contact.tolerance;
     let stands = |(place, own): (&[f64; 3], [f64; 4])| {
         let closest = mold.closest_point(*place);
         let on_mold = !closest.beyond && closest.distance.abs() <= tolerance;
-        on_mold.then(|| fixed.unwrap_or_else(|| on_normal(own, closest.normal)))
+        on_mold.then(|| fixed.unwrap_or_else(|| oriented(closest.normal, x_axis(own))))
     };
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
-    let nearest =
-        clearance::at(scene, &Poses::of(scene, &target.grippers, &turned?, &target.grippers))?;
-    let at = format!("{} at the target", nearest.label(scene));
+    let poses = Poses::of(&scene.layup, &target.grippers, &turned?, &target.grippers);
+    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let nearest = clearance::at(&scene.layup, least, &poses)?;
+    let at = format!("{} at the target", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::of(Name::Clearance, worst, scene.limits.clearance * 1e3, None);
+    let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, None);
     (!verdict.ok).then_some(verdict)
 }
 
@@ -221,7 +233,10 @@ fn reach(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> 
     let reach = plan.move_limit? * moves as f64;
     let distances = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
     let found = largest(distances.enumerate().map(|(n, far)| (far, n))).map(|(far, n)| {
-        (far * 1e3, format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene)))
+        (
+            far * 1e3,
+            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(&scene.layup)),
+        )
     });
     beyond(Name::MoveLimit, reach * 1e3, found)
 }

@@ -22,6 +22,7 @@ pub mod path;
 mod plan;
 mod program;
 mod quickest;
+pub mod record;
 pub mod replan;
 pub mod row;
 mod search_state;
@@ -30,6 +31,6 @@ pub mod stepwise;
 pub mod tuning;
 
 pub use checkpoint::Checkpoint;
-pub use decision::PlannedSheet;
-pub use plan::{PlanError, Planned, plan};
+pub use plan::{PlanError, Planned, along, plan, plan_without_errors};
+pub use record::{LimitedBy, PickedUp, PlanRecord};
 pub use search_state::{Progress, Watcher};

@@ -1,34 +1,32 @@
 //! From a scene to a motion: a planner finds positions, which become a motion in time, and the model that decides drapes
-//! along it. Catenaries drape along it in any case.
+//! along it.
 
 use super::checkpoint::Checkpoint;
-use super::decision::{Decision, PlannedSheet};
+use super::decision::{Decided, Decision};
 use super::evaluation;
 use super::infeasible_limits::infeasible_limits;
 use super::path;
 use super::quickest::{Quickest, quickest};
+use super::record::{LimitedBy, PlanRecord};
 use super::search_state::{SearchState, Watcher};
-use super::stepwise::{Outcome, Stepwise, stepwise};
-use crate::draping::record::{LimitedBy, PlanRecord, Summary};
-use crate::draping::{Drape, simulate};
-use crate::measure::{Name, Site, Verdict, Worst};
-use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
+use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
+use crate::measure::{Name, Verdict, WholeMotion, Worst};
+use crate::motion::{Attitudes, MotionError, TimedMotion};
+use crate::outcome::{self, ModelError, Outcome, Robustness, Watch};
 use crate::scene::{PlanMethod, Scene};
-use crate::tool::{Tool, ToolPeaks};
+use crate::state::Site;
 use std::ops::ControlFlow;
 
 /// A finished plan.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    /// The drape by catenaries along the planned motion, step-cutting on, with the verdicts of all limits.
-    pub drape: Drape,
-    /// The drape by the sheet along it, where the sheet decides.
-    pub sheet: Option<PlannedSheet>,
+    /// The drape along the planned motion by the model that decides, with the verdicts of all limits.
+    pub outcome: Outcome,
     /// The data from which the motion is made again.
     pub record: PlanRecord,
     /// The motion in time.
     pub motion: TimedMotion,
-    /// How the grippers are turned in it.
+    /// How the grippers are turned in it, by the model that decides.
     pub attitudes: Attitudes,
     /// How many of the drapes that the search took decided on a plan, in the time of its motion and where the sheet decides with
     /// the mesh of the scene; the others ranked candidates.
@@ -37,6 +35,14 @@ pub struct Planned {
     pub interrupted: bool,
     /// The result of the search, from which another search continues.
     pub checkpoint: Checkpoint,
+}
+
+impl Planned {
+    /// Whether the plan keeps every limit by the model that decides, and in as many cells with the errors of the scene as must.
+    #[must_use]
+    pub fn accepted(&self) -> bool {
+        self.outcome.accepted()
+    }
 }
 
 /// Why there is no plan.
@@ -66,27 +72,51 @@ pub enum PlanError {
     /// The positions cannot become a motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// The model that decides cannot drape the scene.
+    #[error(transparent)]
+    Model(#[from] ModelError),
 }
 
-/// Plans the gripper motion of a scene, from where it starts to its target.
+/// Plans the gripper motion of a scene, from where it starts to its target, and judges it by the model that decides, with the errors of the
+/// scene if it has any.
 ///
 /// The search continues from `checkpoint`, that of an earlier search for the same ply. `watcher` receives the progress;
 /// when it breaks, the best plan so far is finished. A plan that does not keep all limits is a plan all the same: its
 /// verdicts say which limits, where and by how much.
 ///
 /// # Errors
-/// [`PlanError`] if the scene has no mold or target, or the checkpoint is not of its ply.
+/// [`PlanError`] if the scene has no mold or target, the checkpoint is not of its ply, or the model that decides cannot drape it.
 pub fn plan(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     watcher: Watcher,
 ) -> Result<Planned, PlanError> {
-    if scene.mold.is_none() {
+    let mut planned = plan_without_errors(scene, checkpoint, watcher)?;
+    let Outcome { drape, also } = &mut planned.outcome;
+    let robustness = Robustness::of_planned(scene, planned.motion.steps());
+    robustness.judge_sample(&mut drape.summary, &Watch { stop: &|| false, done: &|_, _| {} });
+    let followed = along(scene, &planned.motion);
+    *also = outcome::also(&followed, &drape.summary, &mut |_| ControlFlow::Continue(()))?;
+    Ok(planned)
+}
+
+/// Plans as [`plan`], and leaves it to the caller to judge the sample of cells with errors ([`Robustness`]) and to drape by the other model
+/// ([`outcome::also`]).
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_without_errors(
+    scene: &Scene,
+    checkpoint: Option<&Checkpoint>,
+    watcher: Watcher,
+) -> Result<Planned, PlanError> {
+    if scene.layup.mold.is_none() {
         return Err(PlanError::NoMold);
     }
-    if scene.target.is_none() {
+    if scene.layup.target.is_none() {
         return Err(PlanError::NoTarget);
     }
+    ModelError::check(&scene.layup, scene.layup.settings.model)?;
     if let Some(checkpoint) = checkpoint {
         checkpoint.check(scene)?;
     }
@@ -101,84 +131,61 @@ pub fn plan(
     };
     state.finish();
 
-    let Followed { drape, limited_by } = follow(scene, &mut decision, own_limits, &state);
-    let Decision { strategy, positions, motion, sheet, .. } = decision;
+    let limited_by = finish(scene, &mut decision, own_limits, &state)?;
+    let Decision { strategy, positions, motion, decided, .. } = decision;
+    let Decided { drape, attitudes, .. } = decided;
     let evaluations = match scene.plan.method {
         PlanMethod::Path => state.candidates() + state.decisions(),
         PlanMethod::Stepwise => state.candidates(),
     };
     let (method, rate) = (scene.plan.method, scene.plan.rate);
     let record = PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by);
-    let attitudes = Attitudes::of(&drape.steps)?;
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
     let checkpoint = Checkpoint::new(scene, before + evaluations, strategy, positions);
     let interrupted = state.is_interrupted();
     let decisions = state.decisions();
-    Ok(Planned { drape, sheet, record, motion, attitudes, decisions, interrupted, checkpoint })
+    let outcome = Outcome { drape, also: None };
+    Ok(Planned { outcome, record, motion, attitudes, decisions, interrupted, checkpoint })
 }
 
-/// What follows from a decision.
-pub(super) struct Followed {
-    /// The drape by catenaries along its motion, with the verdicts of all limits but those of the sheet.
-    pub drape: Drape,
-    /// What limits the time of the motion.
-    pub limited_by: Vec<LimitedBy>,
+/// The scene along a planned motion, as plans are draped.
+#[must_use]
+pub fn along(scene: &Scene, motion: &TimedMotion) -> Scene {
+    Scene { layup: evaluation::along_motion(&scene.layup, motion.steps()), ..scene.clone() }
 }
 
-/// Drapes by catenaries along the motion of a decision, which gets the least time under all limits.
-pub(super) fn follow(
+/// Gives the motion of a decision the least time under all limits, and judges it as a whole. Returns what limits its time.
+pub(super) fn finish(
     scene: &Scene,
     decision: &mut Decision,
     own_limits: Vec<Verdict>,
     state: &SearchState,
-) -> Followed {
-    let along = |motion: &TimedMotion| {
-        let followed = evaluation::with_motion(scene, motion.steps());
-        simulate(&followed, |_| ControlFlow::Continue(()))
-    };
-    let mut drape = along(&decision.motion);
-    // the shapes of the ply do not depend on time: only how fast everything goes does
-    let Quickest { motion, limited_by } = quickest(scene, &decision.motion, &drape);
+) -> Result<Vec<LimitedBy>, PlanError> {
+    let Quickest { motion, limited_by } =
+        quickest(scene, &decision.motion, &decision.decided.drape);
     if motion != decision.motion {
-        decision.retimed(scene, motion, state);
-        drape = along(&decision.motion);
+        decision.retime(scene, motion, state)?;
     }
-    if let (Some(asked), Some(made)) = (&decision.asked, drape.summary.tool.take()) {
-        drape.summary.follow_tool(scene, made.with_residual_of(asked));
+    let Decision { asked, motion, decided, .. } = decision;
+    let summary = &mut decided.drape.summary;
+    if let (Some(asked), Some(made)) = (&asked, summary.tool.take()) {
+        summary.follow_tool(scene, made.with_residual_of(asked));
     }
-    // limits that no plan can keep come first
-    let summary = &mut drape.summary;
-    let verdicts = std::mem::take(&mut summary.limits);
+    let tool = scene.layup.tool.as_ref();
+    let peaks = tool.and_then(|tool| tool.peaks(motion, scene.plan.rate).ok());
+    let whole = WholeMotion {
+        layup: &scene.layup,
+        limits: &scene.limits,
+        motion,
+        attitudes: Some(&decided.attitudes),
+        peaks: motion.peaks(),
+        tool: peaks.as_ref(),
+        rate: scene.plan.rate,
+    };
     summary.judge_also(infeasible_limits(scene));
-    summary.limits.extend(verdicts);
-    if let Ok(attitudes) = Attitudes::of(&drape.steps)
-        && let Some(whole) = evaluation::clearance_of_motion(scene, &decision.motion, &attitudes)
-    {
-        judge_whole(summary, whole);
-    }
-    let bounds = Bounds::from(&scene.limits);
-    summary.judge_also(own_limits.into_iter().chain(rates(&decision.motion, &bounds, scene)));
-    if let Some(tool) = &scene.tool
-        && let Ok(peaks) = tool.peaks(&decision.motion, scene.plan.rate)
-    {
-        summary.judge_also(tool_rates(tool, &peaks, &decision.motion, scene));
-    }
-    Followed { drape, limited_by }
-}
-
-/// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.
-pub(super) fn judge_whole(summary: &mut Summary, whole: Verdict) {
-    summary.accepted &= whole.ok;
-    // what no plan can keep stands before what was measured
-    match summary
-        .limits
-        .iter_mut()
-        .rfind(|verdict| verdict.name == whole.name && verdict.step.is_some())
-    {
-        Some(verdict) if whole.ratio() > verdict.ratio() => *verdict = whole,
-        Some(_) => {}
-        None => summary.limits.push(whole),
-    }
+    summary.judge_also(own_limits);
+    summary.judge_also(whole.verdicts());
+    Ok(limited_by)
 }
 
 /// A decision, and limits of the planner itself.
@@ -207,9 +214,9 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
 /// The limit that a stepwise plan breaks which does not reach its target.
 pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
     match plan.outcome {
-        Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
-            let gripper = scene.ply.index(error.gripper).unwrap_or_default();
-            let at = Site::Gripper(gripper).label(scene);
+        SteppedOutcome::OutOfSteps(error) | SteppedOutcome::OutOfReach(error) => {
+            let gripper = scene.layup.ply.index(error.gripper).unwrap_or_default();
+            let at = Site::Gripper(gripper).label(&scene.layup);
             let worst = Worst {
                 value: error.distance * 1e3,
                 at: format!("{at}, short of its target"),
@@ -217,56 +224,8 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
             };
             vec![Verdict::of(Name::Steps, worst, 0.0, Some(plan.positions.len()))]
         }
-        Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
+        SteppedOutcome::Arrived | SteppedOutcome::Interrupted | SteppedOutcome::NoTarget => {
+            Vec::new()
+        }
     }
-}
-
-/// How fast a tool turns and its axes move, against their limits.
-pub(super) fn tool_rates(
-    tool: &Tool,
-    peaks: &ToolPeaks,
-    motion: &TimedMotion,
-    scene: &Scene,
-) -> Vec<Verdict> {
-    let ToolPeaks { turn_rate, turn_acceleration, axis_share, axis } = *peaks;
-    let [turn_rate, turn_acceleration] =
-        [turn_rate, turn_acceleration].map(|peak| Peak { value: peak.value.to_degrees(), ..peak });
-    let moved = tool.axes.get(axis).map(|axis| {
-        let gripper = Site::Gripper(axis_share.gripper).label(scene);
-        (Name::AxisSpeed, axis_share, format!("axis {} of {gripper}", axis.name))
-    });
-    let frame = || "frame of the tool".to_owned();
-    [
-        Some((Name::ToolTurnRate, turn_rate, frame())),
-        Some((Name::ToolTurnAcceleration, turn_acceleration, frame())),
-        moved,
-    ]
-    .into_iter()
-    .flatten()
-    .filter_map(|(name, peak, at)| {
-        let step = motion.times().partition_point(|t| *t < peak.time) + 1;
-        let worst = Worst { value: peak.value, at, place: None };
-        let limit = name.measure().limit(scene)?;
-        Some(Verdict::of(name, worst, limit, Some(step.min(motion.times().len()))))
-    })
-    .collect()
-}
-
-/// Largest speed, acceleration and jerk of the motion against their limits.
-pub(super) fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
-    let peaks = motion.peaks();
-    let verdict = |name: Name, peak: Peak, limit: f64| {
-        let step = motion.times().partition_point(|t| *t < peak.time) + 1;
-        let worst = Worst {
-            value: peak.value,
-            at: Site::Gripper(peak.gripper).label(scene),
-            place: Some(motion.at(peak.time)[peak.gripper]),
-        };
-        Verdict::of(name, worst, limit, Some(step.min(motion.times().len())))
-    };
-    vec![
-        verdict(Name::Speed, peaks.speed, bounds.speed),
-        verdict(Name::Acceleration, peaks.acceleration, bounds.acceleration),
-        verdict(Name::Jerk, peaks.jerk, bounds.jerk),
-    ]
 }

@@ -1,12 +1,12 @@
 //! The least time of a planned motion: its time-optimal law under the limits of grippers, joints and tool.
 
+use super::record::LimitedBy;
 use super::tuning::TUNING;
-use crate::draping::Drape;
-use crate::draping::attitude::normal;
-use crate::draping::record::{LimitedBy, Step};
+use crate::geometry::rotation::normal;
+use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::measure::Name;
-use crate::mold::vector::{cross, dot, norm, sub};
-use crate::motion::{Bounds, Course, Limiting, Moving, TimedMotion};
+use crate::motion::{Course, Limiting, Moving, TimedMotion};
+use crate::outcome::{Drape, Step};
 use crate::scene::Scene;
 use crate::tool::Tool;
 
@@ -29,7 +29,8 @@ struct Limited {
 pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Quickest {
     // first so slow as a whole that all limits are kept
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let turned = TUNING.evaluation.tilt_rate_margin * fastest / scene.limits.tilt_rate.to_degrees();
+    let turned = TUNING.evaluation.tilt_rate_margin * fastest
+        / scene.limits.most(Name::TiltRate).to_degrees();
     let carried = tool_stretch(scene, motion);
     let slowed = turned.max(carried).max(1.0);
     let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
@@ -37,14 +38,14 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
         return Quickest { motion, limited_by: Vec::new() };
     };
 
-    let bounds = Bounds::from(&scene.limits);
+    let bounds = scene.limits.motion_bounds();
     let mut limited: Vec<Limited> = Vec::new();
     for (gripper, moving) in course.grippers(&bounds).into_iter().enumerate() {
         let names = [Name::Speed, Name::Acceleration, Name::Jerk];
         limited.push(Limited { moving, names, gripper: Some(gripper) });
     }
     limited.extend(tilting(scene, &course, &drape.steps, slowed));
-    if let Some(tool) = &scene.tool {
+    if let Some(tool) = &scene.layup.tool {
         limited.extend(carrying(tool, &motion, &course));
     }
     let moving: Vec<Moving> = limited.iter().map(|one| one.moving.clone()).collect();
@@ -60,6 +61,7 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
 /// How many times longer a motion must take for its tool to keep its limits; at most 1 if it does.
 fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
     let peaks = scene
+        .layup
         .tool
         .as_ref()
         .and_then(|tool| Some((tool, tool.peaks(motion, scene.plan.rate).ok()?)));
@@ -77,7 +79,7 @@ fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
 
 /// The tilts of the grippers, which turn evenly from step to step of a motion that is so much slower than these steps say.
 fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
-    let bound = scene.limits.tilt_rate / TUNING.evaluation.tilt_rate_margin;
+    let bound = scene.limits.most(Name::TiltRate) / TUNING.evaluation.tilt_rate_margin;
     let one = |gripper: usize| {
         let rates = course.times().iter().map(|t| {
             let after = steps.partition_point(|step| step.time * slowed <= *t);
@@ -170,7 +172,7 @@ fn by_name(
         match found.iter_mut().find(|one| one.name == name) {
             Some(one) => one.time_s += time_s,
             None => {
-                let gripper = gripper.map(|n| scene.ply.id(n));
+                let gripper = gripper.map(|n| scene.layup.ply.id(n));
                 found.push(LimitedBy { name, time_s, gripper });
             }
         }

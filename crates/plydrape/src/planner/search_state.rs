@@ -1,8 +1,8 @@
 //! The state of a search while it runs: the best plan so far, which is reported to a watcher, and whether the search
 //! shall end.
 
-use crate::draping::Judged;
 use crate::measure::Verdict;
+use crate::outcome::Judged;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -133,7 +133,7 @@ impl<'a> SearchState<'a> {
         count.fetch_add(1, Ordering::Relaxed);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
         let key = |decided: bool, accepted: bool, score: f64| (!decided, !accepted, score);
-        let accepted = decides && drape.accepted;
+        let accepted = decides && drape.accepted();
         if key(decides, accepted, score) < key(best.decided, best.accepted, best.score) {
             best.score = score;
             best.limits.clone_from(&drape.limits);

@@ -107,5 +107,5 @@ pub const TUNING: Tuning = Tuning {
 
 /// The planners' unit of length: the shorter side of a cell (m).
 pub(super) fn cell(scene: &Scene) -> f64 {
-    scene.ply.cell[0].min(scene.ply.cell[1])
+    scene.layup.ply.cell[0].min(scene.layup.ply.cell[1])
 }

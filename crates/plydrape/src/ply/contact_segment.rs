@@ -1,8 +1,8 @@
 //! The part of a catenary that is in contact with the mold.
 
 use super::tuning::TUNING;
+use crate::geometry::vector::{dot, sub};
 use crate::mold::SurfaceCurve;
-use crate::mold::vector::{dot, sub};
 
 /// The contact segment of a catenary: fixed in space and in fabric arc length.
 ///

@@ -1,7 +1,8 @@
 //! A ply as it is cut, and the cups that hold it.
 
 use super::{Direction, Grid, GripperId, Lines, Outline, Ply};
-use crate::mold::vector::{along, sub, unit};
+use crate::geometry::rotation::of_tangents;
+use crate::geometry::vector::{along, sub, unit};
 
 /// A ply that is cut to an outline and held where cups are.
 #[derive(Debug, Clone, PartialEq)]
@@ -203,6 +204,16 @@ pub fn tangents(
         [None, Some(v)] => [left(v).map_or([1.0, 0.0, 0.0], |way| way.map(|c| -c)), v],
         [None, None] => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
     }
+}
+
+/// Orientation (x, y, z, w) of each gripper by the lines to its neighbors at positions (m), whatever the ply between them does.
+#[must_use]
+pub fn orientations(ply: &Ply, neighbours: &[Neighbours], positions: &[[f64; 3]]) -> Vec<[f64; 4]> {
+    let orientation = |n: usize| {
+        let [u, v] = tangents(ply, neighbours, positions, n);
+        of_tangents(u, v)
+    };
+    (0..positions.len()).map(orientation).collect()
 }
 
 /// The neighbors of a gripper, each with the share of the way to it in the tangent of u, and the same of v: [`tangents`] are

@@ -1,7 +1,7 @@
 //! How the flat ply is turned that comes nearest to places of its grippers.
 
 use super::Ply;
-use crate::mold::vector::{along, cross, dot, sub, unit};
+use crate::geometry::vector::{along, cross, dot, sub, unit};
 
 impl Ply {
     /// Unit vectors of u, v and the normal of the flat ply whose grippers come nearest to places (m).

@@ -14,7 +14,7 @@ pub mod shear;
 mod tuning;
 
 pub use contact_segment::{ContactSegment, LandedCell};
-pub use cut::{Cut, Held, Neighbours, directions, tangent_shares, tangents};
+pub use cut::{Cut, Held, Neighbours, directions, orientations, tangent_shares, tangents};
 pub(crate) use flat::flat_axes;
 pub use grid::{Catenary, Grid, GripperId, Kind};
 #[cfg(test)]

@@ -134,7 +134,7 @@ impl Ply {
     ///
     /// # Errors
     /// [`PlaceError`]: the first fault, with its step.
-    pub fn check_motion(&self, motion: &crate::scene::Motion) -> Result<(), PlaceError> {
+    pub fn check_motion(&self, motion: &crate::motion::Motion) -> Result<(), PlaceError> {
         let (times, steps) = (motion.times.len(), motion.positions.len());
         if times != steps || times == 0 {
             return Err(PlaceError::Steps { times, steps });

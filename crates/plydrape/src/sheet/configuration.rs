@@ -1,7 +1,7 @@
 //! Where the ply is and how it moves at one moment.
 
 use super::gripper::Pad;
-use crate::mold::vector::{norm, sub};
+use crate::geometry::vector::{norm, sub};
 
 /// The configuration of the ply: positions, velocities and pads.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,12 +10,12 @@ use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::friction::{Anchor, Hold, penalty};
-use super::matrix3::{outer, scaled};
 use super::system::{System, add};
 use super::tuning::Tuning;
 use super::unknowns::Carrier;
+use crate::geometry::matrix3::{outer, scaled};
+use crate::geometry::vector::{distance, dot, norm, sub};
 use crate::mold::Mold;
-use crate::mold::vector::{distance, dot, norm, sub};
 
 /// The mold under a node that it presses.
 #[derive(Debug, Clone, Copy, PartialEq)]

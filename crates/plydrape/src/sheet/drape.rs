@@ -4,17 +4,16 @@
 use super::cloth::Cloth;
 use super::gripper::Pad;
 use super::march::March;
-use super::measure::{Effort, Extremes, Summary};
 use super::model::{Sheet, SheetError};
 use super::release::Releases;
+use super::report::{Drape, Report};
 use super::shear::angle;
 use super::state::State;
 use super::tuning::Tuning;
+use crate::layup::Layup;
 use crate::ply::flat_axes;
-use crate::scene::Scene;
 use crate::stopwatch::Stopwatch;
 use std::ops::ControlFlow;
-use std::time::Duration;
 
 /// How a drape of the sheet ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,39 +30,23 @@ pub enum Status {
     Interrupted,
 }
 
-/// A finished drape of the sheet.
-#[derive(Debug, Clone)]
-pub struct Drape {
-    /// The sheet that was draped.
-    pub sheet: Sheet,
-    /// What was measured, and the verdict.
-    pub summary: Summary,
-    /// The step of the motion in which each node came to the mold and stayed; none of one that did not.
-    pub landing_step: Vec<Option<usize>>,
-    /// Shear angle of each cell (rad) in the step in which the last of its nodes came to the mold; none of others.
-    pub landing_shear: Vec<Option<f64>>,
-    /// The last state.
-    pub last: State,
-    /// Time that it took.
-    pub duration: Duration,
-}
-
-/// Drapes the sheet of a scene along its motion, as its tool makes it. `see` is called with the state of each step and may end the drape, and so
-/// may `stop`, which is asked before each time step.
+/// Drapes the sheet of a layup along its motion; the motion is that of the grippers, so a tool has made it ([`Layup::carried`]).
+///
+/// `see` is called with the sheet, the state of each step and whether it is the last one, and may end the drape; so may `stop`, which is
+/// asked before each time step. Nodes up to `low` (m) over the mold lie, as far as the release of pads asks for that.
 ///
 /// # Errors
-/// If the scene has no sheet.
+/// If the layup has no sheet.
 pub fn drape(
-    scene: &Scene,
+    layup: &Layup,
     tuning: Tuning,
+    low: f64,
     stop: &dyn Fn() -> bool,
-    mut see: impl FnMut(&State) -> ControlFlow<()>,
+    mut see: impl FnMut(&Sheet, &State, bool) -> ControlFlow<()>,
 ) -> Result<Drape, SheetError> {
     let watch = Stopwatch::start();
-    let (carried, _) = scene.carried();
-    let scene = &*carried;
-    let sheet = Sheet::new(scene)?;
-    let steps = &scene.motion.positions;
+    let sheet = Sheet::new(layup)?;
+    let steps = &layup.motion.positions;
     let grippers = sheet.grippers.len();
     let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
         return Err(SheetError::NoMotion { grippers });
@@ -71,27 +54,27 @@ pub fn drape(
     let (flat, pads) = flat(&sheet, start);
     let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();
     let cloth = Cloth::new(&sheet, tuning, flat, pads);
-    let releases = Releases::of(scene, &sheet);
+    let releases = Releases::of(layup, &sheet, low);
     let mut run = Run {
-        scene,
+        layup,
         sheet: &sheet,
         tuning,
-        march: March::new(scene, &sheet, tuning, cloth, releases, stop),
-        extremes: Extremes::default(),
+        march: March::new(layup, &sheet, tuning, cloth, releases, stop),
+        report: Report::default(),
         landing_step: vec![None; sheet.fabric.places.len()],
         landing_shear: vec![None; sheet.fabric.cells.len()],
     };
+    let mut see = |state: &State, last: bool| see(&sheet, state, last);
     let (status, last) = run.run(&placed, &mut see);
-    let effort = Effort {
-        time_steps: run.march.time_steps,
-        solves: run.march.cloth.solves,
-        smallest_step: run.march.smallest_step,
-    };
-    let clear = tuning.release * sheet.pitch;
-    let mut summary = Summary::new(scene, &sheet, clear, &run.extremes, &last, status, effort);
-    let Run { landing_step, landing_shear, march, .. } = run;
-    summary.events = march.releases.map(Releases::events).unwrap_or_default();
-    Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: watch.elapsed() })
+    let Run { march, landing_step, landing_shear, mut report, .. } = run;
+    report.end(&sheet, tuning.release * sheet.pitch, &last);
+    let March { cloth, releases, time_steps, smallest_step, .. } = march;
+    (report.time_steps, report.smallest_step) = (time_steps, smallest_step);
+    report.solves = cloth.solves;
+    let events = releases.map(Releases::events).unwrap_or_default();
+    let (steps, duration) = (last.step, watch.elapsed());
+    drop(cloth);
+    Ok(Drape { sheet, status, steps, report, events, landing_step, landing_shear, last, duration })
 }
 
 /// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with
@@ -110,11 +93,11 @@ pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {
 
 /// A drape under way, and what is measured of it.
 struct Run<'a> {
-    scene: &'a Scene,
+    layup: &'a Layup,
     sheet: &'a Sheet,
     tuning: Tuning,
     march: March<'a>,
-    extremes: Extremes,
+    report: Report,
     landing_step: Vec<Option<usize>>,
     landing_shear: Vec<Option<f64>>,
 }
@@ -124,9 +107,9 @@ impl Run<'_> {
     fn run(
         &mut self,
         placed: &[[f64; 3]],
-        see: &mut impl FnMut(&State) -> ControlFlow<()>,
+        see: &mut impl FnMut(&State, bool) -> ControlFlow<()>,
     ) -> (Status, State) {
-        let motion = &self.scene.motion;
+        let motion = &self.layup.motion;
         // the flat ply is hung in the air, and comes to rest over the mold
         if let Err(ended) = self.march.hang(placed, &motion.positions[0]) {
             return (ended.status(), self.state(1, motion.times[0]));
@@ -136,7 +119,7 @@ impl Run<'_> {
 
         // it follows the motion, at whose end it comes to rest again
         for step in 2..=motion.positions.len() {
-            if see(&state).is_break() {
+            if see(&state, false).is_break() {
                 return (Status::Interrupted, state);
             }
             let [from, to] = [step - 2, step - 1].map(|n| &motion.positions[n]);
@@ -152,14 +135,16 @@ impl Run<'_> {
 
         // pads that hold to the end let go together
         let steps = motion.positions.len();
-        if self.march.releases.is_some() && (see(&state).is_break() || self.march.is_stopped()) {
+        if self.march.releases.is_some()
+            && (see(&state, false).is_break() || self.march.is_stopped())
+        {
             return (Status::Interrupted, state);
         }
         if let Some(time) = self.march.let_go_of_all() {
             resting = self.march.rest(&motion.positions[steps - 1], true);
             state = self.see(steps, time);
         }
-        match see(&state) {
+        match see(&state, true) {
             ControlFlow::Break(()) => (Status::Interrupted, state),
             ControlFlow::Continue(()) if resting => (Status::Converged, state),
             ControlFlow::Continue(()) if self.march.is_stopped() => (Status::Interrupted, state),
@@ -170,8 +155,8 @@ impl Run<'_> {
     /// Evaluates the state of a step at a time (s).
     fn see(&mut self, step: usize, time: f64) -> State {
         let state = self.state(step, time);
-        let touching = self.scene.settings.contact.tolerance;
-        self.extremes.see(self.sheet, &self.march.cloth.pads.gripped, &state, touching);
+        let touching = self.layup.settings.contact.tolerance;
+        self.report.see(self.sheet, &self.march.cloth.pads.gripped, &state, touching);
         for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
             *landed = touches.then(|| landed.unwrap_or(step));
         }

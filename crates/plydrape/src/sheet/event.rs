@@ -1,7 +1,7 @@
 //! What the vacuum of the pads does along a motion.
 
+use crate::layup::Layup;
 use crate::ply::GripperId;
-use crate::scene::Scene;
 
 /// What happens to the hold of some pads, all at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,20 +29,20 @@ pub enum EventKind {
     Release,
 }
 
-/// The scene in which pads let go when a drape along its motion has found that they do.
+/// The layup in which pads let go when a drape along its motion has found that they do.
 #[must_use]
-pub fn at_these_times(scene: &Scene, events: &[Event]) -> Scene {
-    let mut scene = scene.clone();
-    if let Some(release) = &mut scene.release {
-        let mut times = vec![f64::INFINITY; scene.ply.grippers()];
+pub fn at_these_times(layup: &Layup, events: &[Event]) -> Layup {
+    let mut layup = layup.clone();
+    if let Some(release) = &mut layup.release {
+        let mut times = vec![f64::INFINITY; layup.ply.grippers()];
         for event in events.iter().filter(|event| event.kind == EventKind::Release) {
-            for n in event.grippers.iter().filter_map(|id| scene.ply.index(*id)) {
+            for n in event.grippers.iter().filter_map(|id| layup.ply.index(*id)) {
                 times[n] = event.time;
             }
         }
         release.times = Some(times.into());
     }
-    scene
+    layup
 }
 
 /// When the last pads let go (s); none if they hold to the end.

@@ -5,11 +5,11 @@
 //! bound, linear beyond it.
 
 use super::Sheet;
-use super::matrix3::{IDENTITY, Matrix3, outer, plus, scaled};
 use super::tuning::Tuning;
+use crate::geometry::matrix3::{IDENTITY, Matrix3, outer, plus, scaled};
+use crate::geometry::vector::{along, dot, norm, sub};
+use crate::layup::Friction;
 use crate::mold::Mold;
-use crate::mold::vector::{along, dot, norm, sub};
-use crate::scene::Friction;
 
 /// Where a node touched the mold.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::system::{System, add};
-use crate::mold::vector::{dot, sub};
+use crate::geometry::vector::{dot, sub};
 
 /// Inertia of all nodes over a time step.
 #[derive(Debug)]

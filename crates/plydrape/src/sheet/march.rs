@@ -2,7 +2,7 @@
 //!
 //! The motion is stretched in time until the speed of the grippers is of no matter (or taken as it is), and followed in
 //! shares of its steps: a share that is not solved is halved, one that is solved easily is followed by a longer one. Pads
-//! let go on the way or after it, as the scene says.
+//! let go on the way or after it, as the layup says.
 
 use super::Sheet;
 use super::cloth::Cloth;
@@ -10,8 +10,8 @@ use super::drape::Status;
 use super::energy::Phase;
 use super::release::Releases;
 use super::tuning::Tuning;
-use crate::mold::vector::{between, distance};
-use crate::scene::{Scene, SheetTime};
+use crate::geometry::vector::{between, distance};
+use crate::layup::{Layup, SheetTime};
 
 /// Share of a step of the motion that is no time.
 const ROUNDING: f64 = 1e-6;
@@ -59,7 +59,7 @@ pub struct March<'a> {
 impl<'a> March<'a> {
     /// A ply that is about to be hung.
     pub fn new(
-        scene: &Scene,
+        layup: &Layup,
         sheet: &'a Sheet,
         tuning: Tuning,
         cloth: Cloth<'a>,
@@ -74,7 +74,7 @@ impl<'a> March<'a> {
             smallest_step: 1.0,
             sheet,
             tuning,
-            time: scene.settings.sheet.time,
+            time: layup.settings.sheet.time,
             stop,
             share: 1.0,
         }

@@ -6,7 +6,7 @@
 //! hold their nodes (`gripper`) until they let go (`release`, `event`), the mold carries what touches it and friction holds it (`contact`). Implicit
 //! time steps with real mass (`cloth`) follow the motion of the grippers (`drape`).
 //!
-//! What is measured of it is in [`measure`]. Lengths in meters, forces in newtons, angles in radians.
+//! What measures ask of it is handed over as a [`crate::state::PlyState`] (`hand_over`). Lengths in meters, forces in newtons, angles in radians.
 
 mod bending;
 pub mod cholesky;
@@ -19,15 +19,16 @@ pub mod event;
 pub mod fabric;
 mod friction;
 mod gripper;
+mod hand_over;
 mod inertia;
 mod march;
-mod matrix3;
-pub mod measure;
 mod model;
 mod mount;
 mod newton;
 mod pads;
+mod raised;
 mod release;
+mod report;
 mod resting;
 mod shear;
 mod state;
@@ -37,12 +38,14 @@ mod tuning;
 mod unknowns;
 mod weight;
 
-pub use drape::{Drape, Status, drape, is_kept};
+pub use drape::{Status, drape, is_kept};
 pub use event::{Event, EventKind};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
-pub use measure::Summary;
+pub use hand_over::HandOver;
 pub use model::{Sheet, SheetError, coarsest_mesh, pitch};
+pub use raised::{Raised, raised};
+pub use report::{Drape, Report};
 pub use state::State;
 pub use tuning::Tuning;
 

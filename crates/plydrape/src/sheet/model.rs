@@ -1,11 +1,11 @@
-//! The sheet of a scene: its fabric, laws and grippers, checked.
+//! The sheet of a layup: its fabric, laws and grippers, checked.
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
+use crate::layup::{Friction, Layup, PadSettings, Settings};
 use crate::material::{MomentCurve, Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply, gripper_name};
-use crate::scene::{Friction, PadSettings, Scene, Settings};
 use crate::tool::Tool;
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
@@ -47,7 +47,7 @@ pub struct Sheet {
     pub tool: Option<Tool>,
 }
 
-/// Why a scene has no sheet.
+/// Why a layup has no sheet.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SheetError {
     /// The material does not say how it shears.
@@ -166,12 +166,12 @@ pub enum SheetError {
 }
 
 impl Sheet {
-    /// The sheet of a scene.
+    /// The sheet of a layup.
     ///
     /// # Errors
-    /// If the scene lacks what a sheet needs.
-    pub fn new(scene: &Scene) -> Result<Self, SheetError> {
-        let (ply, settings) = (&scene.ply, &scene.settings);
+    /// If the layup lacks what a sheet needs.
+    pub fn new(layup: &Layup) -> Result<Self, SheetError> {
+        let (ply, settings) = (&layup.ply, &layup.settings);
         let material = &ply.material;
         let name = || material.name.clone();
         let shear =
@@ -254,7 +254,7 @@ impl Sheet {
         let sheet = Sheet {
             fabric,
             grippers: (0..ply.grippers()).map(gripper).collect(),
-            mold: scene.mold.clone(),
+            mold: layup.mold.clone(),
             areal_mass,
             rigidity,
             moment,
@@ -265,7 +265,7 @@ impl Sheet {
             tack: settings.contact.tack,
             pitch,
             mesh,
-            tool: scene.tool.clone(),
+            tool: layup.tool.clone(),
         };
         let fixed = sheet.tool.as_ref().is_some_and(|tool| tool.fixed_pads.is_some());
         for (n, held) in sheet.held().iter().enumerate() {
@@ -301,7 +301,7 @@ impl Sheet {
 }
 
 impl Fabric {
-    /// The fabric of a ply as a scene divides it.
+    /// The fabric of a ply as a layup divides it.
     ///
     /// # Errors
     /// If pads hang over the boundary.

@@ -5,12 +5,12 @@ use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::gripper::{Gripper, Pad};
-use super::matrix3::{IDENTITY, outer, scaled};
 use super::pads::Pads;
 use super::system::{System, add};
 use super::tuning::Tuning;
 use super::unknowns::Carrier;
-use crate::mold::vector::{cross, norm};
+use crate::geometry::matrix3::{IDENTITY, outer, scaled};
+use crate::geometry::vector::{cross, norm};
 
 /// What the mount of a gripper acts on.
 #[derive(Debug, Clone, Copy)]

@@ -7,7 +7,7 @@
 
 use super::cloth::Cloth;
 use super::energy::{Phase, Stiffness};
-use crate::mold::vector::{norm, sub};
+use crate::geometry::vector::{norm, sub};
 
 /// Why a time step was not solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

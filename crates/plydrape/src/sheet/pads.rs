@@ -3,10 +3,10 @@
 use super::Sheet;
 use super::configuration::Configuration;
 use super::gripper::Gripper;
-use super::matrix3::{plus, times, transposed};
 use super::system::{System, add};
 use super::unknowns::Carrier;
-use crate::mold::vector::{along, sub};
+use crate::geometry::matrix3::{plus, times, transposed};
+use crate::geometry::vector::{along, sub};
 
 /// The nodes that a gripper holds with their distance from its middle in the fabric (m); its own point first.
 pub type HeldNodes = Vec<(usize, [f64; 2])>;

@@ -1,17 +1,17 @@
-//! When pads let go: the rule of the scene, applied to the ply as it comes to lie.
+//! When pads let go: the rule of the layup, applied to the ply as it comes to lie.
 //!
 //! A pad's *surroundings* are the nodes of ply no farther from its middle, in the fabric, than neighboring grippers stand
-//! apart, those that it holds among them. They lie when the height of each over the mold is one that the scene accepts at
+//! apart, those that it holds among them. They lie when the height of each over the mold is one that the layup accepts at
 //! the end; ply that hangs beyond the mold never does. With [`ReleaseOrder::Landed`] a pad whose surroundings have lain
 //! for the dwell, in the time of the motion, lets go. After the motion all pads that still hold press for the dwell, lying
-//! or not, and let go together. Where the scene says when pads let go, as in drapes of cells with errors, they do so then.
+//! or not, and let go together. Where the layup says when pads let go, as in drapes of cells with errors, they do so then.
 
 use super::cloth::Cloth;
 use super::event::{Event, EventKind};
 use super::model::Sheet;
+use crate::layup::{Layup, Release, ReleaseOrder};
 use crate::mold::Mold;
 use crate::ply::Ply;
-use crate::scene::{Release, ReleaseOrder, Scene};
 
 /// What pads have done so far, and what they do next.
 #[derive(Debug)]
@@ -33,18 +33,18 @@ pub struct Releases<'a> {
 }
 
 impl<'a> Releases<'a> {
-    /// By the rule of a scene, for the pads of its sheet, which grip the ply as the motion begins; none if they hold it to the
-    /// end.
-    pub fn of(scene: &'a Scene, sheet: &'a Sheet) -> Option<Self> {
-        let (rule, ply) = (scene.release.as_ref()?, &scene.ply);
-        let times = &scene.motion.times;
+    /// By the rule of a layup, for the pads of its sheet, which grip the ply as the motion begins; `None` if they hold it to the end.
+    /// Nodes up to `low` (m) over the mold lie.
+    pub fn of(layup: &'a Layup, sheet: &'a Sheet, low: f64) -> Option<Self> {
+        let (rule, ply) = (layup.release.as_ref()?, &layup.ply);
+        let times = &layup.motion.times;
         let grippers = sheet.grippers.len();
         let mut releases = Releases {
             rule,
             end: times[times.len() - 1],
             ply,
             mold: sheet.mold.as_ref(),
-            low: scene.limits.height.max(scene.settings.contact.tolerance),
+            low: low.max(layup.settings.contact.tolerance),
             surroundings: (0..grippers).map(|n| surroundings(sheet, n)).collect(),
             lying_since: vec![None; grippers],
             holds: vec![true; grippers],

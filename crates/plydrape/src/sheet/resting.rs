@@ -11,7 +11,7 @@ use super::tuning::Tuning;
 use super::unknowns::{Carrier, coupled_pairs};
 use super::weight::Weight;
 use super::{Fabric, Sheet};
-use crate::mold::vector::norm;
+use crate::geometry::vector::norm;
 
 /// Which nodes lie, and for how long they have not moved.
 #[derive(Debug)]

@@ -4,11 +4,11 @@
 use super::cholesky::{BlockMatrix, Cholesky, NotPositiveDefinite, Slot};
 use super::configuration::Configuration;
 use super::energy::Stiffness;
-use super::matrix3::{
+use super::unknowns::Carrier;
+use crate::geometry::matrix3::{
     IDENTITY, Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
 };
-use super::unknowns::Carrier;
-use crate::mold::vector::{along, cross, dot, sub};
+use crate::geometry::vector::{along, cross, dot, sub};
 
 /// A pair of nodes that an element couples, and where two free nodes are in the matrix.
 #[derive(Debug, Clone, Copy)]

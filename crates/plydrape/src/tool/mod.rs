@@ -25,8 +25,8 @@ pub use posture::Posture;
 pub use rates::ToolPeaks;
 pub(crate) use rates::turn_between;
 
+use crate::geometry::vector::sub;
 use crate::mold::Pose;
-use crate::mold::vector::sub;
 
 /// A frame that carries all grippers.
 #[derive(Debug, Clone, PartialEq)]

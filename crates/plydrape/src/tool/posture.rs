@@ -13,8 +13,8 @@
 
 use super::tuning::{CONVERGED, FREE, HALVINGS, OPEN, ROUNDING, STEPS, STROKE_COST};
 use super::{Axis, Tool};
+use crate::geometry::vector::{along, cross, dot, norm, sub, turned};
 use crate::mold::Pose;
-use crate::mold::vector::{along, cross, dot, norm, sub, turned};
 use nalgebra::{SMatrix, SVector};
 
 type Matrix6 = SMatrix<f64, 6, 6>;

@@ -1,7 +1,7 @@
 //! How fast a tool turns and its axes move, as the motion is written: between its samples.
 
 use super::{Posture, Tool};
-use crate::mold::vector::{cross, dot, norm, sub};
+use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::motion::{MotionError, Peak, TimedMotion};
 use rayon::prelude::*;
 

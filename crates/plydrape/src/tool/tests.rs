@@ -2,8 +2,8 @@
 
 use super::rates::turn_between;
 use super::{Axis, Posture, Tool};
+use crate::geometry::vector::{distance, norm, turned};
 use crate::mold::Pose;
-use crate::mold::vector::{distance, norm, turned};
 use crate::motion::{Bounds, TimedMotion};
 use proptest::prelude::*;
 

@@ -1,10 +1,12 @@
 //! Gripper positions that have no solution are refused, and nothing runs without end on numbers that are out of all range.
 
-use plydrape::draping;
+use plydrape::layup::{Layup, Model, Settings};
 use plydrape::material::{Material, Section};
+use plydrape::measure::{Name, Sense};
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
 use plydrape::ply::{Grid, PlaceError, Ply};
-use plydrape::scene::{Motion, Scene};
+use plydrape::{Limits, Motion, Scene, simulate};
+use std::ops::ControlFlow;
 
 fn ply() -> Ply {
     let material = Material {
@@ -97,59 +99,30 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                     place[0] = value;
                 }
                 let motion = Motion { times: vec![0.0, 1.0], positions: vec![level(), last] };
-                let (wanted, limits) = (Some(mold.clone()), limits());
-                let scene = Scene { mold: wanted, limits, ..Scene::new(ply(), settings(), motion) };
-                let drape = draping::simulate(&scene, |_| std::ops::ControlFlow::Continue(()));
-                assert!(!drape.summary.accepted, "{mold:?} {value} {who:?}");
+                let mut scene = Scene::new(ply(), settings(), motion);
+                scene.layup.mold = Some(mold.clone());
+                scene.limits = limits(&scene.layup);
+                let outcome = simulate(&scene, |_| ControlFlow::Continue(())).unwrap();
+                assert!(!outcome.accepted(), "{mold:?} {value} {who:?}");
             }
         }
     }
 }
 
-fn settings() -> plydrape::scene::Settings {
-    plydrape::scene::Settings {
-        slopes: plydrape::scene::SlopeRule::MomentBalance,
-        axial_stiffness: 1e5,
-        gravity: 9.81,
-        max_tilt: 0.7,
-        ..plydrape::scene::Settings::default()
-    }
+fn settings() -> Settings {
+    Settings { model: Model::Catenaries, max_tilt: 0.7, ..Settings::default() }
 }
 
 /// Limits so wide that only a torn ply, grippers at one place and what is out of all range exceed them.
-fn limits() -> plydrape::scene::Limits {
-    let wide = 1e9;
-    plydrape::scene::Limits {
-        preset: None,
-        slack_ratio: wide,
-        slack_angle: None,
-        wrinkle: None,
-        bridging: wide,
-        overstretch: 0.001,
-        landing_contact: wide,
-        landing_gripper: wide,
-        fibre_angle: wide,
-        shear: wide,
-        landing_shear: wide,
-        strain: wide,
-        penetration: wide,
-        tilt: wide,
-        tilt_rate: wide,
-        height: wide,
-        out_of_plane: wide,
-        position: wide,
-        gripper_force: None,
-        force: None,
-        gripper_load: wide,
-        gripper_pull: None,
-        grip_safety: 1.5,
-        contact_share: 0.0,
-        gripper_distance: 0.001,
-        clearance: 0.001,
-        workspace: None,
-        speed: wide,
-        acceleration: wide,
-        jerk: wide,
-        duration: None,
+fn limits(layup: &Layup) -> Limits {
+    let mut limits = Limits::of(layup);
+    for (name, _) in Limits::of(layup).iter() {
+        let bound = match name.measure().sense() {
+            _ if name == Name::Overstretch => 1e-3,
+            Sense::AtMost => 1e9,
+            Sense::AtLeast => 1e-3,
+        };
+        limits.set(name, Some(bound));
     }
+    limits
 }

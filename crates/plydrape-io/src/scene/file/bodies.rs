@@ -2,7 +2,7 @@
 
 use crate::scene::located::{Fixed, Located};
 use crate::scene::quantity::{Angle, Length, Quantity};
-use plydrape::clearance::Mount;
+use plydrape::bodies::Mount;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

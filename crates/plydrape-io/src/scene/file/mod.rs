@@ -30,7 +30,7 @@ use super::quantity::{
     Acceleration, Angle, BendingRigidity, Curvature, FlexuralRigidity, Force, ForcePerLength,
     Length, Mass, MomentPerWidth, Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
 };
-use plydrape::scene::Model;
+use plydrape::layup::Model;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -338,7 +338,9 @@ pub(super) enum MotionKind {
 #[schemars(rename = "Model")]
 pub(super) struct ModelTable {
     /// The whole ply as a sheet of cloth, or a net of catenaries; "sheet" unless given.
-    pub kind: Option<ModelKey>,
+    pub kind: Option<Located<ModelKey>>,
+    /// The other model, to be draped beside the one that decides and shown with it; it judges nothing. None unless given.
+    pub also: Option<Located<ModelKey>>,
     /// How shared slopes are found, "moment-balance" unless given.
     pub slopes: Option<Slopes>,
     /// How one span hangs, "small-sag" unless given. "exact" is refused so far: nets have the closed form of small sag, and
@@ -351,7 +353,7 @@ pub(super) struct ModelTable {
 }
 
 /// The model of the ply.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "Kind of model")]
 pub(super) enum ModelKey {
@@ -359,6 +361,15 @@ pub(super) enum ModelKey {
     Sheet,
     /// Lines of ply between the grippers, as in Krogh et al. 2018.
     Catenaries,
+}
+
+impl From<ModelKey> for Model {
+    fn from(key: ModelKey) -> Self {
+        match key {
+            ModelKey::Sheet => Model::Sheet,
+            ModelKey::Catenaries => Model::Catenaries,
+        }
+    }
 }
 
 impl From<Model> for ModelKey {

@@ -1,7 +1,7 @@
 //! The keys of the table `[release]`.
 
 use crate::scene::quantity::{Quantity, Time};
-use plydrape::scene::ReleaseOrder;
+use plydrape::layup::ReleaseOrder;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

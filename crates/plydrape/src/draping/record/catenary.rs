@@ -1,8 +1,21 @@
-//! The catenaries of a step: what their shapes and measures follow from.
+//! The catenaries of a step: what their shapes and measures follow from, and how they were found.
 
-use super::Bridge;
-use crate::draping::misfit;
+use super::{Bridge, Cell, Solver};
 use crate::ply::{GripperId, Kind, Ply, Ruck};
+use crate::state::excess;
+
+/// The catenaries of one step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CatenaryStep {
+    /// How the equilibrium was found.
+    pub solver: Solver,
+    /// Slope of the ply along u and along v at each gripper; `None` where no edge runs in that direction.
+    pub slopes: Vec<[Option<f64>; 2]>,
+    /// Edges along u, edges along v, then two diagonals per cell.
+    pub catenaries: Vec<CatenaryState>,
+    /// Cells, i running fastest.
+    pub cells: Vec<Cell>,
+}
 
 /// What holds a span in its shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,30 +98,26 @@ impl SpanState {
     /// Fabric beyond the path (mm), not negative; `whole` is the length of its catenary (m).
     #[must_use]
     pub fn slack_mm(&self, whole: f64) -> f64 {
-        1e3 * misfit::slack(self.length - self.path, whole)
+        1e3 * excess(self.length - self.path, whole)
     }
 
     /// Slack as a share of its fabric.
     #[must_use]
     pub fn slack_ratio(&self, whole: f64) -> f64 {
-        if self.length > 0.0 {
-            misfit::slack(self.length - self.path, whole) / self.length
-        } else {
-            0.0
-        }
+        if self.length > 0.0 { excess(self.length - self.path, whole) / self.length } else { 0.0 }
     }
 
     /// Way beyond the fabric (mm), not negative.
     #[must_use]
     pub fn overstretch_mm(&self, whole: f64) -> f64 {
-        1e3 * misfit::slack(self.path - self.length, whole)
+        1e3 * excess(self.path - self.length, whole)
     }
 
     /// The ruck that its slack makes on the mold, if it has any.
     #[must_use]
     pub fn ruck(&self, ply: &Ply, gravity: f64, catenary: &CatenaryState) -> Option<Ruck> {
         let line = ply.line(catenary.kind);
-        let slack = misfit::slack(self.length - self.path, catenary.length);
+        let slack = excess(self.length - self.path, catenary.length);
         Ruck::of(slack, line.flexural_rigidity, line.mass * gravity)
     }
 }

@@ -9,7 +9,7 @@ use super::super::direction::Direction;
 use super::super::sensitivity::StateTangent;
 use super::super::solver::Solver;
 use crate::catenary::{Profile, SpanState};
-use crate::mold::vector::{dot, sub, unit};
+use crate::geometry::vector::{dot, sub, unit};
 use crate::ply::{ContactSegment, Lines, shear};
 
 /// A point in space (m), or a force (N).

@@ -6,8 +6,8 @@
 //! return of Simo and Hughes 1998, section 1.4).
 
 use crate::equilibrium::Tuning;
+use crate::layup::PadSettings;
 use crate::ply::Ply;
-use crate::scene::PadSettings;
 
 /// The mounts of all grippers.
 #[derive(Debug, Clone, Copy, PartialEq)]

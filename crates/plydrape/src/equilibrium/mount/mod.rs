@@ -22,8 +22,8 @@ pub use sensitivity::MountedLinearization;
 
 use super::solver::Solver;
 use super::status::Equilibrium;
+use crate::layup::Settings;
 use crate::ply::{ContactSegment, Ply};
-use crate::scene::Settings;
 use newton::Matrix;
 
 /// Whether a balance that is not found from the last one is searched for by continuation in the stiffness of the mounts.

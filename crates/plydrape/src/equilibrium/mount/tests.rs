@@ -3,9 +3,9 @@
 use super::{Continuation, MountedSolver, Standing};
 use crate::catenary::{EndCondition, Span};
 use crate::equilibrium::{Direction, Equilibrium, Property, Solver, Status, Tuning};
+use crate::layup::{PadSettings, Settings, SlopeRule};
 use crate::material::{Material, Section, ShearCurve};
 use crate::ply::{Grid, Ply};
-use crate::scene::{PadSettings, Settings, SlopeRule};
 
 const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
 

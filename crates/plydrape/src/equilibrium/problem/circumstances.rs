@@ -7,8 +7,8 @@ use super::element::{Element, End, class};
 use super::line::Line;
 use crate::catenary::SpanState;
 use crate::equilibrium::{Number, Tuning};
+use crate::layup::{ContactEnd, Settings};
 use crate::ply::{ContactSegment, Kind, Lines, Ply};
-use crate::scene::{ContactEnd, Settings};
 
 /// The ply at given gripper positions, from which a [`super::Problem`] is built.
 pub struct Circumstances<'a, T> {

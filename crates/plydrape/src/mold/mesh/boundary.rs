@@ -1,7 +1,7 @@
 //! The boundaries of an open surface.
 
 use super::orient::{Component, NONE, Neighbours};
-use crate::mold::vector::distance;
+use crate::geometry::vector::distance;
 
 /// A closed line of edges that have a triangle on one side only.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,8 +5,8 @@ use super::report::MeshReport;
 use super::soup::Soup;
 use super::tree::Tree;
 use super::{Mesh, MeshError, boundary, bounds, join, normals, one_ring};
+use crate::geometry::vector::distance;
 use crate::mold::Pose;
-use crate::mold::vector::distance;
 use std::sync::OnceLock;
 
 /// Sizes of a mold that are no mistake of units (m).

@@ -7,8 +7,8 @@
 use super::orient::NONE;
 use super::triangle::{Closest, Weights};
 use super::{Mesh, one_ring};
+use crate::geometry::vector::{cross, dot, norm, sub, unit};
 use crate::mold::tuning::TUNING;
-use crate::mold::vector::{cross, dot, norm, sub, unit};
 use crate::mold::{ClosestPoint, Separation};
 
 /// A point of the mesh: its triangle and its weights there.

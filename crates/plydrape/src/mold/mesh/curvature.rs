@@ -5,8 +5,8 @@
 //! triangles are averaged by area, and blended between vertices.
 
 use super::Mesh;
+use crate::geometry::vector::{cross, dot, norm, sub, tangents};
 use crate::mold::Curvatures;
-use crate::mold::vector::{cross, dot, norm, sub, tangents};
 
 /// A symmetric matrix: its components xx, xy, xz, yy, yz, zz.
 pub(super) type Symmetric = [f64; 6];

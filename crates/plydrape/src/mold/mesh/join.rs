@@ -2,8 +2,8 @@
 
 use super::report::{Finding, MeshReport};
 use super::soup::Soup;
+use crate::geometry::vector::{cross, distance, norm, sub};
 use crate::mold::tuning::TUNING;
-use crate::mold::vector::{cross, distance, norm, sub};
 use std::collections::{HashMap, HashSet};
 
 /// Triangles over shared vertices, each with its number in the file.

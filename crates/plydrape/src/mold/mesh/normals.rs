@@ -4,7 +4,7 @@
 //! does not depend on how a flat piece is cut into triangles, and its sign tells inside from
 //! outside for points whose closest point is the vertex (Bærentzen and Aanæs 2005).
 
-use crate::mold::vector::{cross, dot, norm, sub, unit};
+use crate::geometry::vector::{cross, dot, norm, sub, unit};
 
 /// Unit normal of each triangle.
 pub(super) fn of_triangles(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[f64; 3]> {

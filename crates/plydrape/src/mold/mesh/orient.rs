@@ -7,8 +7,8 @@
 use super::MeshError;
 use super::join::Joined;
 use super::report::MeshReport;
+use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::mold::tuning::TUNING;
-use crate::mold::vector::{cross, dot, norm, sub};
 
 /// No triangle: a boundary.
 pub(super) const NONE: u32 = u32::MAX;

@@ -8,9 +8,9 @@
 
 use super::Mesh;
 use super::orient::NONE;
+use crate::geometry::vector::{along, distance, dot, sub};
 use crate::mold::SurfaceCurve;
 use crate::mold::tuning::TUNING;
-use crate::mold::vector::{along, distance, dot, sub};
 
 /// A vertical plane, with the side that its vertices count to.
 #[derive(Clone, Copy)]

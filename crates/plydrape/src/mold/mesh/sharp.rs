@@ -2,7 +2,7 @@
 
 use super::Mesh;
 use super::orient::NONE;
-use crate::mold::vector::{cross, dot, norm};
+use crate::geometry::vector::{cross, dot, norm};
 
 /// An edge across which the mesh turns.
 #[derive(Debug, Clone, Copy, PartialEq)]

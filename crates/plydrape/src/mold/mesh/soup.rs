@@ -1,6 +1,6 @@
 //! Triangles as a file gives them: not yet joined, in the unit of the file.
 
-use crate::mold::vector::{cross, distance, dot, sub};
+use crate::geometry::vector::{cross, distance, dot, sub};
 
 /// The triangles of a file before they are joined into a mesh.
 #[derive(Debug, Clone, PartialEq)]

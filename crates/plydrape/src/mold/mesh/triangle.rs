@@ -1,6 +1,6 @@
 //! The closest point of one triangle.
 
-use crate::mold::vector::{along, cross, dot, sub};
+use crate::geometry::vector::{along, cross, dot, sub};
 
 /// A point of a triangle by the weights of its corners; a weight of zero is exact, so that the weights
 /// tell corners, edges and the inside apart.

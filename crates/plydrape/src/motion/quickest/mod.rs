@@ -23,7 +23,7 @@ use super::peaks::peaks;
 use super::time_law::TimeLaw;
 use super::tuning::TUNING;
 use super::{Bounds, TimedMotion};
-use crate::mold::vector::norm;
+use crate::geometry::vector::norm;
 use pace::{Jet, Pace};
 use program::Program;
 

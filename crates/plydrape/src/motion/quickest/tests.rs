@@ -1,7 +1,7 @@
 //! The time-optimal law against closed forms and bounds.
 
 use super::*;
-use crate::mold::vector::sub;
+use crate::geometry::vector::sub;
 use std::f64::consts::PI;
 
 const BOUNDS: Bounds = Bounds { speed: 0.25, acceleration: 1.0, jerk: 10.0 };

@@ -1,56 +1,54 @@
 //! The drape of a scene by each strategy of a comparison.
 
 use super::{ComparedDrape, NotDraped};
-use crate::draping::record::Summary;
-use crate::draping::spans::Point;
-use crate::draping::{Drape, Judged, simulate};
+use crate::geometry::Point;
+use crate::geometry::vector::between;
+use crate::layup::{Model, SheetTime};
 use crate::measure::Verdict;
-use crate::mold::vector::between;
-use crate::motion::{Bounds, TimedMotion};
-use crate::planner::decision::{Decision, PlannedSheet};
+use crate::motion::Motion;
+use crate::motion::TimedMotion;
+use crate::outcome::{self, DrapeWatch, Judged};
+use crate::planner::decision::{Decided, Decision};
 use crate::planner::evaluation::{self, Mesh};
 use crate::planner::path::tuning::TUNING;
-use crate::planner::path::{Fronts, Strategy};
-use crate::planner::plan::{self, Followed};
+use crate::planner::path::{Fronts, NotRanked, Strategy};
+use crate::planner::plan::{self, PlanError};
 use crate::planner::search_state::SearchState;
 use crate::planner::stepwise::stepwise;
-use crate::scene::{Model, Motion, Scene, SheetTime};
-use crate::sheet;
+use crate::scene::Scene;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// The drape along the straight paths of the scene, as `simulate` drapes them.
 pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, NotDraped> {
-    let scene = Scene { motion: straight_motion(scene), ..scene.clone() };
-    let time = match (scene.settings.model, scene.settings.sheet.time) {
-        (Model::Sheet, SheetTime::Real) => scene.motion.times.last().copied().unwrap_or(0.0),
-        _ => TimedMotion::new(&scene.motion.positions, &Bounds::from(&scene.limits))?.duration(),
+    let mut scene = Scene { errors: None, ..scene.clone() };
+    scene.layup.motion = straight_motion(&scene);
+    let layup = &scene.layup;
+    let time = match (layup.settings.model, layup.settings.sheet.time) {
+        (Model::Sheet, SheetTime::Real) => layup.motion.times.last().copied().unwrap_or(0.0),
+        _ => TimedMotion::new(&layup.motion.positions, &scene.limits.motion_bounds())
+            .map_err(PlanError::from)?
+            .duration(),
     };
-    let drape = simulate(&scene, |_| state.report());
     let stop = || state.report().is_break();
-    let along = |_: &sheet::State| ControlFlow::Continue(());
-    let sheet = match scene.settings.model {
-        // a scene without a sheet is refused before
-        Model::Sheet => sheet::drape(&scene, sheet::Tuning::default(), &stop, along).ok(),
-        Model::Catenaries => None,
-    };
-    let steps = scene.motion.positions.len();
-    let judged = |drape: sheet::Drape| {
-        let judged = evaluation::judged(&drape.summary, steps);
-        (drape, judged)
-    };
-    Ok(decided(drape, sheet.map(judged), time))
+    let mut see = |_: usize, _: Option<&crate::sheet::State>| ControlFlow::Continue(());
+    let mut watch = DrapeWatch { stop: &stop, see: &mut see };
+    let drape =
+        outcome::drape(&scene, layup.settings.model, &mut watch).map_err(PlanError::from)?;
+    let judged = Judged::of(&drape.summary, &drape.steps);
+    Ok(ComparedDrape { drape, judged, time })
 }
 
 /// From the start of the scene straight to its target, in the steps and times of its motion.
 fn straight_motion(scene: &Scene) -> Motion {
-    let (Some(start), Some(target)) = (scene.motion.positions.first(), &scene.target) else {
-        return scene.motion.clone();
+    let (Some(start), Some(target)) = (scene.layup.motion.positions.first(), &scene.layup.target)
+    else {
+        return scene.layup.motion.clone();
     };
-    let times = match scene.motion.times.len() {
+    let times = match scene.layup.motion.times.len() {
         // a ply that is held has one step
         0 | 1 => (0..scene.plan.steps.max(2)).map(|k| k as f64).collect(),
-        _ => scene.motion.times.clone(),
+        _ => scene.layup.motion.times.clone(),
     };
     let last = (times.len() - 1) as f64;
     let at = |k: usize| -> Vec<Point> {
@@ -72,13 +70,16 @@ pub fn best_front(
         let positions = fronts.positions(*strategy)?;
         let score = match strategies {
             [_] => 0.0,
-            _ => fronts
-                .rank(&positions, Mesh::Coarse, state)
-                .map_or_else(|score| score, |drape| evaluation::score(&drape)),
+            _ => match fronts.rank(&positions, Mesh::Coarse, state) {
+                Ok(drape) => evaluation::score(&drape),
+                Err(NotRanked::Excess(score)) => score,
+                Err(NotRanked::Model(fault)) => return Some(Err(PlanError::from(fault))),
+            },
         };
-        Some((score, *strategy, positions))
+        Some(Ok((score, *strategy, positions)))
     };
-    let mut ranked: Vec<_> = strategies.par_iter().filter_map(ranked).collect();
+    let ranked: Result<Vec<_>, PlanError> = strategies.par_iter().filter_map(ranked).collect();
+    let mut ranked = ranked?;
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut best: Result<ComparedDrape, NotDraped> = Err(NotDraped::Interrupted);
     for (_, strategy, positions) in ranked.into_iter().take(TUNING.search.batch) {
@@ -117,25 +118,11 @@ fn planned(
         return Err(NotDraped::Interrupted);
     }
     let mut decision = Decision::uncounted(scene, strategy, positions, state)?;
-    let Followed { drape, .. } = plan::follow(scene, &mut decision, own_limits, state);
-    let Decision { motion, sheet, drape: judged, .. } = decision;
-    let sheet = sheet.map(|sheet| (sheet.drape, judged));
-    Ok(decided(drape, sheet, motion.duration()))
-}
-
-/// A drape of which the sheet decides, if there is one, as it is judged.
-fn decided(mut drape: Drape, sheet: Option<(sheet::Drape, Judged)>, time: f64) -> ComparedDrape {
-    let summary = &mut drape.summary;
-    let (sheet, judged) = match sheet {
-        Some((drape, judged)) => {
-            summary.decide_by(drape.summary.clone());
-            (Some(PlannedSheet { drape, states: Vec::new() }), judged)
-        }
-        None => {
-            let Summary { limits, accepted, .. } = summary.clone();
-            let missing = 1.0 - summary.steps as f64 / summary.steps_planned.max(1) as f64;
-            (None, Judged { limits, accepted, missing, unsolved: 0 })
-        }
-    };
-    ComparedDrape { drape, sheet, judged, time }
+    plan::finish(scene, &mut decision, own_limits, state)?;
+    let Decision { motion, decided, .. } = decision;
+    let Decided { mut drape, judged, .. } = decided;
+    if let Some(sheet) = &mut drape.sheet {
+        sheet.states.clear();
+    }
+    Ok(ComparedDrape { drape, judged, time: motion.duration() })
 }

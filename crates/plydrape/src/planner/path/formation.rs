@@ -8,8 +8,8 @@ use super::strategy::Strategy;
 use super::tabulation::{around, height_grid};
 use super::taut::Lines;
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
-use crate::mold::vector::{along, dot, sub};
+use crate::geometry::Point;
+use crate::geometry::vector::{along, dot, sub};
 use crate::mold::{FrontSurface, Graph, HeightGrid, Mold, Pose, Rise, Surface};
 use crate::net::{Layup, Net};
 use crate::planner::tuning;
@@ -46,7 +46,7 @@ impl MoldHeights {
     /// The heights of a scene's mold around its drape; none without a mold or a target.
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
-        let heights = heights(scene.mold.as_ref()?, &scene.target.as_ref()?.grippers)?;
+        let heights = heights(scene.layup.mold.as_ref()?, &scene.layup.target.as_ref()?.grippers)?;
         Some(MoldHeights { heights: Arc::new(heights), lines: Lines::new(scene).map(Arc::new) })
     }
 
@@ -62,7 +62,7 @@ impl<'a> Formation<'a> {
     /// The formation of a strategy; none without a mold or a target.
     #[must_use]
     pub fn new(scene: &'a Scene, heights: &MoldHeights, strategy: Strategy) -> Option<Self> {
-        let target = scene.target.as_ref()?;
+        let target = scene.layup.target.as_ref()?;
         let layup = layup(scene, &strategy);
         let count = target.grippers.len() as f64;
         let middle = [0, 1].map(|n| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count);
@@ -70,7 +70,7 @@ impl<'a> Formation<'a> {
             heights: Arc::clone(&heights.heights),
             lines: heights.lines.clone(),
             layup,
-            ply: &scene.ply,
+            ply: &scene.layup.ply,
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
@@ -143,15 +143,15 @@ impl<'a> Formation<'a> {
 
 /// The layup of a scene's ideal drape, begun where the front starts; none where the drape is not known.
 fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
-    let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
-    let [origin, high] = scene.ply.held_bounds();
+    let (mold, drape) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?.drape.as_ref()?);
+    let [origin, high] = scene.layup.ply.held_bounds();
     let divisions = TUNING.front.divisions as f64;
     let size = [0, 1].map(|n| high[n] - origin[n]);
     // a whole number of meshes, of which so many are a cell
-    let cells = [0, 1].map(|n| size[n] / scene.ply.cell[n]);
+    let cells = [0, 1].map(|n| size[n] / scene.layup.ply.cell[n]);
     let parts = cells.map(|cells| (cells * divisions * (1.0 - 1e-9)).ceil().max(0.0));
     let mesh = [0, 1].map(|n| match parts[n] {
-        0.0 => scene.ply.cell[n] / divisions,
+        0.0 => scene.layup.ply.cell[n] / divisions,
         parts => size[n] / parts,
     });
     let nodes = parts.map(|parts| parts as usize + 1);

@@ -6,12 +6,23 @@ use super::strategy::Strategy;
 use super::tabulation::tabulated;
 use super::trajectory::trajectory;
 use super::tuning::TUNING;
-use crate::draping::Judged;
-use crate::draping::spans::Point;
+use crate::geometry::Point;
+use crate::outcome::{Judged, ModelError};
 use crate::planner::evaluation::{self, Mesh};
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use std::borrow::Cow;
+
+/// Why a candidate has no drape to be ranked by.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotRanked {
+    /// Its grippers alone exceed a limit too far: the score, worse than that of any drape.
+    #[error("grippers exceed a limit too far")]
+    Excess(f64),
+    /// The model that decides cannot drape the scene.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
 
 /// The fronts over the mold of a scene.
 pub struct Fronts<'a> {
@@ -46,18 +57,18 @@ impl<'a> Fronts<'a> {
     /// limit too far is not draped.
     ///
     /// # Errors
-    /// The score of one that is not draped: worse than that of any drape.
+    /// [`NotRanked`] if there is no drape.
     pub fn rank(
         &self,
         positions: &[Vec<Point>],
         mesh: Mesh,
         state: &SearchState,
-    ) -> Result<Judged, f64> {
+    ) -> Result<Judged, NotRanked> {
         let excess = geometry::excess(self.scene, positions);
         if excess > TUNING.search.excess {
-            return Err(TUNING.search.not_draped * excess);
+            return Err(NotRanked::Excess(TUNING.search.not_draped * excess));
         }
-        Ok(evaluation::drape(&self.tabulated, positions, mesh, state))
+        Ok(evaluation::drape(&self.tabulated, positions, mesh, state)?)
     }
 
     /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.

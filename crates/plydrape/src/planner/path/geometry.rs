@@ -1,8 +1,9 @@
 //! What the positions of the grippers alone tell of a plan, before any drape.
 
-use crate::draping::reach::{closest, outside};
-use crate::draping::spans::Point;
-use crate::mold::vector::{angle_between, cross, unit};
+use crate::geometry::Point;
+use crate::geometry::vector::{angle_between, cross, unit};
+use crate::measure::Name;
+use crate::measure::{closest_grippers, outside_workspace};
 use crate::ply::{Neighbours, Ply, tangents};
 use crate::scene::Scene;
 
@@ -11,12 +12,15 @@ use crate::scene::Scene;
 #[must_use]
 pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
-    let neighbours = scene.ply.neighbours();
+    let neighbours = scene.layup.ply.neighbours();
     let one = |step: &Vec<Point>| {
-        let tilt = tilt(&scene.ply, &neighbours, step, scene.stems(step)) / limits.tilt;
-        let workspace = limits.workspace.and_then(|box_| outside(step, box_, scene.ply.cell));
+        let tilt = tilt(&scene.layup.ply, &neighbours, step, scene.layup.stems(step))
+            / limits.most(Name::Tilt);
+        let workspace =
+            limits.workspace.and_then(|box_| outside_workspace(step, box_, scene.layup.ply.cell));
         let workspace = if workspace.is_some_and(|w| w.value > 0.0) { f64::INFINITY } else { 0.0 };
-        let near = closest(step).map_or(0.0, |c| limits.gripper_distance * 1e3 / c.value);
+        let near = closest_grippers(step)
+            .map_or(0.0, |c| limits.most(Name::GripperDistance) * 1e3 / c.value);
         tilt.max(workspace).max(near)
     };
     positions.iter().map(one).fold(0.0, f64::max)

@@ -12,9 +12,10 @@
 
 use super::strategy::Strategy;
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
+use crate::geometry::Point;
+use crate::geometry::vector::{along, between, sub, unit};
+use crate::measure::Name;
 use crate::mold::distance;
-use crate::mold::vector::{along, between, sub, unit};
 use crate::planner::tuning;
 use crate::ply::Neighbours;
 use crate::scene::Scene;
@@ -42,7 +43,7 @@ pub struct Preload<'a> {
 /// deviation is kσ/√2; an error of height changes the load with which a pad presses by that of one mount, kσ.
 pub(super) fn against_errors(scene: &Scene) -> [f64; 2] {
     let deviation = scene.errors.map_or(0.0, |errors| errors.gripper.position.deviation());
-    let pad = &scene.settings.pad;
+    let pad = &scene.layup.settings.pad;
     let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness]
         .map(|k| TUNING.preload.deviations * deviation * k.unwrap_or(0.0));
     [lateral * FRAC_1_SQRT_2, axial]
@@ -52,11 +53,11 @@ impl<'a> Preload<'a> {
     /// The preload of a strategy.
     #[must_use]
     pub fn new(scene: &'a Scene, strategy: &Strategy) -> Option<Self> {
-        let target = scene.target.as_ref().filter(|_| scene.settings.pad.gives())?;
-        let pad = &scene.settings.pad;
+        let target = scene.layup.target.as_ref().filter(|_| scene.layup.settings.pad.gives())?;
+        let pad = &scene.layup.settings.pad;
         let gives = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| 1.0 / k);
         let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness].map(gives);
-        let load = scene.limits.gripper_load;
+        let load = scene.limits.most(Name::GripperLoad);
         let pull = strategy.pull * TUNING.preload.pull * load;
         // a corner bears two lines of the border, and what its error adds to them
         let [needed, _] = against_errors(scene);
@@ -66,7 +67,7 @@ impl<'a> Preload<'a> {
         let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
         Some(Preload {
             scene,
-            neighbours: scene.ply.neighbours(),
+            neighbours: scene.layup.ply.neighbours(),
             targets: &target.grippers,
             compliance: [lateral, lateral, axial],
             pull,
@@ -89,7 +90,7 @@ impl<'a> Preload<'a> {
             // a pad that is pressed down early sticks before its lines have the length that a hollow needs
             let press = if over_hollow { 0.0 } else { self.press };
             let pressed = press * (1.0 - smooth(away / TUNING.preload.press_reach));
-            let mold = self.scene.mold.as_ref();
+            let mold = self.scene.layup.mold.as_ref();
             let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
             [0, 1, 2].map(|c| place[c] - self.compliance[c] * (pull[c] + pressed * normal[c]))
         };
@@ -100,7 +101,7 @@ impl<'a> Preload<'a> {
     fn is_over_hollow(&self, a: usize, b: usize) -> bool {
         let middle = between(self.targets[a], self.targets[b], 0.5);
         let least = TUNING.preload.hollow * distance(self.targets[a], self.targets[b]);
-        self.scene.mold.as_ref().is_some_and(|mold| mold.signed_distance(middle) > least)
+        self.scene.layup.mold.as_ref().is_some_and(|mold| mold.signed_distance(middle) > least)
     }
 
     /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up; and whether one of them
@@ -133,7 +134,8 @@ pub fn commanded(scene: &Scene, strategy: &Strategy, steps: &mut [Vec<Point>]) {
 /// Where the grippers are commanded at the end (m).
 #[must_use]
 pub fn ends(scene: &Scene, strategy: &Strategy) -> Vec<Point> {
-    let targets = scene.target.as_ref().map(|target| target.grippers.clone()).unwrap_or_default();
+    let targets =
+        scene.layup.target.as_ref().map(|target| target.grippers.clone()).unwrap_or_default();
     match Preload::new(scene, strategy) {
         Some(preload) => preload.commanded(&targets, 1.0),
         None => targets,

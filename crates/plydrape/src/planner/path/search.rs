@@ -6,18 +6,19 @@
 //! with a margin. Candidates are independent and run on all cores; which one is the best does not depend on the number of
 //! cores.
 
-use super::fronts::Fronts;
+use super::fronts::{Fronts, NotRanked};
 use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
-use crate::draping::Judged;
-use crate::draping::spans::Point;
-use crate::motion::MotionError;
+use crate::geometry::Point;
+use crate::layup::Model;
+use crate::outcome::Judged;
 use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
 use crate::planner::evaluation::{self, Bias, Mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
+use crate::planner::plan::PlanError;
 use crate::planner::search_state::SearchState;
-use crate::scene::{Model, Scene};
+use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -40,6 +41,8 @@ struct Shared<'a, 'b> {
     state: &'a SearchState<'b>,
     /// How candidates are ranked; it changes between generations only.
     ranking: Mutex<Ranking>,
+    /// Why the model that decides cannot drape, if it cannot.
+    fault: Mutex<Option<PlanError>>,
 }
 
 /// How candidates are ranked.
@@ -58,7 +61,7 @@ struct Search<'a, 'b> {
     candidates: Vec<Candidate>,
     best: Option<Decision>,
     /// The first that could not become a motion.
-    fault: Option<MotionError>,
+    fault: Option<PlanError>,
     /// Rounds in which an accepted plan was not improved.
     idle: usize,
     /// Drapes that may be tried.
@@ -74,10 +77,10 @@ pub fn search(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     state: &SearchState,
-) -> Result<Option<Decision>, MotionError> {
+) -> Result<Option<Decision>, PlanError> {
     let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
     let ranking = Mutex::new(Ranking { mesh: Mesh::Coarse, bias: Bias::default() });
-    let shared = Shared { scene, fronts, state, ranking };
+    let shared = Shared { scene, fronts, state, ranking, fault: Mutex::new(None) };
     let mut search = Search {
         shared: &shared,
         candidates: Vec::new(),
@@ -96,7 +99,11 @@ pub fn search(
         search.ensure_candidate(checkpoint);
         search.decide_on_best(f64::INFINITY);
     }
-    match (search.best, search.fault) {
+    let Search { best, fault, .. } = search;
+    if let Some(fault) = lock(&shared.fault).take() {
+        return Err(fault);
+    }
+    match (best, fault) {
         (None, Some(fault)) => Err(fault),
         (best, _) => Ok(best),
     }
@@ -156,18 +163,19 @@ impl Search<'_, '_> {
 
     /// Evolution about the best of the first candidates.
     fn improve(&mut self, checkpoint: Option<&Checkpoint>) {
-        if self.shared.scene.settings.model == Model::Catenaries {
+        if self.shared.scene.layup.settings.model == Model::Catenaries {
             return self.evolve(checkpoint, 0);
         }
         let coarse = lock(&self.shared.ranking).clone();
-        let is_accepted = |search: &Self| search.best.as_ref().is_some_and(|b| b.drape.accepted);
+        let is_accepted =
+            |search: &Self| search.best.as_ref().is_some_and(|b| b.decided.judged.accepted());
         if !is_accepted(self) {
             self.rank_with_own_mesh();
         }
         if self.is_done() {
             return;
         }
-        let score = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
+        let score = self.best.as_ref().map_or(f64::INFINITY, |best| best.decided.score);
         if is_accepted(self) || score > TUNING.search.near {
             // a plan has only to become better, or none is near: many coarse drapes
             if lock(&self.shared.ranking).mesh == Mesh::Own {
@@ -206,7 +214,8 @@ impl Search<'_, '_> {
     /// samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>, left: usize) {
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
-        let decided = self.best.as_ref().and_then(|best| Some((best.score, best.strategy?)));
+        let decided =
+            self.best.as_ref().and_then(|best| Some((best.decided.score, best.strategy?)));
         let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
         let Some((_, start)) = start else { return };
         let shared = self.shared;
@@ -223,7 +232,7 @@ impl Search<'_, '_> {
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
         let step = TUNING.search.steps[usize::from(fine)];
         let mut unit = start.to_unit().to_vec();
-        if !shared.scene.settings.pad.gives() {
+        if !shared.scene.layup.settings.pad.gives() {
             unit.truncate(unit.len() - MOUNTED);
         }
         let options = CMAESOptions::new(unit, step)
@@ -251,8 +260,8 @@ impl Search<'_, '_> {
             Mesh::Own => 0,
         };
         let enough = |best: &Decision| {
-            let good = best.score <= TUNING.search.good;
-            !improve && best.drape.accepted && (good || self.idle >= patience)
+            let good = best.decided.score <= TUNING.search.good;
+            !improve && best.decided.judged.accepted() && (good || self.idle >= patience)
         };
         self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(enough)
     }
@@ -278,16 +287,17 @@ impl Search<'_, '_> {
     /// Decides on the best candidate if it is promising.
     fn decide(&mut self) {
         let known = !lock(&self.shared.ranking).bias.is_empty();
-        let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
+        let score =
+            |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.decided.score);
         let before = score(&self.best);
         let mut promising = TUNING.search.promising[usize::from(known)];
         // a plan that is accepted is only replaced by a better one
-        if let Some(best) = self.best.as_ref().filter(|best| best.drape.accepted) {
-            promising = promising.min(TUNING.search.gain * best.score);
+        if let Some(best) = self.best.as_ref().filter(|best| best.decided.judged.accepted()) {
+            promising = promising.min(TUNING.search.gain * best.decided.score);
         }
         self.decide_on_best(promising);
         let gained = score(&self.best) < TUNING.search.gain * before;
-        let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
+        let accepted = self.best.as_ref().is_some_and(|best| best.decided.judged.accepted());
         self.idle = if accepted && !gained { self.idle + 1 } else { 0 };
     }
 
@@ -306,16 +316,16 @@ impl Search<'_, '_> {
         state.begin(before);
         match decision {
             // what the end of the search broke off is decided on when it is finished
-            Ok(cut) if state.is_cut_short(&cut.drape) && !state.is_finishing() => {
+            Ok(cut) if state.is_cut_short(&cut.decided.judged) && !state.is_finishing() => {
                 self.candidates.push(candidate);
             }
             Ok(decision) => {
                 let mut ranking = lock(&self.shared.ranking);
                 if let (Mesh::Coarse, Some(ranked)) = (ranking.mesh, candidate.drape) {
-                    ranking.bias.learn(&ranked, &decision.drape);
+                    ranking.bias.learn(&ranked, &decision.decided.judged);
                 }
                 drop(ranking);
-                let key = |d: &Decision| (!d.drape.accepted, d.score);
+                let key = |d: &Decision| (!d.decided.judged.accepted(), d.decided.score);
                 if self.best.as_ref().is_none_or(|best| key(&decision) < key(best)) {
                     self.best = Some(decision);
                 }
@@ -346,7 +356,13 @@ impl Shared<'_, '_> {
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
         let drape = match self.fronts.rank(&positions, mesh, self.state) {
             Ok(drape) => drape,
-            Err(score) => return Candidate { strategy, positions, drape: None, score },
+            Err(NotRanked::Excess(score)) => {
+                return Candidate { strategy, positions, drape: None, score };
+            }
+            Err(NotRanked::Model(fault)) => {
+                *lock(&self.fault) = Some(fault.into());
+                return Candidate { strategy, positions, drape: None, score: f64::INFINITY };
+            }
         };
         let score = evaluation::score_with(&drape, &bias);
         self.state.record(&drape, score, false);

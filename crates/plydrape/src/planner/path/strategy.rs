@@ -3,6 +3,7 @@
 use super::fronts::flattest;
 use super::preload::against_errors;
 use super::tuning::TUNING;
+use crate::measure::Name;
 use crate::mold::Mold;
 use crate::scene::Scene;
 use rayon::prelude::*;
@@ -113,7 +114,7 @@ impl Strategy {
             shape(LINE, second),
             shape(LINE, first),
         ];
-        let on_mounts = scene.settings.pad.gives();
+        let on_mounts = scene.layup.settings.pad.gives();
         let shapes = if on_mounts { shapes.map(|shape| shape.preloaded(scene)) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
@@ -137,8 +138,8 @@ impl Strategy {
         let tauter = |of: Strategy| Strategy { pretension: 2.0 * of.pretension, ..of };
         let softer = |of: Strategy| Strategy { pretension: 0.5 * of.pretension, ..of };
         // where a cell is in the middle, both starts are one
-        let [low, high] = scene.ply.held_bounds();
-        let cells = |n: usize| ((high[n] - low[n]) / scene.ply.cell[n]).round();
+        let [low, high] = scene.layup.ply.held_bounds();
+        let cells = |n: usize| ((high[n] - low[n]) / scene.layup.ply.cell[n]).round();
         let cell = [0, 1].map(|n| middle_of_cell(cells(n) as usize));
         let beside: &[Strategy] = match cell == ring.start {
             true => &[],
@@ -175,7 +176,7 @@ impl Strategy {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
         let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
-        let load = scene.limits.gripper_load;
+        let load = scene.limits.most(Name::GripperLoad);
         let [pull, press] = against_errors(scene).map(|force| force / load);
         let pull = (pull / TUNING.preload.pull).clamp(0.4, 1.0);
         let press = (press / TUNING.preload.press).clamp(0.5, 1.0);
@@ -219,7 +220,7 @@ fn middle_of_cell(cells: usize) -> f64 {
 
 /// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape.
 fn principal_directions(scene: &Scene) -> Option<[f64; 2]> {
-    let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
+    let (mold, target) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?);
     if matches!(mold.bare(), Mold::Plane(_)) {
         return None;
     }

@@ -2,7 +2,8 @@
 //! finished plan is draped on the mold itself.
 
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
+use crate::geometry::Point;
+use crate::layup::Layup;
 use crate::mold::{Formula, Graph, HeightGrid, Mold, Raised, Surface};
 use crate::planner::tuning;
 use crate::scene::Scene;
@@ -12,16 +13,18 @@ use std::sync::Arc;
 /// The scene with its mold tabulated, where that is a formula smooth enough; else as it is.
 #[must_use]
 pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
-    let Some(Mold::Graph(graph)) = scene.mold.as_ref().map(Mold::bare) else {
+    let Some(Mold::Graph(graph)) = scene.layup.mold.as_ref().map(Mold::bare) else {
         return Cow::Borrowed(scene);
     };
-    let (Surface::Formula { z }, Some(target)) = (&graph.surface, &scene.target) else {
+    let (Surface::Formula { z }, Some(target)) = (&graph.surface, &scene.layup.target) else {
         return Cow::Borrowed(scene);
     };
     let domain = graph.domain.unwrap_or_else(|| {
         // the grippers also pass over it on their way from the start
-        let places =
-            target.grippers.iter().chain(scene.motion.positions.first().into_iter().flatten());
+        let places = target
+            .grippers
+            .iter()
+            .chain(scene.layup.motion.positions.first().into_iter().flatten());
         let local: Vec<Point> = places.map(|p| graph.pose.local(*p)).collect();
         around(&local, TUNING.front.table_margin)
     });
@@ -29,10 +32,11 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
     let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };
     let surface = Surface::HeightGrid(heights);
     let mut mold = Mold::Graph(Graph { surface, ..graph.clone() });
-    if let Some(Mold::Layered(layered)) = &scene.mold {
+    if let Some(Mold::Layered(layered)) = &scene.layup.mold {
         mold = Mold::Layered(Arc::new(Raised { mold, relief: layered.relief.clone() }));
     }
-    Cow::Owned(Scene { mold: Some(mold), ..scene.clone() })
+    let layup = Layup { mold: Some(mold), ..scene.layup.clone() };
+    Cow::Owned(Scene { layup, ..scene.clone() })
 }
 
 /// The formula as a table; none where its error exceeds a tolerance (m).

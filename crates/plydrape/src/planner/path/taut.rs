@@ -8,8 +8,8 @@
 //! Lines are shortened and lengthened one after the other until all fit (Müller et al. 2007, "Position based dynamics").
 
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
-use crate::mold::vector::{between, distance};
+use crate::geometry::Point;
+use crate::geometry::vector::{between, distance};
 use crate::ply::Neighbours;
 use crate::scene::Scene;
 
@@ -44,8 +44,9 @@ impl Lines {
     /// The lines of a scene; none where its ideal drape is not known.
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
-        let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
-        let ply = &scene.ply;
+        let (mold, drape) =
+            (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?.drape.as_ref()?);
+        let ply = &scene.layup.ply;
         let parts = TUNING.front.line_parts;
         let line = |pair: Neighbours| {
             let [a, b] = pair.grippers.map(|n| ply.place(n));
@@ -158,7 +159,7 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mold::vector::distance;
+    use crate::geometry::vector::distance;
     use crate::ply::Grid;
 
     const GRID: Grid = Grid { nu: 4, nv: 4 };

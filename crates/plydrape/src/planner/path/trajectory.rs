@@ -5,8 +5,8 @@ use super::preload::commanded;
 use super::strategy::Strategy;
 use super::transport::transport;
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
-use crate::mold::vector;
+use crate::geometry::Point;
+use crate::geometry::vector;
 use crate::motion::farthest;
 use crate::scene::Scene;
 
@@ -36,7 +36,7 @@ fn positions(
     steps: usize,
 ) -> Option<Vec<Vec<Point>>> {
     let formation = Formation::new(scene, heights, strategy)?;
-    let target = &scene.target.as_ref()?.grippers;
+    let target = &scene.layup.target.as_ref()?.grippers;
     let mut out = transport(scene, &formation.grippers(0.0), steps)?;
     let roll = steps.saturating_sub(out.len() + 1).max(1);
 

@@ -8,7 +8,7 @@
 
 use super::error::ReplanError;
 use super::tuning::TUNING;
-use crate::mold::vector::{distance, norm};
+use crate::geometry::vector::{distance, norm};
 use crate::motion::TimedMotion;
 use crate::pick_up::Moved;
 use crate::scene::Scene;
@@ -66,7 +66,7 @@ pub fn rigid(
     motion: &TimedMotion,
     last_free: usize,
 ) -> Result<(), ReplanError> {
-    let lines = scene.ply.lines();
+    let lines = scene.layup.ply.lines();
     let mut pairs: Vec<[usize; 2]> = (0..lines.catenaries()).map(|n| lines.ends(n)).collect();
     pairs.extend((1..motion.grippers()).map(|n| [n - 1, n]));
     let (mut most, mut worst) = (0.0, 0);

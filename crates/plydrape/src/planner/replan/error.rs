@@ -9,6 +9,9 @@ pub enum ReplanError {
     /// It was corrected before.
     #[error("the plan was corrected for another pick-up already")]
     Again,
+    /// Nothing was recorded of the ply on its way.
+    #[error("the result has no states of the ply on its way to the mold")]
+    NoShapes,
     /// Its sheet was draped with its inertia.
     #[error(
         "the sheet of the plan was draped in real time, and how it swings is another thing along another motion"
@@ -95,6 +98,7 @@ impl ReplanError {
             ReplanError::Again => {
                 "replan the plan that it came from: the offset is from where that one picks the ply up"
             }
+            ReplanError::NoShapes => "plan again, and keep `sheet.npz` beside the result",
             ReplanError::RealTime => {
                 "plan with time = \"quasi-static\" in [sheet], or plan again with [grippers] where the ply lies"
             }

@@ -30,11 +30,14 @@ pub use error::ReplanError;
 pub use shapes::SheetShapes;
 
 use crate::clearance::Nearest;
-use crate::draping::record::{PickedUp, PlanRecord, Step, Summary};
-use crate::motion::{Attitudes, Bounds, TimedMotion};
+use crate::layup::{ReleaseOrder, SheetTime};
+use crate::measure::Name;
+use crate::motion::{Attitudes, TimedMotion};
+use crate::outcome::{Step, Summary};
 use crate::pick_up::{Moved, Offset};
+use crate::planner::record::{PickedUp, PlanRecord};
 use crate::planner::tuning::TUNING;
-use crate::scene::{ReleaseOrder, Scene, SheetTime};
+use crate::scene::Scene;
 use crate::tool::ToolPeaks;
 use shapes::Shapes;
 
@@ -45,7 +48,7 @@ pub struct Plan<'a> {
     pub scene: &'a Scene,
     /// What its motion is made of.
     pub record: &'a PlanRecord,
-    /// The drape by catenaries along it.
+    /// The steps of the drape along it, by the model that decides.
     pub steps: &'a [Step],
     /// The outcome.
     pub summary: &'a Summary,
@@ -80,7 +83,7 @@ pub struct Replanned {
     pub attitudes: Attitudes,
     /// How many times as long as the planned motion it takes.
     pub longer: f64,
-    /// The drape by catenaries along it.
+    /// The steps of the drape along it, by the model that decides.
     pub steps: Vec<Step>,
     /// The outcome: what belongs to the landing is that of the plan, what belongs to the motion is judged again.
     pub summary: Summary,
@@ -133,24 +136,21 @@ impl<'a> Replanner<'a> {
         if record.picked_up.is_some() {
             return Err(ReplanError::Again);
         }
-        if scene.settings.sheet.time == SheetTime::Real && summary.sheet.is_some() {
+        if scene.layup.settings.sheet.time == SheetTime::Real && summary.sheet.is_some() {
             return Err(ReplanError::RealTime);
         }
         let motion = record.motion()?;
         let count = motion.times().len();
-        let whole = summary.steps == summary.steps_planned
-            && summary.sheet.as_ref().is_none_or(|sheet| sheet.steps >= count);
-        if !whole || steps.len() != count || count < 2 {
+        if summary.steps != summary.steps_planned || steps.len() != count || count < 2 {
             return Err(ReplanError::Unfinished { steps: steps.len(), planned: count });
         }
-        let touched = [
-            summary.first_contact_step,
-            summary.sheet.as_ref().and_then(|sheet| sheet.first_contact_step),
-        ];
-        let first = touched.into_iter().flatten().min();
+        let first = summary.first_contact_step();
         // where nothing ever touches, the end is kept
         let last_free = first.map_or(count - 1, |first| first.saturating_sub(2));
         let mut shapes = Shapes::new(scene, steps, sheet, last_free);
+        if shapes.is_empty() {
+            return Err(ReplanError::NoShapes);
+        }
         let clear = shapes.clear_of_obstacles(scene);
         let weights = fade::weights(motion.parameter(), clear, last_free)
             .ok_or(ReplanError::NoTransport { clear: clear + 1, first })?;
@@ -160,12 +160,21 @@ impl<'a> Replanner<'a> {
             [0, 1].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / places.len() as f64)
         };
         let middles = motion.positions().iter().map(middle).collect();
-        let landing = match scene.bodies.is_empty() {
+        let landing = match scene.layup.bodies.is_empty() {
             true => None,
             false => {
                 let times = [motion.times()[last_free], motion.duration()];
                 let attitudes = Attitudes::of(steps)?;
-                Nearest::of_motion_within(scene, &motion, &attitudes, times, f64::INFINITY)
+                let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+                Nearest::of_motion_within(
+                    &scene.layup,
+                    least,
+                    scene.plan.rate,
+                    &motion,
+                    &attitudes,
+                    times,
+                    f64::INFINITY,
+                )
             }
         };
         let path = TimedMotion::moving(&record.path);
@@ -205,7 +214,7 @@ impl<'a> Replanner<'a> {
 
         // the path through the moved steps, and its time
         let path = correction::corrected(&self.motion, &self.path, &moved, self.last_free);
-        let bounds = Bounds::from(&scene.limits);
+        let bounds = scene.limits.motion_bounds();
         let mut motion = self.motion.moved(&path, &bounds)?;
         correction::rigid(scene, &self.motion, &motion, self.last_free)?;
         if let Some(touch) = self.shapes.touches(scene, &moved) {
@@ -214,20 +223,17 @@ impl<'a> Replanner<'a> {
 
         // slower, where grippers or the tool would turn too fast
         let mut steps = record::steps(self.plan, &motion, &moved, self.last_free);
-        let fastest = record::tilt_rates(&steps, motion.times())
-            .into_iter()
-            .flatten()
-            .map(|found| found.value)
-            .fold(0.0, f64::max);
-        let limit = scene.limits.tilt_rate.to_degrees();
-        let planned = self.plan.summary.worst.value(crate::measure::Name::TiltRate).unwrap_or(0.0);
+        record::times(&mut steps, &motion);
+        let fastest = record::fastest_tilt(scene, &motion, &steps);
+        let limit = scene.limits.most(Name::TiltRate).to_degrees();
+        let planned = self.plan.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
         // the time over which a rate is taken grows with the motion, so a rate is as much smaller as the motion is longer
         let turned = (fastest / limit.max(planned)).max(1.0);
         let peaks = |motion: &TimedMotion| -> Option<ToolPeaks> {
-            scene.tool.as_ref()?.peaks(motion, scene.plan.rate).ok()
+            scene.layup.tool.as_ref()?.peaks(motion, scene.plan.rate).ok()
         };
         let mut tool = peaks(&motion);
-        let carried = match (&tool, &scene.tool) {
+        let carried = match (&tool, &scene.layup.tool) {
             (Some(peaks), Some(tool)) if peaks.stretch(tool) > 1.0 => {
                 TUNING.evaluation.tool_margin * peaks.stretch(tool)
             }
@@ -242,17 +248,17 @@ impl<'a> Replanner<'a> {
             true => motion.duration() / self.motion.duration(),
             false => 1.0,
         };
-        let dwells = scene
-            .release
-            .as_ref()
-            .is_some_and(|release| release.order == ReleaseOrder::Landed && release.dwell > 0.0);
+        let dwells =
+            scene.layup.release.as_ref().is_some_and(|release| {
+                release.order == ReleaseOrder::Landed && release.dwell > 0.0
+            });
         if longer > 1.0 && dwells {
             return Err(ReplanError::Dwells { longer });
         }
 
         record::times(&mut steps, &motion);
         let attitudes = Attitudes::of(&steps)?;
-        record::measure(self.plan, &mut steps, &moved, self.last_free);
+        record::places(&mut steps, &moved, self.last_free);
         let outcome = record::Outcome {
             motion: &motion,
             attitudes: &attitudes,
@@ -261,7 +267,7 @@ impl<'a> Replanner<'a> {
             landing: self.landing,
             last_free: self.last_free,
         };
-        let summary = outcome.summary(self.plan, &steps, &moved);
+        let summary = outcome.summary(self.plan, &mut steps, &moved);
         let picked_up = PickedUp { offset, residual, weights: self.weights.clone() };
         // what limited the plan need not limit this motion
         let limited_by = Vec::new();

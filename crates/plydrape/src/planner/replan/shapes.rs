@@ -6,14 +6,15 @@
 
 use super::error::ReplanError;
 use super::tuning::TUNING;
-use crate::clearance::Obstacle;
+use crate::bodies::Obstacle;
 use crate::draping::free_curves;
-use crate::draping::record::Step;
-use crate::measure::Site;
+use crate::geometry::vector::{between, distance, norm};
+use crate::measure::Name;
 use crate::mold::Mold;
-use crate::mold::vector::{between, distance, norm};
+use crate::outcome::Step;
 use crate::pick_up::Moved;
 use crate::scene::Scene;
+use crate::state::Site;
 use rayon::prelude::*;
 
 type Point = [f64; 3];
@@ -56,13 +57,11 @@ enum Sites {
 
 impl Sites {
     fn label(&self, n: usize, scene: &Scene) -> String {
-        match self {
-            Sites::Fabric(places) => {
-                let [u, v] = places[n].map(|c| c * 1e3);
-                format!("fabric point ({u:.1}, {v:.1}) mm")
-            }
-            Sites::Catenaries(numbers) => Site::Catenary(numbers[n]).label(scene),
-        }
+        let site = match self {
+            Sites::Fabric(places) => Site::Fabric(places[n]),
+            Sites::Catenaries(numbers) => Site::Catenary(numbers[n]),
+        };
+        site.label(&scene.layup)
     }
 }
 
@@ -76,7 +75,18 @@ struct Nearest {
 impl Shapes {
     /// Those of the steps up to one (from 0), of the catenaries and of a sheet.
     pub fn new(scene: &Scene, steps: &[Step], sheet: Option<&SheetShapes>, last: usize) -> Self {
-        let hanging = |step: &Step| free_curves(&scene.ply, &scene.settings, step);
+        let hanging = |step: &Step| match &step.catenaries {
+            Some(catenaries) => {
+                let places: Vec<Point> = step.grippers.iter().map(|g| g.position).collect();
+                free_curves(
+                    &scene.layup.ply,
+                    &scene.layup.settings,
+                    &places,
+                    &catenaries.catenaries,
+                )
+            }
+            None => Vec::new(),
+        };
         let curves: Vec<_> = steps.iter().take(last + 1).map(hanging).collect();
         let numbers = |curves: &[(usize, Vec<Point>)]| -> Vec<usize> {
             curves.iter().flat_map(|(n, points)| vec![*n; points.len()]).collect()
@@ -87,7 +97,10 @@ impl Shapes {
             states.map(|(k, c)| (k, c.iter().flat_map(|(_, points)| points.clone()).collect()));
         let states = states.collect();
         let catenaries = Series { sites: Sites::Catenaries(sites), states, least: Vec::new() };
-        let mut series = vec![catenaries];
+        let mut series = Vec::new();
+        if steps.iter().any(|step| step.catenaries.is_some()) {
+            series.push(catenaries);
+        }
         if let Some(SheetShapes { places, states }) = sheet {
             let known =
                 |(k, points): &&(usize, Vec<Point>)| *k <= last && points.len() == places.len();
@@ -97,12 +110,18 @@ impl Shapes {
                 least: Vec::new(),
             });
         }
-        Shapes { series, tolerance: scene.settings.contact.tolerance }
+        Shapes { series, tolerance: scene.layup.settings.contact.tolerance }
+    }
+
+    /// Whether nothing of the ply was recorded.
+    pub fn is_empty(&self) -> bool {
+        self.series.iter().all(|series| series.states.is_empty())
     }
 
     /// The first step, from 0, in which the ply is farther from all obstacles than bodies have to be: until then it may lie on one.
     pub fn clear_of_obstacles(&self, scene: &Scene) -> usize {
         let boxes: Vec<_> = scene
+            .layup
             .bodies
             .obstacles()
             .iter()
@@ -112,7 +131,7 @@ impl Shapes {
             boxes.iter().any(|(pose, [low, high])| {
                 let p = pose.local(*point);
                 let off = [0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0));
-                norm(off) < scene.limits.clearance
+                norm(off) < scene.limits.most(Name::Clearance)
             })
         };
         let clear = |series: &Series| {
@@ -129,7 +148,7 @@ impl Shapes {
 
     /// Measures how far the ply is from the mold in the plan.
     pub fn measure(&mut self, scene: &Scene) {
-        let Some(mold) = &scene.mold else { return };
+        let Some(mold) = &scene.layup.mold else { return };
         for Series { states, least, .. } in &mut self.series {
             let of = |pair: &[(usize, Vec<Point>)]| -> Vec<f64> {
                 let ways = pair[0].1.iter().zip(&pair[1].1);
@@ -141,7 +160,7 @@ impl Shapes {
 
     /// The first part of the ply that would touch the mold where each step is moved, and does not in the plan.
     pub fn touches(&self, scene: &Scene, moved: &[Moved]) -> Option<ReplanError> {
-        let mold = scene.mold.as_ref()?;
+        let mold = scene.layup.mold.as_ref()?;
         let first = self.series.iter().filter_map(|series| {
             let pairs = series.states.windows(2).zip(&series.least);
             let mut found = pairs.filter_map(|(pair, least)| {

@@ -1,16 +1,18 @@
 //! What a corrected plan keeps and what it changes, on a small ply that is carried over the flank of a dome, turned, and laid on its top.
 
 use super::*;
-use crate::clearance::{self, Bodies, Body, Mount, Obstacle, Poses, Shape};
-use crate::draping::simulate;
+use crate::bodies::{Bodies, Body, Mount, Obstacle, Shape};
+use crate::clearance::{self, Poses};
+use crate::geometry::vector::{distance, norm, sub};
+use crate::layup::{Layup, Model, Settings, SheetSettings, Target};
 use crate::material::{Section, ShearCurve, TensionLaw};
-use crate::measure::{Name, Verdict};
-use crate::mold::vector::{distance, norm, sub};
+use crate::measure::{Limits, Name, Verdict};
 use crate::mold::{Face, Mold, Pose, Sphere};
+use crate::motion::Motion;
+use crate::outcome::{Drape, simulate};
 use crate::planner::evaluation::clearance_verdict;
 use crate::ply::{Grid, cloth};
-use crate::scene::{Limits, Model, Motion, PlanMethod, Settings, SheetSettings, Target};
-use crate::sheet;
+use crate::scene::PlanMethod;
 use crate::tool::{Axis, Tool};
 use std::f64::consts::FRAC_PI_6;
 use std::ops::ControlFlow;
@@ -51,7 +53,7 @@ fn path() -> Steps {
 struct Found {
     scene: Scene,
     record: PlanRecord,
-    drape: crate::Drape,
+    drape: Drape,
 }
 
 impl Found {
@@ -80,27 +82,27 @@ fn carried(path: Steps, bodies: Bodies, tool: Option<Tool>) -> Found {
     settings.model = Model::Catenaries;
     let sphere = Sphere { pose: Pose::upright([0.0, 0.0, -1.0]), radius: 1.0, face: Face::Outside };
     let grippers = path[path.len() - 1].clone();
-    let mut scene = Scene {
-        title: "dome".into(),
-        limits: Limits::of(&ply, &settings),
-        ply,
+    let mut scene = Scene::new(ply, settings, Motion { times: vec![], positions: vec![] });
+    scene.layup = Layup {
         mold: Some(Mold::Sphere(sphere)),
-        motion: Motion { times: vec![], positions: vec![] },
         target: Some(Target { grippers, drape: None }),
-        settings,
         bodies,
-        plan: crate::scene::Plan::default(),
-        errors: None,
         tool,
-        release: None,
+        ..scene.layup
     };
+    scene.limits = Limits::of(&scene.layup);
     scene.limits.workspace = Some([[-1.5, 1.5]; 3]);
-    let motion = TimedMotion::new(&path, &Bounds::from(&scene.limits)).unwrap();
+    let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
     let record = PlanRecord::of(PlanMethod::Path, 1, 100.0, path, &motion, Vec::new());
-    scene.motion = motion.steps();
-    let drape = simulate(&scene, |_| ControlFlow::Continue(()));
-    assert_eq!(drape.summary.steps, scene.motion.times.len(), "{:?}", drape.summary.stopped);
+    scene.layup.motion = motion.steps();
+    let drape = draped(&scene);
+    assert_eq!(drape.summary.steps, scene.layup.motion.times.len(), "{:?}", drape.summary.stopped);
     Found { scene, record, drape }
+}
+
+/// The drape by the model that decides.
+fn draped(scene: &Scene) -> Drape {
+    simulate(scene, |_| ControlFlow::Continue(())).expect("a model").drape
 }
 
 fn dome() -> Found {
@@ -124,7 +126,7 @@ fn seen() -> Offset {
 fn the_motion_starts_where_the_ply_lies() {
     let found = dome();
     let replanned = found.replanner().replan(&seen(), None).unwrap();
-    let start = &found.scene.motion.positions[0];
+    let start = &found.scene.layup.motion.positions[0];
     let turned = Pose::new([-0.5 + SEEN[0], SEEN[1], 0.0], [0.0, 0.0, SEEN[2].to_radians()]);
     for (p, q) in start.iter().zip(&replanned.motion.positions()[0]) {
         let expected = turned.place([p[0] + 0.5, p[1], p[2]]);
@@ -145,7 +147,7 @@ fn the_landing_is_the_planned_one_to_the_last_bit() {
     let found = dome();
     let replanner = found.replanner();
     let replanned = replanner.replan(&seen(), None).unwrap();
-    let first = found.drape.summary.first_contact_step.unwrap();
+    let first = found.drape.summary.first_contact_step().unwrap();
     assert_eq!(replanner.last_free + 2, first);
     let (before, after) = (replanner.planned(), &replanned.motion);
     assert_eq!(before.positions()[first - 2..], after.positions()[first - 2..]);
@@ -212,8 +214,8 @@ fn the_record_makes_the_motion_again() {
 fn a_drape_along_the_corrected_motion_finds_the_moved_record() {
     let found = dome();
     let replanned = found.replanner().replan(&seen(), None).unwrap();
-    let scene = Scene { motion: replanned.motion.steps(), ..found.scene.clone() };
-    let drape = simulate(&scene, |_| ControlFlow::Continue(()));
+    let layup = Layup { motion: replanned.motion.steps(), ..found.scene.layup.clone() };
+    let drape = draped(&Scene { layup, ..found.scene.clone() });
     let near = |a: f64, b: f64, tolerance: f64| (a - b).abs() <= tolerance * (1.0 + a.abs());
     for (own, other) in replanned.steps.iter().zip(&drape.steps) {
         for (a, b) in own.grippers.iter().zip(&other.grippers) {
@@ -222,7 +224,9 @@ fn a_drape_along_the_corrected_motion_finds_the_moved_record() {
             assert!((dot.abs() - 1.0).abs() < 1e-6, "{} {a:?} {b:?}", own.step);
             assert!(near(a.tilt_deg, b.tilt_deg, 1e-3), "{} {a:?} {b:?}", own.step);
         }
-        for (a, b) in own.catenaries.iter().zip(&other.catenaries) {
+        let [own_lines, other_lines] =
+            [own, other].map(|step| &step.catenaries.as_ref().expect("catenaries").catenaries);
+        for (a, b) in own_lines.iter().zip(other_lines) {
             assert_eq!(a.contact.is_some(), b.contact.is_some(), "{}", own.step);
             for (a, b) in a.spans.iter().zip(&b.spans) {
                 assert!(near(a.force.unwrap_or(0.0), b.force.unwrap_or(0.0), 1e-3), "{a:?} {b:?}");
@@ -233,7 +237,7 @@ fn a_drape_along_the_corrected_motion_finds_the_moved_record() {
             assert!(near(worst.value, value, 2e-3), "{name:?} {} {worst:?} {value}", own.step);
         }
     }
-    assert_eq!(drape.summary.first_contact_step, found.drape.summary.first_contact_step);
+    assert_eq!(drape.summary.first_contact_step(), found.drape.summary.first_contact_step());
     for verdict in &drape.summary.limits {
         let mut own = replanned.summary.limits.iter();
         let own = own.find(|other| other.name == verdict.name).unwrap();
@@ -251,23 +255,25 @@ fn a_sheet_along_the_corrected_motion_lands_alike() {
     let settings = Settings {
         model: Model::Sheet,
         sheet: SheetSettings { mesh: Some(0.034), ..SheetSettings::default() },
-        ..found.scene.settings
+        ..found.scene.layup.settings
     };
-    let mut ply = found.scene.ply.clone();
+    let mut ply = found.scene.layup.ply.clone();
     ply.material.section = Section::Areal { mass: 0.3, warp_rigidity: 1e-4, weft_rigidity: 1e-4 };
     ply.material.tension = Some(TensionLaw::Linear { stiffness: 1e5 });
     ply.material.shear_curve = Some(ShearCurve::Polynomial { coefficients: vec![5.0] });
     let drape = |motion: Motion| {
-        let scene = Scene { motion, settings, ply: ply.clone(), ..found.scene.clone() };
-        let go_on = |_: &sheet::State| ControlFlow::Continue(());
-        sheet::drape(&scene, sheet::Tuning::default(), &|| false, go_on).unwrap().summary
+        let layup = Layup { motion, settings, ply: ply.clone(), ..found.scene.layup.clone() };
+        draped(&Scene { layup, ..found.scene.clone() }).summary
     };
-    let planned = drape(found.scene.motion.clone());
+    let planned = drape(found.scene.layup.motion.clone());
     let moved = drape(replanned.motion.steps());
     assert_eq!(planned.status, moved.status);
-    assert_eq!(planned.first_contact_step, moved.first_contact_step);
+    assert_eq!(planned.first_contact_step(), moved.first_contact_step());
     let near = |a: Option<f64>, b: Option<f64>| (a.unwrap() - b.unwrap()).abs() < 0.01;
-    assert!(near(planned.height_max_mm, moved.height_max_mm), "{planned:?} {moved:?}");
+    assert!(
+        near(planned.last.value(Name::Height), moved.last.value(Name::Height)),
+        "{planned:?} {moved:?}"
+    );
     assert!(near(planned.height_rms_mm, moved.height_rms_mm), "{planned:?} {moved:?}");
 }
 
@@ -294,7 +300,8 @@ fn a_corrected_motion_keeps_its_limits_at_fine_samples() {
         let acceleration = difference(&speed);
         let jerk = difference(&acceleration);
         let most = |values: &Steps| values.iter().flatten().map(|v| norm(*v)).fold(0.0, f64::max);
-        let Limits { speed: v, acceleration: a, jerk: j, .. } = found.scene.limits;
+        let [v, a, j] =
+            [Name::Speed, Name::Acceleration, Name::Jerk].map(|name| found.scene.limits.most(name));
         // the third difference of positions of 1 m has a rounding of 1e-15/h³
         assert!(most(&speed) <= v * (1.0 + 1e-4), "{}", most(&speed));
         assert!(most(&acceleration) <= a * (1.0 + 1e-4), "{}", most(&acceleration));
@@ -305,7 +312,8 @@ fn a_corrected_motion_keeps_its_limits_at_fine_samples() {
         }
         // this ply is laid down faster than its joints should tilt, and no faster than in the plan
         let rate = |summary: &Summary| summary.worst.value(Name::TiltRate).unwrap();
-        let most = rate(&found.drape.summary).max(found.scene.limits.tilt_rate.to_degrees());
+        let most =
+            rate(&found.drape.summary).max(found.scene.limits.most(Name::TiltRate).to_degrees());
         assert!(rate(&replanned.summary) <= most * (1.0 + 1e-9));
     }
 }
@@ -350,7 +358,7 @@ fn a_workspace_and_an_obstacle_are_judged_again() {
 
     let near = replanner.replan(&off(0.0, 0.2, 0.0), None).unwrap();
     let clearance = verdict(&near, Name::Clearance);
-    assert!(!clearance.ok && clearance.at.contains("post") && !near.summary.accepted);
+    assert!(!clearance.ok && clearance.at.contains("post") && !near.summary.accepted());
     assert!(clearance.value < planned.value);
     let outside = verdict(&replanner.replan(&off(0.0, -0.35, 0.0), None).unwrap(), Name::Workspace);
     // the farthest gripper of the turned array is 98 sin 30° + 49 cos 30° mm from its middle
@@ -391,7 +399,10 @@ fn the_offset_is_whole_as_long_as_the_ply_may_lie_on_its_table() {
     let whole = replanner.weights().iter().filter(|w| **w == 1.0).count();
     // its top is at −60 mm: 5 mm above it the lowest point of the ply is clear
     let lowest = |step: &Step| {
-        let curves = crate::draping::free_curves(&found.scene.ply, &found.scene.settings, step);
+        let Layup { ply, settings, .. } = &found.scene.layup;
+        let places: Vec<[f64; 3]> = step.grippers.iter().map(|g| g.position).collect();
+        let catenaries = &step.catenaries.as_ref().expect("catenaries").catenaries;
+        let curves = crate::draping::free_curves(ply, settings, &places, catenaries);
         curves.iter().flat_map(|(_, points)| points).map(|p| p[2]).fold(f64::INFINITY, f64::min)
     };
     let clear = found.drape.steps.iter().position(|step| lowest(step) >= -0.055).unwrap();
@@ -447,6 +458,7 @@ fn cell() -> Found {
 fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
     let found = cell();
     let scene = &found.scene;
+    let (least, rate) = (scene.limits.most(Name::Clearance), scene.plan.rate);
     let replanner = found.replanner();
     for offset in [seen(), off(0.0, 0.0, 0.0), off(-0.03, 0.02, -8.0), off(0.01, 0.035, 11.0)] {
         let replanned = replanner.replan(&offset, None).unwrap();
@@ -454,7 +466,7 @@ fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
         let own = |name: Name| -> &Verdict {
             summary.limits.iter().rfind(|verdict| verdict.name == name).unwrap()
         };
-        let whole = Nearest::of_motion(scene, motion, attitudes).unwrap();
+        let whole = Nearest::of_motion(&scene.layup, least, rate, motion, attitudes).unwrap();
         let whole = clearance_verdict(scene, &whole, 1);
         let clearance = own(Name::Clearance);
         // a slower landing is sampled at other places
@@ -464,20 +476,20 @@ fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
         assert!(distance(place, other) < 1e-3, "{clearance:?} {whole:?}");
         assert_eq!(clearance.ok, whole.ok);
 
-        let samples = motion.samples(scene.plan.rate).unwrap();
+        let samples = motion.samples(rate).unwrap();
         let alone = samples.iter().map(|t| {
             let positions = motion.at(*t);
-            let poses = Poses::of(scene, &positions, &attitudes.at(*t), &positions);
-            1e3 * clearance::at(scene, &poses).unwrap().distance
+            let poses = Poses::of(&scene.layup, &positions, &attitudes.at(*t), &positions);
+            1e3 * clearance::at(&scene.layup, least, &poses).unwrap().distance
         });
         let least = alone.fold(f64::INFINITY, f64::min);
         assert!(clearance.value <= least + 1e-4 * least.abs().max(1.0), "{clearance:?} {least}");
         // between samples it changes by half of what goes on in one: a way, and as much again for the turn
-        let most = 1e3 * scene.limits.speed / scene.plan.rate;
+        let most = 1e3 * scene.limits.most(Name::Speed) / rate;
         assert!(clearance.value >= least - most, "{clearance:?} {least}");
 
-        let tool = scene.tool.as_ref().unwrap();
-        let peaks = tool.peaks(motion, scene.plan.rate).unwrap();
+        let tool = scene.layup.tool.as_ref().unwrap();
+        let peaks = tool.peaks(motion, rate).unwrap();
         let rates = [
             (Name::ToolTurnRate, peaks.turn_rate.value.to_degrees()),
             (Name::ToolTurnAcceleration, peaks.turn_acceleration.value.to_degrees()),

@@ -3,7 +3,7 @@
 use super::{Place, Quantity, Sensitivity};
 use crate::draping::fabric;
 use crate::draping::spans::{FreeSpan, Point};
-use crate::mold::vector::{along, dot, sub};
+use crate::geometry::vector::{along, dot, sub};
 use crate::mold::{ClosestPoint, Mold};
 use crate::planner::tuning::{self, TUNING};
 
@@ -22,7 +22,7 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
         let place = self.place(span, t);
-        let closest = self.scene.mold.as_ref()?.closest_point(place.point);
+        let closest = self.scene.layup.mold.as_ref()?.closest_point(place.point);
         let slope = place.along(self.distance_gradient(place.point, &closest));
         Some(Quantity { value: closest.distance, ..slope })
     }
@@ -30,11 +30,11 @@ impl Sensitivity<'_> {
     /// Where the ideal drape has a span's fabric at a share of its length (m); none where it is not known.
     #[must_use]
     pub fn ideal(&self, span: &FreeSpan, share: f64) -> Option<Point> {
-        let (mold, target) = (self.scene.mold.as_ref()?, self.scene.target.as_ref()?);
+        let (mold, target) = (self.scene.layup.mold.as_ref()?, self.scene.layup.target.as_ref()?);
         let whole =
             self.contacts[span.catenary].as_ref().map_or(span.length, |contact| contact.length);
         let share = (span.start + share * span.length) / whole;
-        target.drape.as_ref()?.place(mold, fabric(self.scene, span.catenary, share))
+        target.drape.as_ref()?.place(mold, fabric(&self.scene.layup, span.catenary, share))
     }
 
     /// Position error (m): from the ideal place of a span's fabric at a share of its length to where it is; its x and
@@ -51,7 +51,7 @@ impl Sensitivity<'_> {
     /// stands on the mold. None without a mold or where the mold is upright.
     #[must_use]
     pub fn rise(&self, span: &FreeSpan, end: usize) -> Option<Quantity> {
-        let mold = self.scene.mold.as_ref()?;
+        let mold = self.scene.layup.mold.as_ref()?;
         let outward = if end == 0 { 1.0 } else { -1.0 };
         let mut ply = match (span.profile.is_some(), span.element) {
             (true, Some(element)) => {

@@ -1,7 +1,7 @@
 //! Grippers and cells: tilt, height above the mold, distances, shear.
 
 use super::{Quantity, Sensitivity};
-use crate::mold::vector::{sub, unit};
+use crate::geometry::vector::{sub, unit};
 use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
 use crate::ply::{Grid, shear, tangent_shares};
@@ -13,7 +13,11 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn shear(&self, cell: usize) -> Option<Quantity> {
         let path = self.paths[cell].as_ref()?;
-        let sides = self.scene.ply.trellis(&self.scene.ply.lines().cells()[cell], self.contacts);
+        let sides = self
+            .scene
+            .layup
+            .ply
+            .trellis(&self.scene.layup.ply.lines().cells()[cell], self.contacts);
         let value = shear::angle(sides, path.value);
         // from sin γ = (d₁² − a² − b²)/2ab; a folded cell shears no further
         let rate = path.value / (sides[0] * sides[1] * value.cos());
@@ -28,7 +32,7 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn clearance(&self, gripper: usize) -> Option<Quantity> {
         let point = self.positions[gripper];
-        let closest = self.scene.mold.as_ref()?.closest_point(point);
+        let closest = self.scene.layup.mold.as_ref()?.closest_point(point);
         let mut gradient = Row::default();
         gradient.add_from(3 * gripper, 1.0, self.distance_gradient(point, &closest));
         Some(Quantity { value: closest.distance, gradient })
@@ -54,7 +58,7 @@ impl Sensitivity<'_> {
         let slopes = self.slopes[gripper].iter().flatten();
         let mut columns: BTreeSet<usize> =
             slopes.flat_map(|slope| slope.gradient.entries().map(|(column, _)| column)).collect();
-        let lines = self.scene.ply.lines();
+        let lines = self.scene.layup.ply.lines();
         for neighbour in [0, 1].map(|d| lines.neighbours(gripper, d)).as_flattened() {
             columns.extend(3 * neighbour..3 * neighbour + 3);
         }
@@ -70,7 +74,7 @@ impl Sensitivity<'_> {
     /// What says how a gripper is tilted along u and v where no fiber line runs through it in one of them; see
     /// [`crate::draping::attitude::attitude`].
     fn neighbour_shares(&self, gripper: usize) -> Option<[Vec<(usize, f64)>; 2]> {
-        let ply = &self.scene.ply;
+        let ply = &self.scene.layup.ply;
         let is_by_lines =
             ply.grid != Grid::NONE || self.slopes[gripper].iter().all(Option::is_some);
         (!is_by_lines).then(|| tangent_shares(ply, &ply.neighbours(), gripper))
@@ -81,7 +85,7 @@ impl Sensitivity<'_> {
             let moves = column == Some(3 * n + axis);
             Dual64::new(self.positions[n][axis], f64::from(u8::from(moves)))
         };
-        let lines = self.scene.ply.lines();
+        let lines = self.scene.layup.ply.lines();
         let heading = |d: usize| {
             let [before, after] = lines.neighbours(gripper, d);
             let [x, y] = [0, 1].map(|n| position(after, n) - position(before, n));

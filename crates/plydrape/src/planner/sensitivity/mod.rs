@@ -96,7 +96,7 @@ impl<'a> Sensitivity<'a> {
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
         let State { rows, paths, slopes, is_sound } =
-            State::new(&scene.ply, solver, positions, contacts, negligible);
+            State::new(&scene.layup.ply, solver, positions, contacts, negligible);
         Sensitivity { scene, shape, positions, contacts, rows, paths, slopes, is_sound }
     }
 
@@ -115,6 +115,7 @@ impl<'a> Sensitivity<'a> {
     #[must_use]
     pub fn gripper_at(&self, span: &FreeSpan, end: usize) -> Option<usize> {
         let whole = self.contacts[span.catenary].is_none();
-        (whole || span.segment == end).then(|| self.scene.ply.lines().ends(span.catenary)[end])
+        (whole || span.segment == end)
+            .then(|| self.scene.layup.ply.lines().ends(span.catenary)[end])
     }
 }

@@ -1,8 +1,9 @@
 //! The end of a drape, and its derivatives to the positions where its grippers end.
 
 use super::{Quantity, Sensitivity};
-use crate::draping::spans::Point;
-use crate::draping::{Drape, Draping, lying_segments};
+use crate::draping::{Draping, lying_segments};
+use crate::geometry::Point;
+use crate::outcome::{Drape, DrapeWatch, drape_catenaries};
 use crate::planner::row::Row;
 use crate::planner::tuning::{self, TUNING};
 use crate::ply::ContactSegment;
@@ -29,15 +30,18 @@ pub struct Outcome {
     pub tilt: Vec<Quantity>,
 }
 
-/// Drapes the ply of a scene along its motion and differentiates its last step; none of a motion without
-/// steps. `progress` is as that of [`crate::draping::simulate`].
+/// Drapes the ply of a scene along its motion by catenaries and differentiates its last step; `None` of a motion without
+/// steps. `progress` is as that of [`crate::simulate`].
 pub fn outcome(
     scene: &Scene,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Option<Outcome> {
-    let mut draping = Draping::new(scene);
-    let (drape, shape) = draping.run(&mut progress);
-    let (shape, lines) = (shape?, scene.ply.lines());
+    let layup = &scene.layup;
+    let mut draping = Draping::new(layup);
+    let mut see = |step: usize, _: Option<&crate::sheet::State>| progress(step);
+    let mut watch = DrapeWatch { stop: &|| false, see: &mut see };
+    let (drape, shape) = drape_catenaries(layup, &scene.limits, &mut draping, &mut watch);
+    let (shape, lines) = (shape?, scene.layup.ply.lines());
     let Draping { solver, positions, contacts, .. } = &mut draping;
     let sensitivity = Sensitivity::whole(scene, solver, &shape, positions, contacts);
 
@@ -79,9 +83,11 @@ fn lying(
     positions: &[Point],
     catenary: usize,
 ) -> Vec<Quantity> {
-    let (Some(mold), Some(contact)) = (&scene.mold, &contacts[catenary]) else { return Vec::new() };
-    let grippers = scene.ply.lines().ends(catenary);
-    let tolerance = scene.settings.contact.tolerance;
+    let (Some(mold), Some(contact)) = (&scene.layup.mold, &contacts[catenary]) else {
+        return Vec::new();
+    };
+    let grippers = scene.layup.ply.lines().ends(catenary);
+    let tolerance = scene.layup.settings.contact.tolerance;
     let misfits = |ends: [Point; 2]| -> Vec<f64> {
         let segments = lying_segments(catenary, contact, ends, mold, tolerance);
         segments.iter().map(|segment| -segment.misfit.excess()).collect()

@@ -8,7 +8,7 @@ use super::{Quantity, Sensitivity};
 use crate::catenary::{Graded, Profile};
 use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};
-use crate::mold::vector::{along, dot, sub, unit};
+use crate::geometry::vector::{along, dot, sub, unit};
 use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
 

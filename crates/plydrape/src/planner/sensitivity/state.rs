@@ -1,8 +1,8 @@
 //! The derivatives of a state: sparse rows, filled group by group.
 
 use super::{Quantity, ROWS};
-use crate::draping::spans::Point;
 use crate::equilibrium::{Coloring, Direction, Solver, StateTangent};
+use crate::geometry::Point;
 use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
 use crate::ply::{ContactSegment, GripperId, Ply};

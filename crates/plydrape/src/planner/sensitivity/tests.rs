@@ -3,9 +3,10 @@
 use super::{Quantity, Sensitivity};
 use crate::draping::Draping;
 use crate::draping::attitude::attitude;
+use crate::layup::{Layup, SlopeRule};
 use crate::planner::stepwise::tests::scene;
 use crate::ply::held;
-use crate::scene::{Scene, SlopeRule};
+use crate::scene::Scene;
 
 /// On an array that takes more than one gripper in each group, each gradient differs from the whole one by a few shares that
 /// count as negligible, and holds a fraction of its numbers.
@@ -13,9 +14,9 @@ use crate::scene::{Scene, SlopeRule};
 fn gradients_of_distant_grippers_together_are_those_of_each_alone() {
     for slopes in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
         let mut scene = scene(16);
-        scene.settings.slopes = slopes;
-        let positions = &scene.motion.positions[0];
-        let mut draping = Draping::new(&scene);
+        scene.layup.settings.slopes = slopes;
+        let positions = &scene.layup.motion.positions[0];
+        let mut draping = Draping::new(&scene.layup);
         let shape = draping.move_to(positions);
         let contacts = draping.contacts.clone();
         let solver = &mut draping.solver;
@@ -53,15 +54,17 @@ fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
         [0.985 * u, 0.98 * v, 0.3 + 2e-3 * (1.7 * n as f64).sin()]
     };
     let positions: Vec<[f64; 3]> = (0..ply.grippers()).map(place).collect();
-    let scene = Scene { ply, mold: None, target: None, ..scene(2) };
-    let neighbours = scene.ply.neighbours();
+    let layup = Layup { ply, mold: None, target: None, ..scene(2).layup };
+    let scene = Scene { layup, ..scene(2) };
+    let neighbours = scene.layup.ply.neighbours();
     let tilts = |positions: &[[f64; 3]]| -> Vec<f64> {
-        let mut draping = Draping::new(&scene);
+        let mut draping = Draping::new(&scene.layup);
         draping.move_to(positions);
-        let of = |n| attitude(&draping.solver, &scene.ply, &neighbours, positions, n, None).tilt;
+        let of =
+            |n| attitude(&draping.solver, &scene.layup.ply, &neighbours, positions, n, None).tilt;
         (0..positions.len()).map(of).collect()
     };
-    let mut draping = Draping::new(&scene);
+    let mut draping = Draping::new(&scene.layup);
     let shape = draping.move_to(&positions);
     let contacts = draping.contacts.clone();
     let whole = Sensitivity::whole(&scene, &mut draping.solver, &shape, &positions, &contacts);

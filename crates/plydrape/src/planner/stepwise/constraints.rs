@@ -2,7 +2,8 @@
 
 use super::step::Step;
 use super::tuning::TUNING;
-use crate::mold::vector::sub;
+use crate::geometry::vector::sub;
+use crate::measure::Name;
 use crate::planner::program::Program;
 use crate::planner::row::Row;
 use crate::planner::sensitivity::{Quantity, Sensitivity};
@@ -11,18 +12,18 @@ impl Step<'_> {
     /// Shear, tilt, force, distances: linear. A limit that is exceeded already must not be exceeded further.
     pub(super) fn limits(&self, sensitivity: &Sensitivity, program: &mut Program) {
         let limits = &self.scene.limits;
-        let (grid, scale) = (self.scene.ply.grid, program.scale);
+        let (grid, scale) = (self.scene.layup.ply.grid, program.scale);
         let mut keep = |q: Option<Quantity>, limit: f64| {
             if let Some(q) = q {
                 program.at_most(&q.gradient, 1.0 / scale, limit.max(q.value) - q.value);
             }
         };
-        let cells = self.scene.ply.lines().cells().len();
-        (0..cells).for_each(|cell| keep(sensitivity.shear(cell), limits.shear));
+        let cells = self.scene.layup.ply.lines().cells().len();
+        (0..cells).for_each(|cell| keep(sensitivity.shear(cell), limits.most(Name::Shear)));
         for gripper in 0..grid.grippers() {
-            keep(Some(sensitivity.tilt(gripper)), limits.tilt);
+            keep(Some(sensitivity.tilt(gripper)), limits.most(Name::Tilt));
         }
-        if let Some(limit) = limits.force {
+        if let Some(limit) = limits.get(Name::Force) {
             sensitivity.shape.spans.iter().for_each(|span| keep(sensitivity.force(span), limit));
         }
         let mut above = |q: Quantity, least: f64| {
@@ -34,10 +35,16 @@ impl Step<'_> {
             }
             let [i, j] = grid.id(gripper);
             if i > 0 {
-                above(sensitivity.separation(gripper - 1, gripper), limits.gripper_distance);
+                above(
+                    sensitivity.separation(gripper - 1, gripper),
+                    limits.most(Name::GripperDistance),
+                );
             }
             if j > 0 {
-                above(sensitivity.separation(gripper - grid.nu, gripper), limits.gripper_distance);
+                above(
+                    sensitivity.separation(gripper - grid.nu, gripper),
+                    limits.most(Name::GripperDistance),
+                );
             }
         }
         if self.landing {
@@ -80,7 +87,7 @@ impl Step<'_> {
             let [a, b] = span.ends;
             let lands = free.iter().any(|(gripper, _)| self.lands(*gripper));
             let stretch = if lands {
-                TUNING.stretch_share * self.scene.limits.overstretch
+                TUNING.stretch_share * self.scene.limits.most(Name::Overstretch)
             } else {
                 TUNING.most_stretch
             };

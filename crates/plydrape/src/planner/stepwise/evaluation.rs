@@ -4,6 +4,7 @@ use super::tuning::TUNING;
 use crate::draping::spans::Shape;
 use crate::draping::{Draping, attitude, lying_segments, misfit};
 use crate::equilibrium::Status;
+use crate::measure::Name;
 use crate::scene::Scene;
 
 /// The largest measures of a state.
@@ -19,7 +20,7 @@ pub struct Evaluation {
 
 impl Evaluation {
     pub fn of(scene: &Scene, draping: &Draping, shape: &Shape) -> Self {
-        let (ply, positions) = (&scene.ply, &draping.positions);
+        let (ply, positions) = (&scene.layup.ply, &draping.positions);
         let tilt = |n| attitude(&draping.solver, ply, &[], positions, n, None).tilt;
         Evaluation {
             converged: shape.equilibrium.status == Status::Converged,
@@ -32,13 +33,14 @@ impl Evaluation {
     pub fn is_acceptable(&self, scene: &Scene, before: &Evaluation) -> bool {
         let limits = &scene.limits;
         self.converged
-            && self.stretch <= (TUNING.stretch_share * limits.overstretch).max(before.stretch)
-            && self.tilt <= limits.tilt.max(before.tilt) * (1.0 + 1e-9)
+            && self.stretch
+                <= (TUNING.stretch_share * limits.most(Name::Overstretch)).max(before.stretch)
+            && self.tilt <= limits.most(Name::Tilt).max(before.tilt) * (1.0 + 1e-9)
     }
 }
 
 fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
-    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
     let edges = lines.edges();
     let length = |catenary: usize| lines.flat_length(catenary, ply.length_factor);
     let mut worst = 0.0_f64;
@@ -46,13 +48,15 @@ fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
         let misfit = misfit(span, draping.contacts[span.catenary].as_ref());
         worst = worst.max(misfit.overstretch() / length(span.catenary));
     }
-    let Some(mold) = &scene.mold else {
+    let Some(mold) = &scene.layup.mold else {
         return worst;
     };
     for (n, contact) in draping.contacts.iter().enumerate().take(edges) {
         let Some(contact) = contact else { continue };
         let ends = lines.ends(n).map(|gripper| draping.positions[gripper]);
-        for segment in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
+        for segment in
+            lying_segments(n, contact, ends, mold, scene.layup.settings.contact.tolerance)
+        {
             worst = worst.max(segment.misfit.overstretch() / length(n));
         }
     }

@@ -11,7 +11,8 @@
 //! a whole. The front is not in the paper, which leaves open in which order a ply should land.
 
 use super::tuning::TUNING;
-use crate::mold::vector::{norm, sub};
+use crate::geometry::vector::{norm, sub};
+use crate::measure::Name;
 use crate::scene::Scene;
 
 /// Where the landing front is, and what follows for each gripper.
@@ -39,11 +40,13 @@ impl Front {
         let up = [0.0, 0.0, 1.0];
         let count = targets.len() as f64;
         let mean = [0, 1, 2].map(|n| targets.iter().map(|p| p[n]).sum::<f64>() / count);
-        let middle = scene.mold.as_ref().map_or(mean, |mold| mold.closest_point(mean).point);
-        let normal: Vec<[f64; 3]> =
-            targets.iter().map(|p| scene.mold.as_ref().map_or(up, |m| m.normal(*p))).collect();
+        let middle = scene.layup.mold.as_ref().map_or(mean, |mold| mold.closest_point(mean).point);
+        let normal: Vec<[f64; 3]> = targets
+            .iter()
+            .map(|p| scene.layup.mold.as_ref().map_or(up, |m| m.normal(*p)))
+            .collect();
         let bend = |p: &[f64; 3]| {
-            scene.mold.as_ref().map_or(0.0, |mold| {
+            scene.layup.mold.as_ref().map_or(0.0, |mold| {
                 mold.curvatures(*p).principal.iter().fold(0.0_f64, |most, k| most.max(k.abs()))
             })
         };
@@ -51,8 +54,9 @@ impl Front {
         // the tilt minus the mold's own slope
         let slope = |n: &[f64; 3]| n[0].hypot(n[1]) / n[2].max(TUNING.upright);
         let steepest = normal.iter().map(slope).fold(0.0, f64::max);
-        let room =
-            TUNING.tilt_share * scene.limits.tilt.min(scene.settings.max_tilt).tan() - steepest;
+        let room = TUNING.tilt_share
+            * scene.limits.most(Name::Tilt).min(scene.layup.settings.max_tilt).tan()
+            - steepest;
         let cap = room.clamp(TUNING.slopes[0], TUNING.slopes[1]);
         Front {
             distance: targets.iter().map(|p| norm(sub(*p, middle))).collect(),
@@ -61,7 +65,7 @@ impl Front {
             straight: if rise > 0.0 { cap / rise } else { f64::INFINITY },
             base: 0.0,
             radius: 0.0,
-            last: TUNING.last * scene.settings.contact.tolerance,
+            last: TUNING.last * scene.layup.settings.contact.tolerance,
         }
     }
 

@@ -22,8 +22,9 @@ use super::sensitivity::Sensitivity;
 use super::tuning::cell;
 use crate::draping::Draping;
 use crate::draping::spans::{Point, Shape};
+use crate::geometry::vector::sub;
+use crate::measure::Name;
 use crate::mold::distance;
-use crate::mold::vector::sub;
 use crate::motion::farthest;
 use crate::scene::Scene;
 use evaluation::Evaluation;
@@ -35,14 +36,14 @@ use tuning::TUNING;
 
 /// Plans the gripper positions of a scene, step by step.
 ///
-/// The first step is the start, `scene.motion.positions[0]`; the last are `scene.target.grippers` where the
+/// The first step is the start, `scene.layup.motion.positions[0]`; the last are `scene.layup.target.grippers` where the
 /// grippers get there. Each takes at most `scene.plan.steps` steps of `scene.plan.move_limit` (m). `progress`
 /// receives the number of steps after each step; when it breaks, the plan ends there. How it ended is data:
 /// [`Stepwise::outcome`].
 pub fn stepwise(scene: &Scene, progress: &mut dyn FnMut(usize) -> ControlFlow<()>) -> Stepwise {
-    let start = scene.motion.positions.first().cloned().unwrap_or_default();
-    let count = scene.ply.grid.grippers();
-    let target = scene.target.as_ref().filter(|target| target.grippers.len() == count);
+    let start = scene.layup.motion.positions.first().cloned().unwrap_or_default();
+    let count = scene.layup.ply.grid.grippers();
+    let target = scene.layup.target.as_ref().filter(|target| target.grippers.len() == count);
     let Some(target) = target.filter(|_| start.len() == count) else {
         return Stepwise { positions: vec![start], outcome: Outcome::NoTarget };
     };
@@ -65,12 +66,13 @@ struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     fn new(scene: &'a Scene, targets: &'a [Point], start: Vec<Point>) -> Self {
-        let mut draping = Draping::new(scene);
+        let mut draping = Draping::new(&scene.layup);
         let shape = draping.move_to(&start);
         let mut front = Front::new(scene, targets);
         // as low as the lowest gripper is above its height in the form that the ply will take
         let above = |n: usize| {
             let height = scene
+                .layup
                 .mold
                 .as_ref()
                 .map_or(start[n][2] - targets[n][2], |mold| mold.signed_distance(start[n]));
@@ -136,7 +138,7 @@ impl<'a> Plan<'a> {
         for (n, target) in self.targets.iter().enumerate() {
             let distance = distance(self.draping.positions[n], *target);
             if distance > largest.distance {
-                largest = PositionError { gripper: self.scene.ply.grid.id(n), distance };
+                largest = PositionError { gripper: self.scene.layup.ply.grid.id(n), distance };
             }
         }
         largest
@@ -144,7 +146,7 @@ impl<'a> Plan<'a> {
 
     fn height(&self, gripper: usize) -> f64 {
         let p = self.draping.positions[gripper];
-        match &self.scene.mold {
+        match &self.scene.layup.mold {
             Some(mold) => mold.signed_distance(p),
             None => {
                 let (n, way) = (self.front.normal[gripper], sub(p, self.targets[gripper]));
@@ -219,7 +221,8 @@ impl<'a> Plan<'a> {
         let shape = trial.move_to(&goal);
         let after = Evaluation::of(self.scene, &trial, &shape);
         let far = farthest(&goal, &self.draping.positions) > self.reach;
-        let acceptable = !far && after.converged && after.stretch <= self.scene.limits.overstretch;
+        let acceptable =
+            !far && after.converged && after.stretch <= self.scene.limits.most(Name::Overstretch);
         if acceptable {
             (self.draping, self.shape) = (trial, shape);
             self.positions.push(goal);

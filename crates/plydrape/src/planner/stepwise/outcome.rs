@@ -1,6 +1,6 @@
 //! The outcome of a stepwise plan.
 
-use crate::draping::spans::Point;
+use crate::geometry::Point;
 use crate::ply::GripperId;
 
 /// A planned motion and how the planning ended.

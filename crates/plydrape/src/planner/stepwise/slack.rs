@@ -2,15 +2,16 @@
 //!
 //! Contacts stay, so the fabric between a gripper and the contact next to it keeps the position errors of the
 //! landing, a few hundredths of a millimeter. A gripper may end as far from its target as
-//! `limits.landing_gripper`; within a share of that it removes the slack: least squares of the moves, with segments
+//! `limits.most(Name::LandingGripper)`; within a share of that it removes the slack: least squares of the moves, with segments
 //! that would be slack stretched a little beyond their length, and none stretched beyond its limit.
 
 use super::step::target_stretch;
 use super::tuning::TUNING;
 use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_segments, misfit};
+use crate::geometry::vector::{along, norm, sub, unit};
+use crate::measure::Name;
 use crate::mold::SurfaceCurve;
-use crate::mold::vector::{along, norm, sub, unit};
 use crate::planner::program::Program;
 use crate::planner::row::Row;
 use crate::scene::Scene;
@@ -54,17 +55,19 @@ fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
 }
 
 fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
-    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
     let flat_length = |n: usize| lines.flat_length(n, ply.length_factor);
     let mut out = Vec::new();
-    let Some(mold) = &scene.mold else {
+    let Some(mold) = &scene.layup.mold else {
         return out;
     };
     for (n, contact) in draping.contacts.iter().enumerate().take(lines.edges()) {
         let Some(contact) = contact else { continue };
         let ids = lines.ends(n);
         let ends = ids.map(|g| draping.positions[g]);
-        for segment in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
+        for segment in
+            lying_segments(n, contact, ends, mold, scene.layup.settings.contact.tolerance)
+        {
             let held: &[usize] = match segment.which {
                 None => &[0, 1],
                 Some(0) => &[0],
@@ -116,11 +119,12 @@ pub fn removal(
     shape: &Shape,
     targets: &[Point],
 ) -> Option<Vec<Point>> {
-    let (mold, limits) = (scene.mold.as_ref()?, &scene.limits);
+    let (mold, limits) = (scene.layup.mold.as_ref()?, &scene.limits);
     let segments = free_segments(scene, draping, shape);
     let slack = |segment: &FreeSegment| {
         segment.counts()
-            && -segment.stretch > TUNING.slack.share * limits.slack_ratio * segment.length
+            && -segment.stretch
+                > TUNING.slack.share * limits.most(Name::SlackRatio) * segment.length
     };
     if !segments.iter().any(slack) {
         return None;
@@ -136,7 +140,7 @@ pub fn removal(
             for n in 0..3 {
                 program.near(1.0, 3 * gripper + n, scale * way[n]);
             }
-            let radius = scale * TUNING.slack.share * limits.landing_gripper;
+            let radius = scale * TUNING.slack.share * limits.most(Name::LandingGripper);
             program.cone(vec![(gripper, 1.0)], way.map(|c| -scale * c), radius + scale * norm(way));
         }
         for (segment, active) in segments.iter().zip(&active) {
@@ -151,8 +155,9 @@ pub fn removal(
                     &gradient,
                 );
             }
-            let most = (TUNING.slack.stretch_share * limits.overstretch * segment.whole)
-                .max(segment.stretch);
+            let most =
+                (TUNING.slack.stretch_share * limits.most(Name::Overstretch) * segment.whole)
+                    .max(segment.stretch);
             program.at_most(&gradient, 1.0, scale * (most - segment.stretch));
         }
         moves = program.solve()?;

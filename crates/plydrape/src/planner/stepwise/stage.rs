@@ -3,7 +3,7 @@
 use super::Plan;
 use super::step::target_stretch;
 use super::tuning::TUNING;
-use crate::mold::vector::norm;
+use crate::geometry::vector::norm;
 use crate::planner::tuning::cell;
 
 /// A stage of the front.
@@ -66,7 +66,7 @@ impl Plan<'_> {
 
     /// Largest difference of a hanging edge from the length that it should have (m).
     fn slack(&self) -> f64 {
-        let edges = self.scene.ply.lines().edges();
+        let edges = self.scene.layup.ply.lines().edges();
         self.shape
             .spans
             .iter()

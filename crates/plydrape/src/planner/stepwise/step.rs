@@ -9,7 +9,7 @@
 use super::front::Front;
 use super::tuning::TUNING;
 use crate::draping::spans::{FreeSpan, Point};
-use crate::mold::vector::{dot, sub};
+use crate::geometry::vector::{dot, sub};
 use crate::planner::program::Program;
 use crate::planner::row::Row;
 use crate::planner::sensitivity::{Quantity, Sensitivity};
@@ -105,12 +105,12 @@ impl Step<'_> {
         &self,
         sensitivity: &'s Sensitivity,
     ) -> impl Iterator<Item = &'s FreeSpan> {
-        let edges = self.scene.ply.lines().edges();
+        let edges = self.scene.layup.ply.lines().edges();
         sensitivity.shape.spans.iter().filter(move |span| span.catenary < edges)
     }
 
     pub(super) fn whole(&self, span: &FreeSpan) -> f64 {
-        self.scene.ply.flat_length(span.catenary)
+        self.scene.layup.ply.flat_length(span.catenary)
     }
 
     /// Stretch of edges: they hang taut; over a hollow they sag as deep as the hollow is.
@@ -184,14 +184,14 @@ impl Step<'_> {
 
 /// Stretch (m) that a span of an edge should have: a little, or slack over a hollow, in which it will lie.
 pub fn target_stretch(scene: &Scene, span: &FreeSpan) -> f64 {
-    let whole = scene.ply.flat_length(span.catenary);
+    let whole = scene.layup.ply.flat_length(span.catenary);
     let sag = hollow(scene, span).powi(2) * span.length.powi(3) / 24.0;
     if sag > 0.0 { -sag - TUNING.hollow_slack * whole } else { TUNING.target_stretch * whole }
 }
 
 /// Curvature of the hollow below a span, along it (1/m); 0 where the mold is not hollow.
 fn hollow(scene: &Scene, span: &FreeSpan) -> f64 {
-    let Some(mold) = &scene.mold else {
+    let Some(mold) = &scene.layup.mold else {
         return 0.0;
     };
     let middle = span.point(0.5);

@@ -3,11 +3,14 @@
 use super::front::Front;
 use super::step::Step;
 use crate::draping::Draping;
+use crate::layup::{Model, Settings, Target};
 use crate::material::{Material, Section};
+use crate::measure::Name;
 use crate::mold::{Face, Mold, Pose, Sphere};
+use crate::motion::Motion;
 use crate::planner::sensitivity::Sensitivity;
 use crate::ply::{Grid, Ply};
-use crate::scene::{Model, Motion, Scene, Settings, Target};
+use crate::scene::Scene;
 
 /// The paper's ply with `count` × `count` grippers, 2 % slack, above a flat dome.
 pub fn scene(count: usize) -> Scene {
@@ -39,19 +42,19 @@ pub fn scene(count: usize) -> Scene {
     };
     let positions = vec![(0..grid.grippers()).map(start).collect()];
     let target = Target { grippers: (0..grid.grippers()).map(end).collect(), drape: None };
-    let target = Some(target);
     let motion = Motion { times: vec![0.0], positions };
-    let mut scene = Scene { mold: Some(mold), target, ..Scene::new(ply, settings, motion) };
-    scene.limits.force = Some(1e3);
+    let mut scene = Scene::new(ply, settings, motion);
+    (scene.layup.mold, scene.layup.target) = (Some(mold), Some(target));
+    scene.limits.set(Name::Force, Some(1e3));
     scene
 }
 
 /// Numbers that the program of the first step holds.
 fn size(count: usize) -> usize {
     let scene = scene(count);
-    let positions = &scene.motion.positions[0];
-    let targets = &scene.target.as_ref().expect("a target").grippers;
-    let mut draping = Draping::new(&scene);
+    let positions = &scene.layup.motion.positions[0];
+    let targets = &scene.layup.target.as_ref().expect("a target").grippers;
+    let mut draping = Draping::new(&scene.layup);
     let shape = draping.move_to(positions);
     let contacts = draping.contacts.clone();
     let sensitivity = Sensitivity::new(&scene, &mut draping.solver, &shape, positions, &contacts);

@@ -1,11 +1,11 @@
 //! Gradients and second derivatives against central differences, and invariance.
 
 use super::*;
+use crate::geometry::matrix3::{rotation, times};
+use crate::geometry::vector::{cross, norm};
 use crate::material::{MomentCurve, ShearCurve};
-use crate::mold::vector::{cross, norm};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::{Phase, Stiffness};
-use crate::sheet::matrix3::rotation;
 
 /// A crumpled sheet: every node off its place by a pseudo-random share of a spacing.
 fn crumpled(sheet: &Sheet) -> Cloth<'_> {
@@ -239,7 +239,7 @@ fn rigid_motions_cost_nothing() {
     let mut cloth = flat(&sheet, 0.0);
     let turn = rotation([0.4, -0.9, 0.3]);
     for x in &mut cloth.now.x {
-        *x = crate::sheet::matrix3::times(&turn, *x);
+        *x = times(&turn, *x);
         x[0] += 3.0;
     }
     let weight: f64 = sheet.areal_mass * G;

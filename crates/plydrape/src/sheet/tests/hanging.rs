@@ -1,8 +1,9 @@
 //! Sheets and strips that hang, against printed figures, the elastica and closed forms.
 
-use super::super::measure::{TILT_REACH, tilt};
+use super::super::hand_over::{TILT_REACH, surroundings};
 use super::*;
 use crate::elastica::{Bending, Cantilever};
+use crate::geometry::vector::angle_between;
 use crate::material::MomentCurve;
 
 /// 4 × 2 pins 98 mm apart hold cells of 100 mm: heights of the cells' middles, of the middles of the outer edges along u,
@@ -55,9 +56,8 @@ fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
         bring(&mut cloth, &to, 20, 0.1);
         let reach = TILT_REACH * sheet.pitch;
         let of = |place: &[f64; 2]| {
-            tilt(&sheet.fabric, &cloth.now.x, *place, reach, [0.0, 0.0, 1.0])
-                .expect("cells")
-                .to_degrees()
+            let around = surroundings(&sheet.fabric, &cloth.now.x, *place, reach);
+            angle_between(around.expect("cells").0, [0.0, 0.0, 1.0]).to_degrees()
         };
         held.iter().map(of).collect::<Vec<_>>()
     });

@@ -11,9 +11,9 @@ mod release;
 use super::cloth::Cloth;
 use super::gripper::{Gripper, Pad};
 use super::{Fabric, Sheet, Tuning};
+use crate::layup::Friction;
 use crate::material::{ShearCurve, TensionLaw};
 use crate::mold::{Mold, Plane};
-use crate::scene::Friction;
 
 /// Acceleration of gravity of the references (m/s²).
 const G: f64 = 9.8;
@@ -70,7 +70,7 @@ fn follow(cloth: &mut Cloth, to: &[[f64; 3]], dt: f64) {
     let (mut done, mut share) = (0.0, 1.0_f64);
     while done < 1.0 {
         let t = f64::min(done + share, 1.0);
-        let between = |(a, b): (&[f64; 3], &[f64; 3])| crate::mold::vector::between(*a, *b, t);
+        let between = |(a, b): (&[f64; 3], &[f64; 3])| crate::geometry::vector::between(*a, *b, t);
         let targets: Vec<[f64; 3]> = from.iter().zip(to).map(between).collect();
         match cloth.advance(&targets, dt * share, 1e-5) {
             Ok(_) => done = t,
@@ -85,7 +85,7 @@ fn bring(cloth: &mut Cloth, to: &[[f64; 3]], steps: usize, dt: f64) {
     let from: Vec<[f64; 3]> = cloth.now.pads.iter().map(|pad| pad.target).collect();
     for k in 1..=steps {
         let t = k as f64 / steps as f64;
-        let between = |(a, b): (&[f64; 3], &[f64; 3])| crate::mold::vector::between(*a, *b, t);
+        let between = |(a, b): (&[f64; 3], &[f64; 3])| crate::geometry::vector::between(*a, *b, t);
         let targets: Vec<[f64; 3]> = from.iter().zip(to).map(between).collect();
         follow(cloth, &targets, dt);
     }

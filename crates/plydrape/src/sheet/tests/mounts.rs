@@ -1,7 +1,7 @@
 //! Grippers on mounts that give.
 
 use super::*;
-use crate::mold::vector::norm;
+use crate::geometry::vector::norm;
 
 /// A strip of one cell between two grippers on mounts of a stiffness (N/m), pulled apart by `pull` (m) at each end where the
 /// fabric slides from a load (N) on. Returns the forces of the ply on the grippers (N) and how far it has slid (m).

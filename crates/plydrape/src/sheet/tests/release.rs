@@ -2,21 +2,27 @@
 
 use super::hanging::cantilever;
 use super::*;
+use crate::layup::{Layup, Model, Release, ReleaseOrder, Settings};
 use crate::material::{Material, Section};
+use crate::measure::{Judge, Limits, Name};
 use crate::mold::distance;
+use crate::motion::Motion;
 use crate::ply::{Grid, GripperId, Ply};
-use crate::scene::{Model, Motion, Release, ReleaseOrder, Scene, Settings};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::Energy;
 use crate::sheet::event::{at_these_times, holds};
-use crate::sheet::{Drape, EventKind, State, Status, drape};
+use crate::sheet::{Drape, EventKind, HandOver, State, Status, drape};
+use crate::state::PlyState;
 use std::ops::ControlFlow;
+
+/// Height over the mold (m) up to which a node lies: the usual limit.
+const LOW: f64 = 5e-4;
 
 /// 4 × 2 grippers above a floor, which hold cells of 100 mm of the paper's ply.
 pub(super) const GRID: Grid = Grid { nu: 4, nv: 2 };
 
 /// The ply of [`GRID`] where its grippers take the places (m) of each step, a second apart.
-pub(super) fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Scene {
+pub(super) fn layup(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Layup {
     let material = Material {
         name: "paper".into(),
         source: "Krogh et al. 2018, per area".into(),
@@ -32,7 +38,7 @@ pub(super) fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> 
     settings.sheet.mesh = Some(0.02);
     let times = (0..positions.len()).map(|step| step as f64).collect();
     let motion = Motion { times, positions };
-    Scene { mold: Some(plane(0.0)), release, ..Scene::new(ply, settings, motion) }
+    Layup { mold: Some(plane(0.0)), release, ..Layup::new(ply, settings, motion) }
 }
 
 /// Grippers that roll the ply on the floor along u: behind the front it lies, ahead of it it rises by 0.6 along 0.8. The front
@@ -51,20 +57,28 @@ fn release(order: ReleaseOrder, dwell: f64) -> Option<Release> {
     Some(Release::new(order, dwell))
 }
 
-/// The drape of a scene and all of its states.
-pub(super) fn draped(scene: &Scene) -> (Drape, Vec<State>) {
+/// The drape of a layup and all of its states.
+pub(super) fn draped(layup: &Layup) -> (Drape, Vec<State>) {
     let mut states = Vec::new();
-    let keep = |state: &State| {
+    let keep = |_: &Sheet, state: &State, _: bool| {
         states.push(state.clone());
         ControlFlow::Continue(())
     };
-    let drape = drape(scene, Tuning::default(), &|| false, keep).expect("a sheet");
+    let drape = drape(layup, Tuning::default(), LOW, &|| false, keep).expect("a sheet");
     (drape, states)
+}
+
+/// The states of a drape as measures see them.
+pub(super) fn handed_over(layup: &Layup, drape: &Drape, states: &[State]) -> Vec<PlyState> {
+    let mut hand_over = HandOver::default();
+    let last = states.len() - 1;
+    let states = states.iter().enumerate();
+    states.map(|(n, state)| hand_over.state(layup, &drape.sheet, state, n == last)).collect()
 }
 
 /// When each gripper lets go (s).
 fn released(drape: &Drape) -> Vec<(GripperId, f64)> {
-    let events = drape.summary.events.iter().filter(|event| event.kind == EventKind::Release);
+    let events = drape.events.iter().filter(|event| event.kind == EventKind::Release);
     events.flat_map(|event| event.grippers.iter().map(|id| (*id, event.time))).collect()
 }
 
@@ -72,16 +86,16 @@ fn released(drape: &Drape) -> Vec<(GripperId, f64)> {
 /// states before are those of a drape without a release, to the last bit.
 #[test]
 fn a_ply_that_sticks_stays_where_it_was_laid() {
-    let scene = |release| scene(rolled(), release);
-    let (held, before) = draped(&scene(None));
-    assert!(held.summary.events.is_empty() && held.summary.status == Status::Converged);
-    let (drape, states) = draped(&scene(release(ReleaseOrder::End, 2.0)));
-    assert_eq!(drape.summary.status, Status::Converged);
+    let with = |release| layup(rolled(), release);
+    let (held, before) = draped(&with(None));
+    assert!(held.events.is_empty() && held.status == Status::Converged);
+    let (drape, states) = draped(&with(release(ReleaseOrder::End, 2.0)));
+    assert_eq!(drape.status, Status::Converged);
     let (last, states) = states.split_last().expect("states");
     assert_eq!(states, before);
     assert_eq!((last.step, last.time), (34, 35.0));
     assert!(last.holds.iter().all(|holds| !holds) && last.forces.iter().all(|f| *f == [0.0; 3]));
-    let tolerance = scene(None).settings.contact.tolerance;
+    let tolerance = with(None).settings.contact.tolerance;
     for (now, then) in last.positions.iter().zip(&held.last.positions) {
         let off = distance(*now, *then);
         assert!(off < tolerance, "{then:?} moves by {off} m");
@@ -94,10 +108,10 @@ fn a_ply_that_sticks_stays_where_it_was_laid() {
 /// exactly itself and changes nothing else.
 #[test]
 fn a_dwell_delays_the_release_by_itself() {
-    let of = |dwell: f64| draped(&scene(rolled(), release(ReleaseOrder::End, dwell)));
+    let of = |dwell: f64| draped(&layup(rolled(), release(ReleaseOrder::End, dwell)));
     let ((none, without), (some, with)) = (of(0.0), of(1.25));
     let kinds = |drape: &Drape| {
-        let events = drape.summary.events.iter();
+        let events = drape.events.iter();
         events.map(|event| (event.time, event.kind, event.grippers.len())).collect::<Vec<_>>()
     };
     use EventKind::{Grip, Press, Release};
@@ -111,9 +125,9 @@ fn a_dwell_delays_the_release_by_itself() {
     }
 
     let first = |dwell: f64| {
-        let mut scene = scene(rolled(), release(ReleaseOrder::Landed, dwell));
-        scene.settings.contact.friction = Friction::Coulomb(0.3);
-        released(&draped(&scene).0)[0]
+        let mut layup = layup(rolled(), release(ReleaseOrder::Landed, dwell));
+        layup.settings.contact.friction = Friction::Coulomb(0.3);
+        released(&draped(&layup).0)[0]
     };
     let ((gripper, time), (same, later)) = (first(0.0), first(0.75));
     assert!(time < 30.0, "{time}");
@@ -125,11 +139,11 @@ fn a_dwell_delays_the_release_by_itself() {
 #[test]
 fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
     let dwell = 1.5;
-    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, dwell));
+    let mut layup = layup(rolled(), release(ReleaseOrder::Landed, dwell));
     // what friction holds as it slides lies flat
-    scene.settings.contact.friction = Friction::Coulomb(0.3);
-    let (drape, states) = draped(&scene);
-    assert_eq!(drape.summary.status, Status::Converged);
+    layup.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, states) = draped(&layup);
+    assert_eq!(drape.status, Status::Converged);
     let released = released(&drape);
     let mut all: Vec<GripperId> = released.iter().map(|(id, _)| *id).collect();
     all.sort_unstable();
@@ -143,7 +157,7 @@ fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
         let near: Vec<usize> = (0..places.len())
             .filter(|n| (places[*n][0] - u).hypot(places[*n][1] - v) < 0.1 + 1e-9)
             .collect();
-        let lies = |state: &State| near.iter().all(|n| state.heights[*n] <= scene.limits.height);
+        let lies = |state: &State| near.iter().all(|n| state.heights[*n] <= LOW);
         if time > end {
             assert_eq!(time, end + dwell);
             continue;
@@ -156,7 +170,7 @@ fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
     assert!(early >= 4, "{early} pads let go on the way");
     for state in states.iter().filter(|state| state.time < end) {
         for (n, held) in state.holds.iter().enumerate() {
-            assert_eq!(*held, holds(&drape.summary.events, GRID.id(n), state.time));
+            assert_eq!(*held, holds(&drape.events, GRID.id(n), state.time));
             assert!(*held || state.forces[n] == [0.0; 3]);
         }
     }
@@ -166,16 +180,16 @@ fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
 /// let go at these times, and with the same motion the ply ends as it did.
 #[test]
 fn a_cell_with_errors_lets_go_at_the_times_of_the_program() {
-    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, 0.5));
-    scene.settings.contact.friction = Friction::Coulomb(0.3);
-    let (drape, _) = draped(&scene);
-    let events = &drape.summary.events;
-    let same = draped(&at_these_times(&scene, events)).0;
+    let mut layup = layup(rolled(), release(ReleaseOrder::Landed, 0.5));
+    layup.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, _) = draped(&layup);
+    let events = &drape.events;
+    let same = draped(&at_these_times(&layup, events)).0;
     // time steps may end elsewhere, where a pad began to press and did not go on
     for (a, b) in same.last.positions.iter().zip(&drape.last.positions) {
-        assert!(distance(*a, *b) < scene.settings.contact.tolerance, "{a:?} {b:?}");
+        assert!(distance(*a, *b) < layup.settings.contact.tolerance, "{a:?} {b:?}");
     }
-    let mut higher = at_these_times(&scene, events);
+    let mut higher = at_these_times(&layup, events);
     for p in higher.motion.positions.iter_mut().flatten() {
         p[2] += 5e-3;
     }
@@ -188,16 +202,16 @@ fn a_cell_with_errors_lets_go_at_the_times_of_the_program() {
 /// the ply that the pads held.
 #[test]
 fn a_ply_that_slides_after_the_release_is_seen_to() {
-    let mut scene = scene(rolled(), release(ReleaseOrder::End, 0.0));
-    scene.mold = Some(plane(0.2));
-    for p in scene.motion.positions.iter_mut().flatten() {
+    let mut layup = layup(rolled(), release(ReleaseOrder::End, 0.0));
+    layup.mold = Some(plane(0.2));
+    for p in layup.motion.positions.iter_mut().flatten() {
         let [x, y, z] = *p;
         let (c, s) = (0.2_f64.cos(), 0.2_f64.sin());
         *p = [c * x - s * z, y, s * x + c * z];
     }
-    scene.settings.contact.friction = Friction::Coulomb(0.05);
-    let (drape, states) = draped(&scene);
-    assert!(drape.summary.status != Status::Converged && !drape.summary.accepted);
+    layup.settings.contact.friction = Friction::Coulomb(0.05);
+    let (drape, states) = draped(&layup);
+    assert_ne!(drape.status, Status::Converged);
     let [held, free] = [states.len() - 2, states.len() - 1].map(|n| states[n].positions[0]);
     assert!(distance(held, free) > 0.05, "it slides down the incline: {held:?} {free:?}");
 }
@@ -296,15 +310,19 @@ fn turned(angle: f64) -> [[f64; 3]; 3] {
     [[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]]
 }
 
-/// Loads count only while a pad holds: after it has let go, neither force nor tilt of its gripper are measured.
+/// Loads count only while a pad holds: the worst force is that of the pads that hold.
 #[test]
 fn a_pad_that_is_gone_has_no_loads() {
-    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, 0.0));
-    scene.settings.contact.friction = Friction::Coulomb(0.3);
-    let (drape, states) = draped(&scene);
+    let mut layup = layup(rolled(), release(ReleaseOrder::Landed, 0.0));
+    layup.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, states) = draped(&layup);
     let gone = states.iter().flat_map(|state| state.holds.iter().zip(&state.forces));
     let (gone, held): (Vec<_>, Vec<_>) = gone.partition(|(holds, _)| !**holds);
     assert!(gone.len() > 20 && gone.iter().all(|(_, force)| **force == [0.0; 3]));
-    let most = held.iter().map(|(_, f)| crate::mold::vector::norm(**f)).fold(0.0, f64::max);
-    assert_eq!(drape.summary.gripper_force_max_n, most);
+    let most = held.iter().map(|(_, f)| crate::geometry::vector::norm(**f)).fold(0.0, f64::max);
+    let limits = Limits::of(&layup);
+    let mut judge = Judge::new(&layup, &limits, true);
+    let measured = handed_over(&layup, &drape, &states);
+    let measured = measured.iter().map(|state| judge.see_all(state).value(Name::GripperForce));
+    assert_eq!(measured.flatten().fold(0.0, f64::max), most);
 }

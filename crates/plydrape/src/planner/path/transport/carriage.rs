@@ -7,9 +7,9 @@
 
 use super::clearance::Clearance;
 use super::turn::{Rotation, Turn, centre, turned};
-use crate::draping::spans::Point;
+use crate::geometry::Point;
+use crate::geometry::vector::{along, distance, sub};
 use crate::mold::Mold;
-use crate::mold::vector::{along, distance, sub};
 use crate::motion::farthest;
 use crate::planner::path::tuning::TUNING;
 use crate::planner::tuning;
@@ -42,7 +42,7 @@ impl<'a> Carriage<'a> {
     pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], shape: &[Point]) -> Self {
         let ends = [centre(start), centre(shape)];
         let clearance = Clearance::new(scene, mold, start, ends[1]);
-        let turn = Turn::new(&scene.ply, start, shape);
+        let turn = Turn::new(&scene.layup.ply, start, shape);
         let array: Vec<Point> = start.iter().map(|p| sub(*p, ends[0])).collect();
         let lowest = ends[1][2] + clearance.shortfall_over_mold(ends[1], &turn.at(1.0)).max(0.0);
         let there = [ends[1][0], ends[1][1], lowest];

@@ -1,10 +1,12 @@
 //! How far an array that is carried stays above the mold, and above the table that it was picked up from.
 
 use super::turn::{Rotation, centre, turned};
-use crate::clearance::{Obstacle, Poses, from_obstacles};
-use crate::draping::spans::Point;
+use crate::bodies::Obstacle;
+use crate::clearance::{Poses, from_obstacles};
+use crate::geometry::Point;
+use crate::geometry::vector::{along, between, distance, norm, sub};
+use crate::measure::Name;
 use crate::mold::Mold;
-use crate::mold::vector::{along, between, distance, norm, sub};
 use crate::planner::path::tuning::TUNING;
 use crate::planner::tuning;
 use crate::ply::{Grid, Ply, directions};
@@ -56,13 +58,13 @@ struct Carried<'a> {
 impl<'a> Carried<'a> {
     /// Those of a scene at its start (m), which keep a margin (m) beside the limit; none without bodies or obstacles.
     fn new(scene: &'a Scene, start: &[Point], margin: f64) -> Option<Self> {
-        let obstacles = scene.bodies.obstacles();
-        if scene.bodies.is_empty() || obstacles.is_empty() {
+        let obstacles = scene.layup.bodies.obstacles();
+        if scene.layup.bodies.is_empty() || obstacles.is_empty() {
             return None;
         }
-        let poses = Poses::by_neighbours(scene, &scene.ply.neighbours(), start);
-        let wanted = scene.limits.clearance + margin;
-        let own = from_obstacles(scene, &poses, wanted).unwrap_or(wanted);
+        let poses = Poses::by_neighbours(&scene.layup, &scene.layup.ply.neighbours(), start);
+        let wanted = scene.limits.most(Name::Clearance) + margin;
+        let own = from_obstacles(&scene.layup, &poses, wanted).unwrap_or(wanted);
         let top = |obstacle: &Obstacle| obstacle.bounds()[1][2];
         let highest = obstacles.iter().map(top).fold(f64::NEG_INFINITY, f64::max);
         Some(Carried { scene, start: poses, wanted, own, highest })
@@ -73,7 +75,7 @@ impl<'a> Carried<'a> {
     fn shortfall(&self, from: Point, centre: Point, rotation: &Rotation, moved: f64) -> f64 {
         let wanted = self.wanted.min(self.own + moved);
         let poses = self.start.carried(from, centre, rotation);
-        match from_obstacles(self.scene, &poses, wanted) {
+        match from_obstacles(&self.scene.layup, &poses, wanted) {
             // over all that stands there, and no less than the distance lacks: the way is lowered again as far as it may
             Some(distance) if distance < wanted => {
                 let lowest = poses.stems.iter().map(|pose| pose.position[2]);
@@ -88,8 +90,8 @@ impl<'a> Carried<'a> {
 impl<'a> Clearance<'a> {
     /// For the array of a scene that is carried from its start to another place of its center (m).
     pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
-        let ply = &scene.ply;
-        let overhang = scene.settings.sheet.overhang;
+        let ply = &scene.layup.ply;
+        let overhang = scene.layup.settings.sheet.overhang;
         let middle = centre(start);
         let lines = points(ply, start, overhang);
         let line = lines.first().map_or(0, Vec::len);
@@ -108,7 +110,7 @@ impl<'a> Clearance<'a> {
             margin: TUNING.transport.margin * tuning::cell(scene),
             table: None,
             own: f64::INFINITY,
-            obstacles: scene.bodies.obstacles().iter().map(Obstacle::bounds).collect(),
+            obstacles: scene.layup.bodies.obstacles().iter().map(Obstacle::bounds).collect(),
             between: 0.5 * tuning::cell(scene) / TUNING.transport.divisions as f64,
             bodies: None,
             boundary: highest_boundary(mold, way, TUNING.transport.sampling * tuning::cell(scene)),

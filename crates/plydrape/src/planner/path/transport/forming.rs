@@ -6,8 +6,8 @@
 //! each by themselves do not quite close; what is left is taken from them one after the other until all have their
 //! lengths (Müller et al. 2007, "Position based dynamics").
 
-use crate::draping::spans::Point;
-use crate::mold::vector::{along, between, cross, distance, dot, norm, sub};
+use crate::geometry::Point;
+use crate::geometry::vector::{along, between, cross, distance, dot, norm, sub};
 
 /// Residual at which the conjugate gradients end, as a share of the first one.
 const RESIDUAL: f64 = 1e-12;

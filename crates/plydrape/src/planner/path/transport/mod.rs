@@ -15,8 +15,8 @@ mod forming;
 mod turn;
 
 use super::tuning::TUNING;
-use crate::draping::spans::Point;
-use crate::mold::vector::between;
+use crate::geometry::Point;
+use crate::geometry::vector::between;
 use crate::planner::tuning;
 use crate::scene::Scene;
 use carriage::Carriage;
@@ -26,8 +26,8 @@ use forming::formed;
 /// is the next step. None without a mold or a start.
 #[must_use]
 pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec<Vec<Point>>> {
-    let start = scene.motion.positions.first()?;
-    let mold = scene.mold.as_ref()?;
+    let start = scene.layup.motion.positions.first()?;
+    let mold = scene.layup.mold.as_ref()?;
     let height = TUNING.transport.formed_height * tuning::cell(scene);
     let above: Vec<Point> = formation.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
     let mut positions = Carriage::new(scene, mold, start, &above).positions(start, steps);
@@ -35,7 +35,8 @@ pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec
     let share = |share: f64| ((share * steps as f64).round() as usize).max(1);
     let forming = share(TUNING.transport.forming);
     let tight = TUNING.transport.tight;
-    let edges: Vec<[usize; 2]> = scene.ply.neighbours().iter().map(|pair| pair.grippers).collect();
+    let edges: Vec<[usize; 2]> =
+        scene.layup.ply.neighbours().iter().map(|pair| pair.grippers).collect();
     let form = |k: usize| formed(&edges, &carried, &above, k as f64 / forming as f64, tight);
     positions.extend((1..forming).map(form));
     let descent = share(TUNING.transport.descent);

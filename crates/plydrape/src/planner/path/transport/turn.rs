@@ -1,8 +1,8 @@
 //! How an array is turned on its way: the rotation that fits it best to another array (Kabsch 1976), and all rotations
 //! in between.
 
-use crate::draping::spans::Point;
-use crate::mold::vector::{along, cross, dot, norm, sub, unit};
+use crate::geometry::Point;
+use crate::geometry::vector::{along, cross, dot, norm, sub, unit};
 use crate::ply::{Ply, directions};
 
 /// A rotation as the rows of its matrix.

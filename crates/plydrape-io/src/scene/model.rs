@@ -1,0 +1,126 @@
+//! Which models drape a scene, and whether each of them can.
+
+use super::error::{Document, SceneError};
+use super::file::{MethodKey, SceneKeys};
+use super::located::Located;
+use super::sheet;
+use crate::size::PlanSheets;
+use plydrape::ModelError;
+use plydrape::layup::{Layup, Model, Settings};
+use plydrape::ply::Ply;
+use plydrape::sheet::SheetError;
+use std::ops::Range;
+
+/// The models of a scene.
+pub(super) struct Models<'a> {
+    file: &'a SceneKeys,
+    document: &'a Document,
+    /// The one that decides.
+    decides: Model,
+    /// The one that is draped beside it, and where the scene says so.
+    also: Option<(Model, &'a Range<usize>)>,
+}
+
+impl<'a> Models<'a> {
+    /// The models that a scene names; refuses one that is named twice.
+    pub fn named(
+        file: &'a SceneKeys,
+        decides: Model,
+        document: &'a Document,
+    ) -> Result<Self, SceneError> {
+        let also = file.model.also.as_ref();
+        let also = also.map(|Located { value, span }| (Model::from(*value), span));
+        let models = Models { file, document, decides, also };
+        match also {
+            Some((also, span)) if also == decides => Err(models.error(
+                span,
+                "the model to be draped beside the one that decides is that one",
+                "leave out `also`, or name the other model there",
+            )),
+            _ => Ok(models),
+        }
+    }
+
+    /// Whether the model that does not decide is draped too.
+    pub fn has_also(&self) -> bool {
+        self.also.is_some()
+    }
+
+    /// Refuses catenaries where no lines run between the cups, and the stepwise planner where these are no whole array.
+    pub fn check_lines(&self, ply: &Ply) -> Result<(), SceneError> {
+        let lines = ply.lines();
+        let stepwise = matches!(self.file.plan.method, Some(MethodKey::Stepwise));
+        let sheet = "drape and plan it with the sheet, as kind = \"sheet\" in [model] and method = \"path\" in [plan] do";
+        if stepwise && lines.whole_array().is_none() {
+            let what = "the stepwise planner follows catenaries between the cups of a whole array along the yarns, and the cups that hold this ply are none";
+            return Err(self.error(self.file.grippers_span(), what, sheet));
+        }
+        if !lines.is_empty() {
+            return Ok(());
+        }
+        let what = "no catenaries hang between the cups that hold this ply: not each of them shares a yarn with another one, as in rows along the yarns or at 45° to them";
+        match (self.decides, self.also) {
+            (Model::Catenaries, _) => Err(self.error(self.file.grippers_span(), what, sheet)),
+            (_, Some((Model::Catenaries, span))) => {
+                Err(self.error(span, what, "leave out `also`: the sheet alone can drape it"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a sheet that material, pads, mesh or memory do not allow. Returns the sheets of a plan; none where catenaries decide.
+    pub fn check_sheets(
+        &self,
+        ply: &Ply,
+        settings: &Settings,
+        steps: usize,
+    ) -> Result<Option<PlanSheets>, SceneError> {
+        let fits =
+            |otherwise| sheet::fits(self.file, ply, settings, steps, otherwise, self.document);
+        match (self.decides, self.also) {
+            (Model::Sheet, _) => {
+                fits("write kind = \"catenaries\" in [model], which need none of that").map(Some)
+            }
+            (_, Some((Model::Sheet, _))) => {
+                fits("leave out `also` in [model]: catenaries need none of that").map(|_| None)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Refuses a layup that a model cannot be made of, whatever it lacks.
+    pub fn check_built(&self, layup: &Layup) -> Result<(), SceneError> {
+        let named = [Some(self.decides), self.also.map(|(model, _)| model)];
+        for model in named.into_iter().flatten() {
+            if let Err(fault) = ModelError::check(layup, model) {
+                let pads = self.file.grippers.as_ref();
+                let pads = pads.and_then(|grippers| grippers.value.pad_radius.as_ref());
+                let span = pads.map_or(self.file.grippers_span(), |radius| &radius.span);
+                return Err(self.error(span, &fault.to_string(), remedy(&fault)));
+            }
+        }
+        Ok(())
+    }
+
+    /// A fault at a place of the scene; at none where a caller of the program has named the model.
+    fn error(&self, span: &Range<usize>, message: &str, help: &str) -> SceneError {
+        match span.is_empty() {
+            true => self.document.error_anywhere(message, help),
+            false => self.document.error(span.clone(), message, help),
+        }
+    }
+}
+
+/// What helps where a model cannot be made.
+fn remedy(fault: &ModelError) -> &'static str {
+    match fault {
+        ModelError::NoCatenaries => "write kind = \"sheet\" in [model]",
+        ModelError::Sheet(SheetError::PadSmall { .. } | SheetError::PadPoint { .. }) => {
+            "give a larger `pad_radius` in [grippers], or a finer `mesh` in [sheet]"
+        }
+        ModelError::Sheet(SheetError::PadOff { .. } | SheetError::Overhang { .. }) => {
+            "give a smaller `pad_radius` in [grippers], or more fabric around the grippers"
+        }
+        ModelError::Sheet(_) => "mend that, or choose the other model by `kind` in [model]",
+    }
+}

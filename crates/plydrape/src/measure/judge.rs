@@ -1,0 +1,134 @@
+//! Values of the measures, step by step, that become verdicts at the end of a drape.
+
+use super::{
+    ByName, Found, Limits, Measures, Name, Numbers, Observation, Past, Scope, TUNING, Verdict,
+    Worst,
+};
+use crate::layup::Layup;
+use crate::state::{PlyState, Unsolved};
+
+/// Collects the worst values of a drape by one model step by step, and judges them at the end.
+#[derive(Debug)]
+pub struct Judge<'a> {
+    layup: &'a Layup,
+    limits: &'a Limits,
+    /// Whether the steps have the times of a motion.
+    timed: bool,
+    worst: ByName<(usize, Found)>,
+    unsolved: Option<(usize, Unsolved)>,
+    past: Option<Past>,
+}
+
+impl<'a> Judge<'a> {
+    /// For a layup and limits; `timed` if the steps have the times of a motion, which those of a search do not have yet.
+    #[must_use]
+    pub fn new(layup: &'a Layup, limits: &'a Limits, timed: bool) -> Self {
+        Judge { layup, limits, timed, worst: ByName::default(), unsolved: None, past: None }
+    }
+
+    /// The limit of a measure that a drape is judged by.
+    fn limit(&self, name: Name) -> Option<f64> {
+        let measure = name.measure();
+        let judged = match measure.scope() {
+            Scope::EveryStep | Scope::End => true,
+            Scope::Time => self.timed,
+            Scope::Whole => false,
+        };
+        measure.limit(self.layup, self.limits).filter(|_| judged)
+    }
+
+    /// Evaluates the limits of a step; `last` if no other follows.
+    pub fn see(&mut self, state: &PlyState, last: bool) {
+        let seen = self.observation(state);
+        let judged = |name: &&Name| {
+            (last || name.measure().scope() != Scope::End) && self.limit(**name).is_some()
+        };
+        let found: Vec<(Name, Found)> = Name::ALL
+            .iter()
+            .filter(judged)
+            .filter_map(|name| Some((*name, name.measure().evaluate(&seen)?)))
+            .collect();
+        self.keep(state, &found);
+    }
+
+    /// Evaluates every measure of a step, and returns them.
+    pub fn see_all(&mut self, state: &PlyState) -> Measures {
+        let seen = self.observation(state);
+        let found: Vec<(Name, Found)> = Name::ALL
+            .iter()
+            .filter_map(|name| Some((*name, name.measure().evaluate(&seen)?)))
+            .collect();
+        self.keep(state, &found);
+        found.iter().map(|(name, found)| (*name, Worst::of(found, self.layup))).collect()
+    }
+
+    fn observation<'b>(&'b self, state: &'b PlyState) -> Observation<'b> {
+        let Judge { layup, limits, past, .. } = self;
+        Observation { layup, limits, state, past: past.as_ref() }
+    }
+
+    /// Keeps what was found in a step, and the step as the past of the next one.
+    fn keep(&mut self, state: &PlyState, found: &[(Name, Found)]) {
+        for (name, found) in found {
+            let measure = name.measure();
+            let beaten = self.worst.get(*name).is_some_and(|(_, before)| match measure.sense() {
+                _ if measure.scope() == Scope::End => false,
+                sense => !sense.is_worse(found.value, before.value),
+            });
+            if !beaten {
+                self.worst.set(*name, Some((state.step, *found)));
+            }
+        }
+        if self.unsolved.is_none() {
+            self.unsolved = state.unsolved.map(|unsolved| (state.step, unsolved));
+        }
+        let duration = self.layup.motion.times.last().copied().unwrap_or(0.0);
+        self.past = Some(Past::after(state, self.past.take(), duration));
+    }
+
+    /// Every limit that applies, in the order of [`Name::ALL`].
+    #[must_use]
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let judged = Name::ALL.iter().filter_map(|name| {
+            let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
+            Some(Verdict::of(*name, Worst::of(found, self.layup), limit, Some(*step)))
+        });
+        let mut out: Vec<Verdict> = judged.collect();
+        if let Some((step, Unsolved { why, residual })) = self.unsolved {
+            let worst = Worst { value: residual, at: why.into(), place: None };
+            let verdict =
+                Verdict::of(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));
+            out.push(Verdict { ok: false, ..verdict });
+        }
+        out
+    }
+}
+
+/// The worst of each measure over all steps as a plain number; of those that count at the end too.
+#[must_use]
+pub(crate) fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
+    let mut out: Vec<Option<f64>> = vec![None; Name::ALL.len()];
+    for measures in steps {
+        for (name, worst) in measures.iter() {
+            let slot = &mut out[name as usize];
+            let sense = name.measure().sense();
+            if slot.is_none_or(|before| sense.is_worse(worst.value, before)) {
+                *slot = Some(worst.value);
+            }
+        }
+    }
+    reported(|name| out[name as usize])
+}
+
+/// The numbers of one step.
+#[must_use]
+pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
+    reported(|name| measures.and_then(|measures| measures.value(name)))
+}
+
+fn reported(value: impl Fn(Name) -> Option<f64>) -> Numbers {
+    let names = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
+    // clearances have no meaning in scenes without bodies, whose files say nothing of them
+    let shown = |(name, value): &(Name, Option<f64>)| value.is_some() || *name != Name::Clearance;
+    names.map(|name| (*name, value(*name))).filter(shown).collect()
+}

@@ -1,0 +1,183 @@
+//! Limits of an accepted drape: a map from measures to bounds.
+
+use super::{ByName, Name, Preset, slack_of_angle};
+use crate::layup::Layup;
+use crate::motion::Bounds;
+
+/// Safety of pads against slip and loss, unless a scene sets another: usual for vacuum cups that are moved slowly.
+const GRIP_SAFETY: f64 = 1.5;
+
+/// The limit of a measure unless a scene sets another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UsualLimit {
+    /// The bound, in SI units.
+    pub value: f64,
+    /// Why it is that one.
+    pub reason: &'static str,
+}
+
+impl UsualLimit {
+    /// A bound (SI) and why it is that one.
+    #[must_use]
+    pub const fn new(value: f64, reason: &'static str) -> Option<Self> {
+        Some(UsualLimit { value, reason })
+    }
+}
+
+/// Limits of an accepted drape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// The preset that the limits come from, but for those that the scene sets itself.
+    pub preset: Option<Preset>,
+    /// Bounds in SI units; a measure without one has no limit.
+    pub(super) bounds: ByName<f64>,
+    /// Box that the grippers can reach: [from, to] in x, y and z (m).
+    pub workspace: Option<[[f64; 2]; 3]>,
+    /// By how much the slip force and the holding force of a pad must exceed the loads on it.
+    pub grip_safety: f64,
+}
+
+impl Limits {
+    /// The limits of a layup unless a scene sets others, [`super::Measure::usual_limit`].
+    #[must_use]
+    pub fn of(layup: &Layup) -> Self {
+        let usual = |name: &Name| Some((*name, name.measure().usual_limit(layup)?.value));
+        Limits {
+            preset: None,
+            bounds: Name::ALL.iter().filter_map(usual).collect(),
+            workspace: None,
+            grip_safety: GRIP_SAFETY,
+        }
+    }
+
+    /// The bound of a measure (SI); `None` if it has no limit.
+    #[must_use]
+    pub fn get(&self, name: Name) -> Option<f64> {
+        self.bounds.get(name).copied()
+    }
+
+    /// The bound of a measure (SI), infinite if it has no limit.
+    #[must_use]
+    pub fn most(&self, name: Name) -> f64 {
+        self.get(name).unwrap_or(f64::INFINITY)
+    }
+
+    /// The bounds that no gripper exceeds in a planned motion.
+    #[must_use]
+    pub fn motion_bounds(&self) -> Bounds {
+        Bounds {
+            speed: self.most(Name::Speed),
+            acceleration: self.most(Name::Acceleration),
+            jerk: self.most(Name::Jerk),
+        }
+    }
+
+    /// Sets the bound of a measure (SI), or removes it. A slack angle bounds the slack ratio with it, which is the same slack.
+    pub fn set(&mut self, name: Name, bound: Option<f64>) {
+        if let (Name::SlackAngle, Some(angle)) = (name, bound) {
+            self.bounds.set(Name::SlackRatio, Some(slack_of_angle(angle)));
+        }
+        self.bounds.set(name, bound);
+    }
+
+    /// These limits with another bound of a measure (SI).
+    #[must_use]
+    pub fn with(mut self, name: Name, bound: f64) -> Self {
+        self.set(name, Some(bound));
+        self
+    }
+
+    /// Every bound (SI), in the order of [`Name::ALL`].
+    pub fn iter(&self) -> impl Iterator<Item = (Name, f64)> {
+        self.bounds.iter().map(|(name, bound)| (name, *bound))
+    }
+
+    /// These limits with those of a preset in place of what they had.
+    #[must_use]
+    pub fn with_preset(mut self, preset: Preset) -> Self {
+        self.preset = Some(preset);
+        for figure in preset.figures() {
+            self.set(figure.name, Some(figure.value));
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::sample;
+
+    /// A bound that nobody can give a reason for is not set unless a scene sets it.
+    #[test]
+    fn every_usual_limit_has_a_reason() {
+        let layup = sample::layup();
+        let mut count = 0;
+        for name in Name::ALL {
+            let Some(UsualLimit { value, reason }) = name.measure().usual_limit(&layup) else {
+                continue;
+            };
+            count += 1;
+            assert!(value.is_finite() && value > 0.0, "{name:?} {value}");
+            assert!(reason.split_whitespace().count() >= 3, "{name:?} {reason}");
+            assert!(!reason.ends_with('.') && !reason.contains("  "), "{name:?} {reason}");
+        }
+        assert_eq!(Limits::of(&layup).iter().count(), count);
+    }
+
+    /// A preset replaces what its source speaks of; the slack ratio follows the slack angle, which is the same slack.
+    #[test]
+    fn a_preset_sets_its_figures_and_nothing_else() {
+        let before = Limits::of(&sample::layup());
+        for preset in Preset::ALL {
+            let after = before.clone().with_preset(*preset);
+            assert_eq!(after.preset, Some(*preset));
+            for name in Name::ALL {
+                let figure = match name {
+                    Name::SlackRatio => preset.value(Name::SlackAngle).map(slack_of_angle),
+                    name => preset.value(*name),
+                };
+                let wanted = figure.or(before.get(*name));
+                assert_eq!(after.get(*name), wanted, "{preset:?} {name:?}");
+            }
+        }
+    }
+
+    /// A limit in the unit of its measure, where it applies: the contact tolerance of 0.2 mm, the forces of a pad by the safety, and none of the
+    /// landing of grippers whose mounts give.
+    #[test]
+    fn a_limit_is_in_the_unit_of_its_measure_where_it_applies() {
+        let mut layup = sample::layup();
+        let limits = Limits::of(&layup);
+        let limit = |layup: &Layup, name: Name| name.measure().limit(layup, &limits);
+        assert_eq!(limit(&layup, Name::Penetration), Some(0.2));
+        assert_eq!(limit(&layup, Name::LandingGripper), Some(0.5));
+        assert_eq!(limit(&layup, Name::Slip), None);
+        layup.settings.pad.slip_force = Some(9.0);
+        layup.settings.pad.lateral_stiffness = Some(2e3);
+        assert_eq!(limit(&layup, Name::Slip), Some(6.0));
+        assert_eq!(limit(&layup, Name::LandingGripper), None);
+        layup.mold = None;
+        assert_eq!(limit(&layup, Name::Penetration), None);
+    }
+
+    #[cfg(feature = "serde")]
+    /// Every limit, set to a number of its own, comes back from JSON as it was.
+    #[test]
+    fn limits_survive_json() {
+        let mut limits = Limits::of(&sample::layup()).with_preset(Preset::PlyAngle);
+        limits.workspace = Some([[-1.0, 1.0], [0.0, 2.0], [0.1, 0.7]]);
+        for (n, name) in Name::ALL.iter().enumerate().filter(|(n, _)| n % 3 > 0) {
+            if name.measure().bound().is_some() {
+                limits.set(*name, Some(0.1 * n as f64));
+            }
+        }
+        let text = serde_json::to_string(&limits).unwrap();
+        assert_eq!(serde_json::from_str::<Limits>(&text).unwrap(), limits, "{text}");
+        for other in ["no_such_limit", "slip", "steps"] {
+            let text = text.replacen('{', &format!("{{\"{other}\":1.0,"), 1);
+            let error = serde_json::from_str::<Limits>(&text).unwrap_err().to_string();
+            assert!(error.contains(other), "{error}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! A whole motion in time as a measure sees it.
+
+use super::{Found, Limits, Name, Verdict, Worst};
+use crate::layup::Layup;
+use crate::motion::{Attitudes, Peak, Peaks, TimedMotion};
+use crate::state::Site;
+use crate::tool::ToolPeaks;
+
+/// A whole motion in time, with what was found of it.
+#[derive(Debug, Clone, Copy)]
+pub struct WholeMotion<'a> {
+    /// What is draped along it.
+    pub layup: &'a Layup,
+    /// The limits of the scene.
+    pub limits: &'a Limits,
+    /// The motion.
+    pub motion: &'a TimedMotion,
+    /// Orientations of the grippers along it; `None` before a model has draped along it.
+    pub attitudes: Option<&'a Attitudes>,
+    /// The largest speed, acceleration and jerk.
+    pub peaks: &'a Peaks,
+    /// How fast the tool turns and its axes move; `None` without a tool.
+    pub tool: Option<&'a ToolPeaks>,
+    /// Samples a second of the motion as it is written (Hz).
+    pub rate: f64,
+}
+
+impl WholeMotion<'_> {
+    /// Every limit of a motion in time, judged.
+    #[must_use]
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let verdict = |name: &Name| {
+            let measure = name.measure();
+            let limit = measure.limit(self.layup, self.limits)?;
+            let (found, time) = measure.evaluate_motion(self)?;
+            let step = time.map(|time| self.step(time));
+            Some(Verdict::of(*name, Worst::of(&found, self.layup), limit, step))
+        };
+        Name::ALL.iter().filter_map(verdict).collect()
+    }
+
+    /// The largest value of a gripper along the motion, where the gripper is then, and its time (s).
+    pub(super) fn gripper_peak(&self, peak: Peak) -> (Found, Option<f64>) {
+        let Peak { value, gripper, time } = peak;
+        let place = Some(self.motion.at(time)[gripper]);
+        (Found { value, site: Site::Gripper(gripper), place }, Some(time))
+    }
+
+    /// The largest rate of the frame of the tool (rad) in degrees, and its time (s).
+    pub(super) fn frame_peak(&self, peak: Peak) -> (Found, Option<f64>) {
+        let value = peak.value.to_degrees();
+        (Found { value, site: Site::Frame, place: None }, Some(peak.time))
+    }
+
+    /// The step on the way to which a time (s) is, counted from 1.
+    fn step(&self, time: f64) -> usize {
+        let times = self.motion.times();
+        (times.partition_point(|t| *t < time) + 1).min(times.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+    use crate::motion::Bounds;
+
+    /// Down by 50 mm from rest to rest, with the jerk at its limit: the motion is judged by what bounds it, and not by tools or bodies that are
+    /// not there.
+    #[test]
+    fn a_motion_is_judged_by_its_speed_acceleration_and_jerk() {
+        let layup = sample::layup();
+        let limits = Limits::of(&layup);
+        let [speed, acceleration, jerk] =
+            [Name::Speed, Name::Acceleration, Name::Jerk].map(|name| limits.most(name));
+        let bounds = Bounds { speed, acceleration, jerk };
+        let motion = &TimedMotion::new(&layup.motion.positions, &bounds).unwrap();
+        let whole = WholeMotion {
+            layup: &layup,
+            limits: &limits,
+            motion,
+            attitudes: None,
+            peaks: motion.peaks(),
+            tool: None,
+            rate: 100.0,
+        };
+        let verdicts = whole.verdicts();
+        let names: Vec<Name> = verdicts.iter().map(|verdict| verdict.name).collect();
+        assert_eq!(names, [Name::Speed, Name::Acceleration, Name::Jerk]);
+        for verdict in &verdicts {
+            assert!(
+                verdict.ok && verdict.step == Some(2) && verdict.place.is_some(),
+                "{verdict:?}"
+            );
+        }
+        // its time has a margin of a ten-thousandth, of which the jerk has the third power
+        assert!((verdicts[2].value - jerk).abs() < 1e-3 * jerk, "{:?}", verdicts[2]);
+    }
+}

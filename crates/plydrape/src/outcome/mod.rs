@@ -1,0 +1,109 @@
+//! The outcome of a scene: the drape by the model that decides, and the verdict that follows from it.
+//!
+//! [`simulate`] follows the motion of a scene by the model that the scene chooses. That model alone is asked: its states are measured, its
+//! limits are judged, and its orientations are those of the motion files. The other one drapes only where the scene asks for it
+//! ([`Scene::also`]); it stands beside and never judges.
+//!
+//! 1. `drape`: one drape by one model; `recorder`, `step`: what is kept of it;
+//! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
+//! 3. `sample`, `robustness`: the verdict over cells with the errors of the scene.
+
+mod drape;
+mod error;
+mod recorder;
+mod retime;
+mod robustness;
+mod sample;
+#[cfg(test)]
+mod sample_tests;
+mod step;
+mod summary;
+
+pub(crate) use drape::drape_catenaries;
+pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
+pub use error::ModelError;
+pub use robustness::Robustness;
+pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
+pub use step::{Gripper, Step};
+pub use summary::{CatenaryReport, Status, Summary};
+
+use crate::layup::Model;
+use crate::scene::Scene;
+use crate::sheet;
+use std::ops::ControlFlow;
+
+/// The outcome of a scene.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The drape by the model that decides.
+    pub drape: Drape,
+    /// The drape by the other model, if the scene asks for it; it judges nothing.
+    pub also: Option<Drape>,
+}
+
+impl Outcome {
+    /// Whether the drape by the model that decides was done to its end and keeps every limit.
+    #[must_use]
+    pub fn accepted(&self) -> bool {
+        self.drape.summary.accepted()
+    }
+}
+
+/// Drapes the ply of a scene along its motion, as its tool makes it, by the model that decides, and by a sample of cells if the scene has
+/// errors.
+///
+/// `progress` is called after each step with the number of steps done; when it breaks, the drape ends there, complete for the steps done
+/// and not accepted.
+///
+/// # Errors
+/// [`ModelError`] if the scene lacks what the model needs.
+pub fn simulate(
+    scene: &Scene,
+    mut progress: impl FnMut(usize) -> ControlFlow<()>,
+) -> Result<Outcome, ModelError> {
+    let model = scene.layup.settings.model;
+    let mut drape = keeping_states(scene, model, &|| false, &mut progress)?;
+    let also = also(scene, &drape.summary, &mut progress)?;
+    let watch = Watch { stop: &|| false, done: &|_, _| {} };
+    if !drape.summary.interrupted() {
+        Robustness::of_simulated(scene).judge_sample(&mut drape.summary, &watch);
+    }
+    Ok(Outcome { drape, also })
+}
+
+/// The drape of a scene by the model that does not decide, if the scene asks for it and the one that decides was not broken off.
+///
+/// # Errors
+/// [`ModelError`] if the scene lacks what that model needs.
+pub fn also(
+    scene: &Scene,
+    decided: &Summary,
+    progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
+) -> Result<Option<Drape>, ModelError> {
+    if !scene.also || decided.interrupted() {
+        return Ok(None);
+    }
+    keeping_states(scene, scene.layup.settings.model.other(), &|| false, progress).map(Some)
+}
+
+/// A drape by a model, with the states of the sheet that the scene keeps.
+pub(crate) fn keeping_states(
+    scene: &Scene,
+    model: Model,
+    stop: &(dyn Fn() -> bool + Sync),
+    progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
+) -> Result<Drape, ModelError> {
+    let (steps, keep) = (scene.layup.motion.positions.len(), scene.layup.settings.sheet.keep);
+    let mut states: Vec<sheet::State> = Vec::new();
+    let mut see = |step: usize, state: Option<&sheet::State>| {
+        if let Some(state) = state.filter(|state| sheet::is_kept(state.step, steps, keep)) {
+            states.push(state.clone());
+        }
+        progress(step)
+    };
+    let mut drape = drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
+    if let Some(sheet) = &mut drape.sheet {
+        sheet.states = states;
+    }
+    Ok(drape)
+}

@@ -1,0 +1,127 @@
+//! The same drape in another time: the places stay, and what is measured of the time is measured again.
+
+use super::{Drape, Step, Summary};
+use crate::layup::Layup;
+use crate::measure::{
+    Found, Limits, Name, Observation, Past, Scope, Verdict, Worst, last_numbers, worst_numbers,
+};
+use crate::sheet::event::last_release;
+use crate::state::{GripperState, PlyState};
+
+impl Drape {
+    /// Takes other times of the steps for a motion along the same places. `layup` has the motion in these times; `retimed` is the new
+    /// time (s) of an earlier one in a step of the drape.
+    pub fn retime(
+        &mut self,
+        layup: &Layup,
+        limits: &Limits,
+        times: &[f64],
+        retimed: impl Fn(usize, f64) -> f64,
+    ) {
+        for step in &mut self.steps {
+            step.time = times[(step.step - 1).min(times.len() - 1)];
+        }
+        if let Some(sheet) = &mut self.sheet {
+            for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
+                state.time = retimed(state.step, state.time);
+            }
+            for event in &mut sheet.drape.events {
+                event.time = retimed(1, event.time);
+            }
+        }
+        for event in &mut self.summary.events {
+            event.time = retimed(1, event.time);
+        }
+        self.summary.measure_time(layup, limits, &mut self.steps);
+    }
+}
+
+impl Summary {
+    /// Measures again what depends on the times of the steps, and judges that.
+    pub(crate) fn measure_time(&mut self, layup: &Layup, limits: &Limits, steps: &mut [Step]) {
+        let timed = |name: &&Name| name.measure().scope() == Scope::Time;
+        let names: Vec<Name> = Name::ALL.iter().filter(timed).copied().collect();
+        self.measure_again(layup, limits, steps, &names);
+    }
+
+    /// Measures again what follows from the grippers alone, in every step, and judges that in place of what was found before.
+    pub(crate) fn measure_again(
+        &mut self,
+        layup: &Layup,
+        limits: &Limits,
+        steps: &mut [Step],
+        names: &[Name],
+    ) {
+        let (count, released) = (steps.len(), last_release(&self.events));
+        let duration = layup.motion.times.last().copied().unwrap_or(0.0);
+        let mut past: Option<Past> = None;
+        for (n, step) in steps.iter_mut().enumerate() {
+            let mut state = PlyState::of_grippers(self.model, step);
+            let seen = Observation { layup, limits, state: &state, past: past.as_ref() };
+            let mut found: Vec<(Name, Option<Found>)> =
+                names.iter().map(|name| (*name, name.measure().evaluate(&seen))).collect();
+            // the motion takes until the last pads have let go
+            if let (true, Some(time)) = (n + 1 == count, released) {
+                let end = PlyState { time: time.max(state.time), ..state.clone() };
+                let seen = Observation { state: &end, ..seen };
+                for (name, found) in &mut found {
+                    if *name == Name::Duration {
+                        *found = name.measure().evaluate(&seen);
+                    }
+                }
+            }
+            for (name, found) in found {
+                step.measures.set(name, found.map(|found| Worst::of(&found, layup)));
+            }
+            state.step = step.step;
+            past = Some(Past::after(&state, past.take(), duration));
+        }
+        self.worst = worst_numbers(steps.iter().map(|step| &step.measures));
+        self.last = last_numbers(steps.last().map(|step| &step.measures));
+        for name in names {
+            let Some(limit) = name.measure().limit(layup, limits) else { continue };
+            let Some(again) = worst_verdict(*name, steps, limit) else { continue };
+            match self.limits.iter_mut().find(|verdict| verdict.name == *name) {
+                Some(verdict) => *verdict = again,
+                None => self.limits.push(again),
+            }
+        }
+    }
+}
+
+/// The verdict on a measure by its worst step, or the last one if it counts at the end.
+fn worst_verdict(name: Name, steps: &[Step], limit: f64) -> Option<Verdict> {
+    let (sense, at_end) = (name.measure().sense(), name.measure().scope() == Scope::End);
+    let values = steps.iter().filter_map(|step| Some((step.step, step.measures.get(name)?)));
+    let (step, worst) = values.reduce(|most, next| {
+        let replaced = at_end || sense.is_worse(next.1.value, most.1.value);
+        if replaced { next } else { most }
+    })?;
+    Some(Verdict::of(name, worst.clone(), limit, Some(step)))
+}
+
+impl PlyState {
+    /// What a record keeps of a step: the grippers alone.
+    #[must_use]
+    pub(crate) fn of_grippers(model: crate::layup::Model, step: &Step) -> Self {
+        let gripper = |gripper: &super::Gripper| GripperState {
+            position: gripper.position,
+            commanded: gripper.commanded,
+            quaternion: gripper.quaternion,
+            tilt: gripper.tilt_deg.to_radians(),
+            force: gripper.force,
+            slide: gripper.slide_mm * 1e-3,
+            holds: gripper.holds,
+        };
+        PlyState {
+            model,
+            step: step.step,
+            time: step.time,
+            points: Vec::new(),
+            lines: Vec::new(),
+            cells: Vec::new(),
+            grippers: step.grippers.iter().map(gripper).collect(),
+            unsolved: None,
+        }
+    }
+}

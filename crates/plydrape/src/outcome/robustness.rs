@@ -1,0 +1,77 @@
+//! How a finished drape is judged with errors: the sample of its scene, and the errors that its motion stands.
+//!
+//! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it stands is said
+//! for information. Both are complete drapes along the motion that was draped, by the model that decides.
+
+use super::{Stands, Status, Summary, Watch};
+use crate::errors::Errors;
+use crate::layup::Stepping;
+use crate::motion::Motion;
+use crate::scene::Scene;
+use crate::sheet::event::at_these_times;
+
+/// With which errors a finished drape is judged.
+#[derive(Debug, Clone)]
+pub struct Robustness {
+    /// The scene, with the motion that was draped.
+    scene: Scene,
+    /// The errors of the sample; none where the scene has none.
+    sample: Option<Errors>,
+    /// The errors of which a factor is looked for; none where nobody asks.
+    stands: Option<Errors>,
+}
+
+impl Robustness {
+    /// Of a drape along the motion of a scene: only the scene's own errors count.
+    #[must_use]
+    pub fn of_simulated(scene: &Scene) -> Self {
+        let errors = scene.errors.filter(Errors::is_drawn);
+        Robustness { scene: scene.clone(), sample: errors, stands: errors }
+    }
+
+    /// Of a drape along a planned motion, with steps cut as planners do. What it stands is said of [`Errors::of_grippers`]
+    /// where the scene has no errors; not where it asks for no samples.
+    #[must_use]
+    pub fn of_planned(scene: &Scene, motion: Motion) -> Self {
+        let mut planned = scene.clone();
+        planned.layup.motion = motion;
+        planned.layup.settings.contact.stepping = Stepping::Cut;
+        let asked = scene.errors.is_none_or(|errors| errors.samples > 0);
+        let sample = scene.errors.filter(Errors::is_drawn);
+        let stands = asked.then(|| sample.unwrap_or_else(|| Errors::of_grippers(scene)));
+        Robustness { scene: planned, sample, stands }
+    }
+
+    /// The errors of the sample; none where the scene has none.
+    #[must_use]
+    pub fn sampled(&self) -> Option<&Errors> {
+        self.sample.as_ref()
+    }
+
+    /// Drapes the sample and judges by it too. Returns whether that was done to its end; if not, the drape is not accepted,
+    /// because nobody knows whether enough of its cells are.
+    pub fn judge_sample(&self, summary: &mut Summary, watch: &Watch) -> bool {
+        let Some(errors) = &self.sample else { return true };
+        summary.sample = errors.judge(&self.scene_of(summary), watch);
+        if summary.sample.is_none() {
+            summary.status = Status::Interrupted;
+        }
+        summary.sample.is_some()
+    }
+
+    /// The scene with pads that let go when the drape that is judged found that they do: a robot knows no other time.
+    fn scene_of(&self, summary: &Summary) -> Scene {
+        Scene { layup: at_these_times(&self.scene.layup, &summary.events), ..self.scene.clone() }
+    }
+
+    /// Finds the errors that the motion stands: none at all if it is not accepted without errors. Returns whether that was
+    /// done to its end.
+    pub fn judge_stands(&self, summary: &mut Summary, watch: &Watch) -> bool {
+        let Some(errors) = &self.stands else { return true };
+        summary.stands = match summary.accepted_without_errors() {
+            true => errors.stands(&self.scene_of(summary), watch),
+            false => Some(Stands::nothing(errors)),
+        };
+        summary.stands.is_some()
+    }
+}

@@ -1,0 +1,357 @@
+//! The verdict over a sample of cells: complete drapes, each of a cell with errors of its own.
+
+use super::Judged;
+use super::drape::judge_seen;
+use crate::errors::{Draw, Errors, Term};
+use crate::measure::Verdict;
+use crate::ply::{Neighbours, Ply};
+use crate::scene::Scene;
+use crate::sheet;
+use crate::state::Site;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Factors of the errors that are tried to each one of twice the size: what is found is known within 9 %.
+const PER_OCTAVE: i32 = 8;
+/// The least factor that is tried, and the most, in octaves: 1/64 and 16.
+const OCTAVES: [i32; 2] = [-6, 4];
+/// Drapes at most by which a factor is tried.
+const TRIED: usize = 16;
+/// What a measure that is no number has for a ratio, so that a file can hold it.
+const LARGEST_RATIO: f64 = 1e6;
+
+/// Whether a drape goes on, and how far a sample has come.
+pub struct Watch<'a> {
+    /// Asked before each time step whether to end.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+    /// Told how many of so many drapes are done.
+    pub done: &'a (dyn Fn(usize, usize) + Sync),
+}
+
+/// The verdict over a sample of cells.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct SampleVerdict {
+    /// The errors of the cells.
+    pub errors: Errors,
+    /// How many cells must keep every limit.
+    pub needed: usize,
+    /// Whether so many do.
+    pub ok: bool,
+    /// Every limit, judged by the value that the share of the cells keeps which must keep it.
+    pub limits: Vec<Verdict>,
+    /// Each cell's drape.
+    pub cells: Vec<CellVerdict>,
+    /// Where the sheet is highest by the height that the share of the cells keeps there; none of catenaries.
+    pub highest: Option<Highest>,
+    /// Height (mm) at each node of the sheet that the share of the cells keeps, in four digits; empty of catenaries.
+    pub spread_mm: Vec<f64>,
+}
+
+/// The drape of one cell.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct CellVerdict {
+    /// Whether it keeps every limit.
+    pub accepted: bool,
+    /// The largest height of its sheet at the end (mm); none of catenaries and of a drape without an end.
+    pub height_mm: Option<f64>,
+    /// The largest ratio of a measure to its limit; above 1 it is not kept. A measure that is no number has 1e6.
+    pub ratio: f64,
+}
+
+/// The highest place of a sample.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Highest {
+    /// Height (mm).
+    pub height_mm: f64,
+    /// Fabric coordinates (mm).
+    pub uv_mm: [f64; 2],
+    /// The nearest line of grippers, from its first to its last.
+    pub line: String,
+    /// The nearest gripper.
+    pub gripper: String,
+}
+
+/// The largest errors that a plan stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Stands {
+    /// The largest common factor of all errors at which the plan is still accepted, found within 9 %; 0 if it is not at the
+    /// least one that was tried.
+    pub factor: f64,
+    /// Whether it is the largest one that was tried, so that the plan may stand more.
+    pub at_least: bool,
+    /// The error of each gripper's position along each axis at this factor.
+    pub position: Term,
+    /// Drapes by which each factor was tried; 0 where the plan is not accepted without errors, so that none was.
+    pub tried: usize,
+}
+
+/// One drape of a sample.
+struct Drape {
+    judged: Judged,
+    /// Height of each node at the end (m); beyond the boundary of the mold 0. Empty of catenaries.
+    heights: Vec<f64>,
+    places: Vec<[f64; 2]>,
+}
+
+impl Errors {
+    /// How many of so many cells must keep the limits.
+    #[must_use]
+    pub fn needed(&self, samples: usize) -> usize {
+        // a share that is a whole number of cells but for rounding is that number
+        ((self.share * samples as f64 * (1.0 - 1e-12)).ceil() as usize)
+            .clamp(usize::from(samples > 0), samples)
+    }
+
+    /// Those of which "a plan stands so much" is said where a scene has none: of each gripper's position, a thousandth of the
+    /// grippers' pitch along each axis.
+    #[must_use]
+    pub fn of_grippers(scene: &Scene) -> Errors {
+        Errors::of_array(&scene.layup.ply)
+    }
+
+    /// The same of the grippers that hold a ply.
+    #[must_use]
+    pub fn of_array(ply: &Ply) -> Errors {
+        let mut errors = Errors::default();
+        errors.gripper.position = Term::Deviation(1e-3 * sheet::pitch(ply));
+        errors
+    }
+
+    /// The verdict over the sample of a scene along its motion; none if it was stopped.
+    #[must_use]
+    pub fn judge(&self, scene: &Scene, watch: &Watch) -> Option<SampleVerdict> {
+        let done = AtomicUsize::new(0);
+        let one = |sample: usize| {
+            let drape = draped(&self.cell(scene, sample, 1.0), watch.stop);
+            (watch.done)(done.fetch_add(1, Ordering::Relaxed) + 1, self.samples);
+            drape
+        };
+        let drapes: Vec<Drape> = (0..self.samples).into_par_iter().filter_map(one).collect();
+        if drapes.len() < self.samples || drapes.is_empty() {
+            return None;
+        }
+        let needed = self.needed(drapes.len());
+        let cells: Vec<CellVerdict> = drapes.iter().map(cell_verdict).collect();
+        let spread = spread(&drapes, needed);
+        Some(SampleVerdict {
+            errors: *self,
+            needed,
+            ok: cells.iter().filter(|cell| cell.accepted).count() >= needed,
+            limits: limits(&drapes, needed),
+            highest: highest(scene, &drapes[0].places, &spread),
+            spread_mm: spread.iter().map(|height| in_digits(height * 1e3)).collect(),
+            cells,
+        })
+    }
+
+    /// The largest common factor of all errors at which a scene along its motion is still accepted; none if it was stopped.
+    ///
+    /// Only the cells that decide are followed to the factor from which on they fail: all others are draped once, with the errors
+    /// that those before them still stand.
+    #[must_use]
+    pub fn stands(&self, scene: &Scene, watch: &Watch) -> Option<Stands> {
+        let tried = self.samples.clamp(1, TRIED);
+        // so many of the cells may fail, so the next worse one decides
+        let spare = tried - self.needed(tried);
+        let mut worst: Vec<i32> = Vec::new();
+        for pair in (0..tried).collect::<Vec<_>>().chunks(2) {
+            let most = worst.get(spare).copied();
+            let one = |sample: &usize| {
+                let keeps = |place: i32| {
+                    let drape = draped(&self.cell(scene, *sample, factor(place)), watch.stop)?;
+                    Some(drape.judged.accepted())
+                };
+                largest(most, keeps)
+            };
+            let found: Option<Vec<i32>> = pair.par_iter().map(one).collect();
+            worst.extend(found?);
+            worst.sort_unstable();
+        }
+        let place = worst[spare];
+        let factor = if place < PLACES[0] { 0.0 } else { factor(place) };
+        let position = self.gripper.position.scaled(factor);
+        Some(Stands { factor, at_least: place == PLACES[1], position, tried })
+    }
+
+    /// The scene of a cell with all errors larger by a factor.
+    fn cell(&self, scene: &Scene, sample: usize, factor: f64) -> Scene {
+        let draw: Draw = self.draw(sample, scene.layup.ply.grippers());
+        Scene { layup: draw.scaled(factor).apply(&scene.layup), errors: None, ..scene.clone() }
+    }
+}
+
+impl Stands {
+    /// The least factor that is tried.
+    pub const LEAST: f64 = 1.0 / (1u64 << -OCTAVES[0]) as f64;
+
+    /// Of a plan that is not accepted without errors.
+    #[must_use]
+    pub fn nothing(errors: &Errors) -> Self {
+        let position = errors.gripper.position.scaled(0.0);
+        Stands { factor: 0.0, at_least: false, position, tried: 0 }
+    }
+}
+
+impl SampleVerdict {
+    /// Cells that keep every limit.
+    #[must_use]
+    pub fn accepted(&self) -> usize {
+        self.cells.iter().filter(|cell| cell.accepted).count()
+    }
+
+    /// Largest height (mm) that the share of the cells keeps which must keep the limits; none of catenaries.
+    #[must_use]
+    pub fn height_mm(&self) -> Option<f64> {
+        let mut heights: Vec<f64> = self.cells.iter().filter_map(|cell| cell.height_mm).collect();
+        heights.sort_by(f64::total_cmp);
+        // a drape without an end has no height: it counts as the highest
+        heights.get(self.needed.max(1) - 1).copied()
+    }
+}
+
+/// The first and the last place among the factors that are tried.
+const PLACES: [i32; 2] = [OCTAVES[0] * PER_OCTAVE, OCTAVES[1] * PER_OCTAVE];
+
+/// The factor of a place.
+fn factor(place: i32) -> f64 {
+    (f64::from(place) / f64::from(PER_OCTAVE)).exp2()
+}
+
+/// The last place at which a cell keeps its limits, one before the first if it keeps them nowhere; no search beyond `most`, if
+/// given. None if it was stopped.
+fn largest(most: Option<i32>, keeps: impl Fn(i32) -> Option<bool>) -> Option<i32> {
+    let [first, last] = PLACES;
+    let start = most.unwrap_or(0);
+    if start < first {
+        return Some(start);
+    }
+    let (mut low, mut high) = (first - 1, last + 1);
+    if keeps(start)? {
+        low = start;
+        // as far as it need be known
+        high = most.map_or(high, |most| most + 1);
+    } else {
+        high = start;
+    }
+    // octave by octave, then by halves
+    while high - low > 1 {
+        let next = match (low < first, high > last) {
+            (true, _) => (high - PER_OCTAVE).max(first),
+            (_, true) => (low + PER_OCTAVE).min(last),
+            _ => i32::midpoint(low, high),
+        };
+        if keeps(next)? {
+            low = next;
+        } else {
+            high = next;
+        }
+    }
+    Some(low)
+}
+
+/// A drape by the model that decides; `None` if it was stopped.
+fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
+    if stop() {
+        return None;
+    }
+    let Ok(found) = judge_seen(&scene.layup, &scene.limits, usize::MAX, &|| stop()) else {
+        // the errors have left no sheet that could be draped
+        return Some(Drape { judged: Judged::nothing(), heights: Vec::new(), places: Vec::new() });
+    };
+    let (judged, sheet) = found;
+    if judged.interrupted {
+        return None;
+    }
+    let Some(drape) = sheet else {
+        return Some(Drape { judged, heights: Vec::new(), places: Vec::new() });
+    };
+    let lies_on = |node: usize| {
+        let mold = drape.sheet.mold.as_ref();
+        mold.is_some_and(|mold| !mold.closest_point(drape.last.positions[node]).beyond)
+    };
+    let heights = drape.last.heights.iter().enumerate();
+    let heights = heights.map(|(n, height)| if lies_on(n) { height.max(0.0) } else { 0.0 });
+    Some(Drape { judged, heights: heights.collect(), places: drape.sheet.fabric.places.clone() })
+}
+
+fn cell_verdict(drape: &Drape) -> CellVerdict {
+    let Judged { limits, missing, .. } = &drape.judged;
+    let highest = drape.heights.iter().copied().reduce(f64::max);
+    CellVerdict {
+        accepted: drape.judged.accepted(),
+        height_mm: highest.filter(|_| *missing == 0.0).map(|height| height * 1e3),
+        ratio: limits.iter().map(Verdict::ratio).fold(0.0, f64::max).min(LARGEST_RATIO),
+    }
+}
+
+/// Every limit, judged by the drape of which so many keep it as well or better.
+fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
+    let mut names: Vec<_> = Vec::new();
+    for verdict in drapes.iter().flat_map(|drape| &drape.judged.limits) {
+        if !names.contains(&verdict.name) {
+            names.push(verdict.name);
+        }
+    }
+    let one = |name| {
+        let of =
+            drapes.iter().flat_map(|drape| drape.judged.limits.iter().find(|v| v.name == name));
+        let mut found: Vec<&Verdict> = of.collect();
+        found.sort_by(|a, b| a.ratio().total_cmp(&b.ratio()));
+        found.get(needed.min(found.len()).max(1) - 1).map(|verdict| (*verdict).clone())
+    };
+    names.into_iter().filter_map(one).collect()
+}
+
+/// Height (m) at each node that so many drapes keep.
+fn spread(drapes: &[Drape], needed: usize) -> Vec<f64> {
+    let nodes = drapes.iter().map(|drape| drape.heights.len()).min().unwrap_or(0);
+    let one = |node: usize| {
+        let mut heights: Vec<f64> = drapes.iter().map(|drape| drape.heights[node]).collect();
+        heights.sort_by(f64::total_cmp);
+        heights[needed.max(1) - 1]
+    };
+    (0..nodes).map(one).collect()
+}
+
+/// A number in four digits, which is enough for a picture and short in a file.
+fn in_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// Distance of a place from the line between two others in the fabric (m).
+fn off_line([u, v]: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+    let way = [b[0] - a[0], b[1] - a[1]];
+    let (off, square) = ([u - a[0], v - a[1]], way[0] * way[0] + way[1] * way[1]);
+    let t = ((off[0] * way[0] + off[1] * way[1]) / square).clamp(0.0, 1.0);
+    (off[0] - t * way[0]).hypot(off[1] - t * way[1])
+}
+
+/// The highest node, with the two neighboring grippers whose line, and the gripper that, is nearest in the fabric.
+fn highest(scene: &Scene, places: &[[f64; 2]], spread: &[f64]) -> Option<Highest> {
+    let (node, height) = spread.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    let (place, ply) = (places[node], &scene.layup.ply);
+    let away = |n: &usize| {
+        let [u, v] = ply.place(*n);
+        (place[0] - u).hypot(place[1] - v)
+    };
+    let gripper = (0..ply.grippers()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let off = |line: &Neighbours| off_line(place, line.grippers.map(|n| ply.place(n)));
+    let lines = ply.neighbours();
+    let line = lines.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    let label = |n: usize| Site::Gripper(n).label(&scene.layup);
+    let [from, to] = line.map_or([gripper; 2], |line| line.grippers).map(label);
+    Some(Highest {
+        height_mm: height * 1e3,
+        uv_mm: place.map(|c| c * 1e3),
+        line: format!("{from} to {to}"),
+        gripper: label(gripper),
+    })
+}

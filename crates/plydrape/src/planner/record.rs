@@ -1,0 +1,82 @@
+//! What a result keeps of a plan: the motion is made from it again.
+
+use crate::measure::Name;
+use crate::motion::{MotionError, TimedMotion};
+use crate::pick_up::Offset;
+use crate::ply::GripperId;
+use crate::scene::PlanMethod;
+
+/// A plan: what a motion is made from again, see [`PlanRecord::motion`].
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct PlanRecord {
+    /// The planner.
+    pub method: PlanMethod,
+    /// Drapes that the search took; of the stepwise planner, steps.
+    pub evaluations: usize,
+    /// Samples a second of the motion as it is written (Hz).
+    pub rate: f64,
+    /// What limits the time of the motion, that of the longest time first.
+    pub limited_by: Vec<LimitedBy>,
+    /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
+    pub path: Vec<Vec<[f64; 3]>>,
+    /// Distances of the knots of the path (m).
+    pub spacing: Vec<f64>,
+    /// The time law: a row for each phase, see [`TimedMotion::law`](crate::motion::TimedMotion::law).
+    pub law: Vec<[f64; 5]>,
+    /// Where the ply was picked up, if the plan was corrected for that.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub picked_up: Option<PickedUp>,
+}
+
+/// For how long a limit is what the speed of a motion is limited by.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct LimitedBy {
+    /// The measure that is nearest to its limit.
+    pub name: Name,
+    /// For how long (s).
+    pub time_s: f64,
+    /// The gripper with which it is that for the longest; none of the frame of a tool.
+    pub gripper: Option<GripperId>,
+}
+
+/// Where the ply was picked up, and how a plan was corrected for it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct PickedUp {
+    /// How far it lay from where it was planned, about the middle of the grippers at the planned start.
+    pub offset: Offset,
+    /// The largest distance of a seen point from where the offset puts it (m); none where the offset was given.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub residual: Option<f64>,
+    /// Share of the offset in each step, 1 at the pick-up and 0 from before the first contact on.
+    pub weights: Vec<f64>,
+}
+
+impl PlanRecord {
+    /// The record of a motion of planned positions.
+    #[must_use]
+    pub fn of(
+        method: PlanMethod,
+        evaluations: usize,
+        rate: f64,
+        path: Vec<Vec<[f64; 3]>>,
+        motion: &TimedMotion,
+        limited_by: Vec<LimitedBy>,
+    ) -> Self {
+        let (spacing, law) = (motion.spacing(), motion.law());
+        PlanRecord { method, evaluations, rate, limited_by, path, spacing, law, picked_up: None }
+    }
+
+    /// The motion at any time.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the plan is none that a planner has made.
+    pub fn motion(&self) -> Result<TimedMotion, MotionError> {
+        TimedMotion::recorded(&self.path, &self.spacing, &self.law)
+    }
+}

@@ -1,0 +1,49 @@
+//! A scene: a layup, the limits that it must keep, how its motion is planned, and the errors of the cell, as numbers in SI units.
+//!
+//! What reads a scene from a file, and refuses it with the place of a fault, is the crate `plydrape-io`.
+
+mod above;
+mod plan;
+
+pub use above::AboveError;
+pub use plan::{Plan, PlanMethod};
+
+use crate::errors::Errors;
+use crate::layup::{Layup, Settings};
+use crate::measure::Limits;
+use crate::motion::Motion;
+use crate::ply::Ply;
+
+/// A scene: everything that a drape and its verdict need.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Name for reports.
+    pub title: String,
+    /// What is draped.
+    pub layup: Layup,
+    /// Limits of an accepted drape.
+    pub limits: Limits,
+    /// How a motion is planned, where none is followed.
+    pub plan: Plan,
+    /// How far a real cell may be from this scene, if that is known.
+    pub errors: Option<Errors>,
+    /// Whether the model that does not decide drapes too, to be shown beside.
+    pub also: bool,
+}
+
+impl Scene {
+    /// A ply along a motion by the rules of the models, with the usual limits and nothing else: no mold, no target, and grippers that
+    /// each move by themselves.
+    #[must_use]
+    pub fn new(ply: Ply, settings: Settings, motion: Motion) -> Self {
+        let layup = Layup::new(ply, settings, motion);
+        Scene {
+            title: String::new(),
+            limits: Limits::of(&layup),
+            layup,
+            plan: Plan::default(),
+            errors: None,
+            also: false,
+        }
+    }
+}
