@@ -5,6 +5,8 @@
 //! is a measured curve, the second derivative to κ is W″ along κ and M/|κ| across: neither is negative, because the moment
 //! rises.
 
+use super::configuration::Configuration;
+use super::energy::{Energy, Stiffness};
 use super::fabric::Bend;
 use super::system::{Pair, System, add};
 use crate::geometry::matrix3::{Matrix3, outer, plus, scaled};
@@ -39,7 +41,7 @@ pub fn weights([before, after]: [f64; 2]) -> [f64; 3] {
 }
 
 impl Bending {
-    /// Of lines with a flexural rigidity per width D′ along u and v (N·m), or a curve of the moment in its place.
+    /// The bending of lines with a flexural rigidity per width D′ along u and v (N·m), or a curve of the moment in its place.
     pub fn new(
         bends: &[Bend],
         rigidity: [f64; 2],
@@ -59,26 +61,27 @@ impl Bending {
         };
         Bending { bends: bends.iter().map(element).collect(), curves: curves.clone() }
     }
+}
 
-    /// Energy (J).
-    pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        let one = |e: &Element| {
-            let squared = e.curvature(x).iter().map(|c| c * c).sum::<f64>();
+impl Energy for Bending {
+    fn value(&self, now: &Configuration) -> f64 {
+        let energy = |e: &Element| {
+            let squared = e.curvature(&now.x).iter().map(|c| c * c).sum::<f64>();
             match &self.curves[e.direction] {
                 None => 0.5 * e.rigidity * e.area * squared,
                 Some(curve) => curve.bend(squared.sqrt())[0] * e.area,
             }
         };
-        self.bends.iter().map(one).sum()
+        self.bends.iter().map(energy).sum()
     }
 
-    /// Adds gradient and second derivative.
-    pub fn add(&self, x: &[[f64; 3]], system: &mut System) {
+    /// The stiffness is positive as it is.
+    fn linearize(&self, now: &Configuration, _: Stiffness, system: &mut System) {
         for e in &self.bends {
             if system.skips(&e.nodes) {
                 continue;
             }
-            let curvature = e.curvature(x);
+            let curvature = e.curvature(&now.x);
             match &self.curves[e.direction] {
                 None => e.add(e.rigidity * e.area, None, curvature, system),
                 Some(curve) => {

@@ -1,19 +1,28 @@
-//! Contact with the mold, and what holds a touching node along it.
+//! Contact with the mold, eq. (19e) and (19f) of `docs/theory/sheet.md`.
 //!
-//! Contact is a penalty, ½ k · area · d² of a negative distance d. A node that touches has its *anchor* there, and a
-//! spring along the mold pulls it back there. The force of the spring is at most (τ₀ + μ · pressure) · area, beyond which
-//! the anchor follows; stick is no such bound. A node that is clear of the mold again has no anchor.
+//! Contact is a penalty, ½ k · area · d² of a negative distance d. A node that touches has its *anchor* there, and a spring
+//! along the mold pulls it back there ([`super::friction`]). A node that is clear of the mold again has no anchor.
+//!
+//! [`Contact::find`] looks where nodes are, [`Energy::linearize`] adds what acts on them, and [`Contact::anchor`] moves the
+//! anchors after the time step.
 
+use super::Sheet;
+use super::configuration::Configuration;
+use super::energy::{Energy, Stiffness};
+use super::friction::{Anchor, Hold, penalty};
 use super::system::{System, add};
-use crate::geometry::matrix3::{Matrix3, outer};
-use crate::geometry::vector::{along, distance, dot, norm, sub};
-use crate::layup::Friction;
+use super::tuning::Tuning;
+use super::unknowns::Carrier;
+use crate::geometry::matrix3::{outer, scaled};
+use crate::geometry::vector::{distance, dot, norm, sub};
 use crate::mold::Mold;
 
-/// Where a node touched the mold.
+/// The mold under a node that it presses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Anchor {
-    point: [f64; 3],
+struct Press {
+    /// Distance from the mold (m), negative.
+    distance: f64,
+    /// Gradient of the distance.
     normal: [f64; 3],
 }
 
@@ -30,8 +39,28 @@ struct Point {
     anchor: Option<Anchor>,
     /// Largest force of the spring along the mold (N).
     bound: f64,
-    /// Whether the mold pressed it, and whether it slipped, when forces were added last.
-    acts: [bool; 2],
+    /// How the mold pressed it when contacts were found last; `None` if it did not.
+    press: Option<Press>,
+    /// Whether it slipped when contacts were found last.
+    slips: bool,
+}
+
+impl Point {
+    /// Whether nothing of the mold can be at the node in a place (m), by where it was last looked for.
+    fn is_clear(&self, x: [f64; 3]) -> bool {
+        self.clear > 0.0 && distance(x, self.seen) < self.clear
+    }
+
+    /// Looks for the mold at a place `x` (m); returns how it presses the node, if it does. An anchor that `lasts` holds the node
+    /// along the normal instead.
+    fn look(&mut self, mold: &Mold, x: [f64; 3], lasts: bool) -> Option<Press> {
+        let closest = mold.closest_point(x);
+        let distance = if closest.beyond { f64::INFINITY } else { closest.distance };
+        (self.seen, self.clear) = (x, if closest.beyond { 0.0 } else { distance });
+        // the blended normal of a mesh would leave a node outside that it should bring to the surface
+        let press = || Press { distance, normal: mold.distance_gradient(x, &closest) };
+        (distance < 0.0 && !lasts).then(press)
+    }
 }
 
 /// Contact of all nodes that grippers do not hold.
@@ -40,225 +69,107 @@ pub struct Contact<'a> {
     mold: &'a Mold,
     /// Pressure per depth k (Pa/m).
     stiffness: f64,
-    /// Shear stress per way along the mold (Pa/m).
-    shear_stiffness: f64,
+    /// What holds nodes along the mold.
+    hold: Hold,
     /// Distance (m) at which an anchor is lost.
     release: f64,
-    friction: Friction,
-    tack: f64,
     points: Vec<Point>,
-    /// Whether other nodes were pressed or slipped when forces were added last than the time before.
-    pub changed: bool,
+    /// Whether other nodes were pressed or slipped when contacts were found last than the time before.
+    pub switched: bool,
 }
 
 impl<'a> Contact<'a> {
-    /// Of nodes with their areas (m²), and whether friction holds each of them.
-    pub fn new(
-        mold: &'a Mold,
-        [stiffness, shear_stiffness]: [f64; 2],
-        release: f64,
-        friction: Friction,
-        tack: f64,
-        nodes: impl Iterator<Item = (usize, f64, bool)>,
-    ) -> Self {
-        let point = |(node, area, rubs)| Point {
+    /// The contact of a sheet with its mold: of all nodes but those that a gripper holds at a point.
+    pub fn new(sheet: &Sheet, mold: &'a Mold, tuning: &Tuning, system: &System) -> Self {
+        let point = |node: usize, rubs: bool| Point {
             node,
-            area,
+            area: sheet.fabric.areas[node],
             rubs,
             seen: [0.0; 3],
             clear: f64::NEG_INFINITY,
             anchor: None,
             bound: 0.0,
-            acts: [false; 2],
+            press: None,
+            slips: false,
         };
+        let points = (0..sheet.fabric.places.len()).filter_map(|node| match system.carrier(node) {
+            Carrier::Held { .. } => None,
+            Carrier::Pad { shift: None, .. } => Some(point(node, false)),
+            _ => Some(point(node, true)),
+        });
         Contact {
             mold,
-            stiffness,
-            shear_stiffness,
-            release,
-            friction,
-            tack,
-            points: nodes.map(point).collect(),
-            changed: true,
+            stiffness: penalty(sheet, tuning.contact_depth),
+            hold: Hold::new(sheet, tuning),
+            release: tuning.release * sheet.pitch,
+            points: points.collect(),
+            switched: true,
         }
     }
 
     /// Goes on from the contact of the same ply with its nodes at `x` (m), before pads let go of some of them. Those that pads
     /// had pressed on the mold, as near as a node that is not clear of it, are anchored where they are.
-    pub fn take_over(&mut self, before: &Contact, x: &[[f64; 3]]) {
-        let mut known = before.points.iter().peekable();
-        for n in 0..self.points.len() {
-            let (node, rubs) = (self.points[n].node, self.points[n].rubs);
-            while known.next_if(|old| old.node < node).is_some() {}
-            if let Some(old) = known.peek().filter(|old| old.node == node && old.rubs == rubs) {
-                self.points[n] = (*old).clone();
+    pub fn take_over(&mut self, before: Contact, x: &[[f64; 3]]) {
+        let mut known = before.points.into_iter().peekable();
+        for point in &mut self.points {
+            while known.next_if(|old| old.node < point.node).is_some() {}
+            if let Some(old) = known.next_if(|old| old.node == point.node && old.rubs == point.rubs)
+            {
+                *point = old;
                 continue;
             }
-            let closest = self.mold.closest_point(x[node]);
-            if rubs && !closest.beyond && closest.distance <= self.release {
-                let bound = self.bound(-closest.distance, self.points[n].area);
-                let point = &mut self.points[n];
+            let closest = self.mold.closest_point(x[point.node]);
+            if point.rubs && !closest.beyond && closest.distance <= self.release {
+                let pressure = self.stiffness * (-closest.distance).max(0.0);
                 point.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
-                point.bound = bound;
+                point.bound = self.hold.bound(pressure, point.area);
             }
         }
     }
 
-    /// Largest force (N) of the spring along the mold of a node with its area (m²) at a depth (m).
-    fn bound(&self, depth: f64, area: f64) -> f64 {
-        let pressure = self.stiffness * depth.max(0.0);
-        match self.friction {
-            Friction::Coulomb(mu) => (self.tack + mu * pressure) * area,
-            Friction::Stick | Friction::StickForEver => f64::INFINITY,
-        }
-    }
-
-    /// Energy (J) of depth and of springs along the mold.
-    pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        let one = |point: &Point| {
-            let at = x[point.node];
-            let k = self.stiffness * point.area;
-            let mut energy = 0.0;
-            if let Some(anchor) = point.anchor {
-                let k = self.shear_stiffness * point.area;
-                let off = self.offset(anchor, at);
-                let size = norm(off);
-                energy += match self.friction {
-                    Friction::Coulomb(_) if k * size > point.bound => {
-                        point.bound * (size - 0.5 * point.bound / k)
-                    }
-                    _ => 0.5 * k * size * size,
-                };
-            }
-            if !self.is_clear(point, at) {
-                let closest = self.mold.closest_point(at);
-                if closest.distance < 0.0 && !self.holds_for_ever(point) {
-                    energy += 0.5 * k * closest.distance * closest.distance;
-                }
-            }
-            energy
-        };
-        self.points.iter().map(one).sum()
-    }
-
-    /// Adds gradient and second derivative.
-    pub fn add(&mut self, x: &[[f64; 3]], system: &mut System) {
-        self.changed = false;
-        for n in 0..self.points.len() {
-            let at = x[self.points[n].node];
-            if system.skips(&[self.points[n].node]) {
+    /// Finds where the mold presses nodes, and which of them slip, with the nodes at `x` (m). Nodes for which `skips` holds
+    /// stay where they are.
+    pub fn find(&mut self, x: &[[f64; 3]], skips: impl Fn(usize) -> bool) {
+        let Contact { mold, hold, points, switched, .. } = self;
+        *switched = false;
+        for point in points {
+            let x = x[point.node];
+            if skips(point.node) {
                 continue;
             }
-            let slips = self.points[n]
+            let slips = point
                 .anchor
-                .is_some_and(|anchor| self.hold(&self.points[n], anchor, at, system));
-            let acts = [self.press(n, at, system), slips];
-            self.changed |= acts != self.points[n].acts;
-            self.points[n].acts = acts;
+                .is_some_and(|anchor| hold.spring(anchor, x, point.area, point.bound).slips);
+            let lasts = hold.lasts() && point.anchor.is_some();
+            let press = if point.is_clear(x) { None } else { point.look(mold, x, lasts) };
+            *switched |= (press.is_some(), slips) != (point.press.is_some(), point.slips);
+            (point.press, point.slips) = (press, slips);
         }
-    }
-
-    /// Adds the pressure of the mold on a node, if there is any.
-    fn press(&mut self, n: usize, at: [f64; 3], system: &mut System) -> bool {
-        if self.is_clear(&self.points[n], at) {
-            return false;
-        }
-        let closest = self.mold.closest_point(at);
-        let distance = if closest.beyond { f64::INFINITY } else { closest.distance };
-        let point = &mut self.points[n];
-        (point.seen, point.clear) = (at, if closest.beyond { 0.0 } else { distance });
-        let (node, k) = (point.node, self.stiffness * point.area);
-        if distance >= 0.0 || self.holds_for_ever(&self.points[n]) {
-            return false;
-        }
-        // the blended normal of a mesh would leave a node outside that it should bring to the surface
-        let normal = self.mold.distance_gradient(at, &closest);
-        add(&mut system.gradient[node], k * distance, normal);
-        let normal = outer(normal, normal);
-        system.stiffen(node, &normal.map(|row| row.map(|c| k * c)));
-        true
-    }
-
-    /// Adds the spring along the mold; returns whether the node slips.
-    fn hold(&self, point: &Point, anchor: Anchor, at: [f64; 3], system: &mut System) -> bool {
-        let k = self.shear_stiffness * point.area;
-        let off = self.offset(anchor, at);
-        let size = norm(off);
-        let mut spring: Matrix3 = [[0.0; 3]; 3];
-        let slips = matches!(self.friction, Friction::Coulomb(_)) && k * size > point.bound;
-        let stiffness = if slips { point.bound / size } else { k };
-        if stiffness == 0.0 {
-            return slips;
-        }
-        add(&mut system.gradient[point.node], stiffness, off);
-        for n in 0..3 {
-            spring[n][n] = stiffness;
-        }
-        if self.friction != Friction::StickForEver {
-            subtract(&mut spring, stiffness, anchor.normal);
-        }
-        if slips {
-            subtract(&mut spring, stiffness, off.map(|c| c / size));
-        }
-        system.stiffen(point.node, &spring);
-        slips
     }
 
     /// After a time step: nodes that touch the mold get an anchor where they are, so that it stores no energy, those that
     /// are clear lose it, and those that slipped take it along.
-    pub fn update(&mut self, x: &[[f64; 3]]) {
-        for n in 0..self.points.len() {
-            let point = &self.points[n];
-            let at = x[point.node];
-            if self.is_clear(point, at) && point.anchor.is_none() {
+    pub fn anchor(&mut self, x: &[[f64; 3]]) {
+        for point in &mut self.points {
+            let x = x[point.node];
+            if point.is_clear(x) && point.anchor.is_none() {
                 continue;
             }
-            let closest = self.mold.closest_point(at);
+            let closest = self.mold.closest_point(x);
             let depth = if closest.beyond { f64::NEG_INFINITY } else { -closest.distance };
-            let bound = self.bound(depth, point.area);
-            let anchor = match point.anchor {
-                Some(anchor) if self.friction == Friction::StickForEver => Some(anchor),
+            point.bound = self.hold.bound(self.stiffness * depth.max(0.0), point.area);
+            point.anchor = match point.anchor {
+                Some(anchor) if self.hold.lasts() => Some(anchor),
                 Some(_) if depth < -self.release => None,
                 Some(anchor) => {
-                    Some(self.slipped(anchor, at, bound / (self.shear_stiffness * point.area)))
+                    Some(self.hold.follow(self.mold, anchor, x, point.area, point.bound))
                 }
                 None if depth >= 0.0 && point.rubs => {
                     Some(Anchor { point: closest.point, normal: closest.normal })
                 }
                 None => None,
             };
-            let point = &mut self.points[n];
-            (point.anchor, point.bound) = (anchor, bound);
         }
-    }
-
-    /// An anchor that follows a node so that it is no farther behind than `most` (m).
-    fn slipped(&self, anchor: Anchor, at: [f64; 3], most: f64) -> Anchor {
-        let off = self.offset(anchor, at);
-        let size = norm(off);
-        if size <= most {
-            return anchor;
-        }
-        let closest = self.mold.closest_point(along(anchor.point, 1.0 - most / size, off));
-        Anchor { point: closest.point, normal: closest.normal }
-    }
-
-    /// How far a node is from its anchor, along the mold (m).
-    fn offset(&self, anchor: Anchor, at: [f64; 3]) -> [f64; 3] {
-        let off = sub(at, anchor.point);
-        match self.friction {
-            Friction::StickForEver => off,
-            _ => along(off, -dot(off, anchor.normal), anchor.normal),
-        }
-    }
-
-    /// Whether nothing of the mold can be at a node, by where it was last looked for.
-    fn is_clear(&self, point: &Point, at: [f64; 3]) -> bool {
-        point.clear > 0.0 && distance(at, point.seen) < point.clear
-    }
-
-    fn holds_for_ever(&self, point: &Point) -> bool {
-        self.friction == Friction::StickForEver && point.anchor.is_some()
     }
 
     /// Longest time (s) in which no node that is free of the mold goes farther than its distance from it, or farther than
@@ -290,7 +201,7 @@ impl<'a> Contact<'a> {
 
     /// Whether an anchor stays where it is as long as its node touches.
     pub fn sticks(&self) -> bool {
-        !matches!(self.friction, Friction::Coulomb(_))
+        self.hold.sticks()
     }
 
     /// The nodes that stay on the mold by themselves, if all of their neighbors stay: those that are anchored and pressed,
@@ -307,7 +218,7 @@ impl<'a> Contact<'a> {
             let k = self.stiffness * point.area;
             // what the mold has to carry: the pressure of now, and what is out of balance
             let normal = (-k * dot(off, anchor.normal)).max(0.0) + dot(total, anchor.normal);
-            let pressed = point.acts[0] && normal > 0.0 || self.holds_for_ever(point);
+            let pressed = point.press.is_some() && normal > 0.0 || self.hold.lasts();
             pressed && norm(total) <= most * k
         };
         self.points.iter().filter(lies).map(|point| point.node)
@@ -319,11 +230,39 @@ impl<'a> Contact<'a> {
     }
 }
 
-/// m −= s n nᵀ.
-fn subtract(m: &mut Matrix3, s: f64, n: [f64; 3]) {
-    for i in 0..3 {
-        for j in 0..3 {
-            m[i][j] -= s * n[i] * n[j];
+impl Energy for Contact<'_> {
+    fn value(&self, now: &Configuration) -> f64 {
+        let energy = |point: &Point| {
+            let x = now.x[point.node];
+            let spring = |anchor| self.hold.spring(anchor, x, point.area, point.bound).energy();
+            let spring = point.anchor.map_or(0.0, spring);
+            if point.is_clear(x) || self.hold.lasts() && point.anchor.is_some() {
+                return spring;
+            }
+            let depth = self.mold.closest_point(x).distance.min(0.0);
+            spring + 0.5 * (self.stiffness * point.area) * depth * depth
+        };
+        self.points.iter().map(energy).sum()
+    }
+
+    fn linearize(&self, now: &Configuration, _: Stiffness, system: &mut System) {
+        for point in &self.points {
+            let node = point.node;
+            if system.skips(&[node]) {
+                continue;
+            }
+            if let Some(anchor) = point.anchor {
+                let spring = self.hold.spring(anchor, now.x[node], point.area, point.bound);
+                if let Some((gradient, k)) = self.hold.derivatives(&spring, anchor) {
+                    add(&mut system.gradient[node], 1.0, gradient);
+                    system.stiffen(node, &k);
+                }
+            }
+            if let Some(Press { distance, normal }) = point.press {
+                let k = self.stiffness * point.area;
+                add(&mut system.gradient[node], k * distance, normal);
+                system.stiffen(node, &scaled(k, &outer(normal, normal)));
+            }
         }
     }
 }

@@ -24,6 +24,8 @@ pub struct Gripper {
 /// What a mount does to the fabric that it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hold {
+    /// Energy of the spring (J); of fabric that slides, with the work against the slip force.
+    pub energy: f64,
     /// Force of the ply on the mount (N).
     pub force: [f64; 3],
     /// Its derivative to the place of the fabric (N/m); of fabric that slides, its symmetric positive part.
@@ -40,13 +42,15 @@ impl Gripper {
     pub fn hold(&self, pad: &Pad, at: [f64; 3]) -> Option<Hold> {
         let k = self.mount?;
         let spring = |off: [f64; 3]| [0, 1, 2].map(|n| k[n] * off[n]);
-        let force = spring(sub(sub(at, pad.target), pad.slip));
+        let off = sub(sub(at, pad.target), pad.slip);
+        let force = spring(off);
+        let energy = (0..3).map(|n| 0.5 * k[n] * off[n] * off[n]).sum();
         let stiffness = [[k[0], 0.0, 0.0], [0.0, k[1], 0.0], [0.0, 0.0, k[2]]];
         let normal = pad.normal();
         let load = along(force, -dot(force, normal), normal);
         let size = norm(load);
         let Some(most) = self.slip_force.filter(|most| size > *most) else {
-            return Some(Hold { force, stiffness, slides: [0.0; 3] });
+            return Some(Hold { energy, force, stiffness, slides: [0.0; 3] });
         };
         let way = load.map(|c| c / size);
         let aside = cross(normal, way);
@@ -56,6 +60,7 @@ impl Gripper {
         let stiffness = plus(&stiffness, -along_aside * (1.0 - most / size), &outer(aside, aside));
         let beyond = size - most;
         Some(Hold {
+            energy: energy - 0.5 * beyond * beyond / along_way,
             force: along(force, -beyond, way),
             stiffness,
             slides: way.map(|c| c * beyond / along_way),

@@ -1,31 +1,49 @@
 //! The whole ply as a sheet of yarn segments and cells, between and beyond the grippers.
 //!
 //! The catenaries are right along the lines between grippers and blind inside the cells, where a woven ply hangs lower
-//! and touches first. The sheet has nodes where the fabric's own lines cross; between neighbors along a line are yarn
-//! segments that stretch (`stretch`), three in a row bend (`bending`), and four around a cell shear (`shear`). Pads
-//! hold their nodes (`gripper`) until they let go (`release`, `event`), the mold carries what touches it and friction holds it (`contact`). Implicit
-//! time steps with real mass (`cloth`) follow the motion of the grippers (`drape`).
+//! and touches first. The sheet has nodes where the fabric's own lines cross (`fabric`). `docs/theory/sheet.md` has the
+//! equations:
+//!
+//! - The energy is a sum of terms with one interface (`energy`), each of them a file: yarn segments between neighbors along a
+//!   line stretch (`stretch`), three nodes in a row bend (`bending`), four around a cell shear (`shear`); the mold carries what
+//!   touches it (`contact`) and friction holds it (`friction`); pads are on mounts (`mount`); nodes have `weight` and `inertia`.
+//! - An implicit time step is solved by Newton's method in numbered stages (`newton`). Pads move with their grippers (`pads`),
+//!   nodes that lie are left out (`resting`), and what is left are the unknowns (`unknowns`) of a linear system (`system`,
+//!   [`cholesky`]). `cloth` has all of these together, in a `configuration`.
+//! - Time steps bring the ply from the flat to rest (`march`), until and after pads let go (`release`, [`event`]); `drape` sees
+//!   to what is seen of it in each step.
 //!
 //! What measures ask of it is handed over as a [`crate::state::PlyState`] (`hand_over`). Lengths in meters, forces in newtons, angles in radians.
 
 mod bending;
 pub mod cholesky;
 mod cloth;
+mod configuration;
 mod contact;
 mod drape;
+mod energy;
 pub mod event;
 pub mod fabric;
+mod friction;
 mod gripper;
 mod hand_over;
+mod inertia;
+mod march;
 mod model;
+mod mount;
+mod newton;
+mod pads;
 mod raised;
 mod release;
 mod report;
+mod resting;
 mod shear;
 mod state;
 mod stretch;
 mod system;
 mod tuning;
+mod unknowns;
+mod weight;
 
 pub use drape::{Status, drape, is_kept};
 pub use event::{Event, EventKind};

@@ -5,6 +5,8 @@
 //! τ tan(θ/2) for a turn alike and −τ cot(θ/2) for an opposite one. Where the whole matrix is not positive definite with
 //! all of it, only the positive parts are kept.
 
+use super::configuration::Configuration;
+use super::energy::{Energy, Stiffness};
 use super::fabric::Cell;
 use super::system::{Pair, System, add};
 use crate::geometry::matrix3::{Matrix3, outer, plus, scaled, transposed};
@@ -59,7 +61,7 @@ pub fn angle(nodes: [[f64; 3]; 4]) -> f64 {
 }
 
 impl Shear {
-    /// Of cells with a shear law.
+    /// The shear of cells with a shear law.
     pub fn new(cells: &[Cell], curve: ShearCurve, system: &System) -> Self {
         let element = |cell: &Cell| {
             let [a, b, c, d] = cell.nodes;
@@ -72,21 +74,22 @@ impl Shear {
         };
         Shear { cells: cells.iter().map(element).collect(), curve }
     }
+}
 
-    /// Energy (J).
-    pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        let one =
-            |e: &Element| e.area * self.curve.energy(MidLines::of(e.nodes.map(|n| x[n])).angle);
-        self.cells.iter().map(one).sum()
+impl Energy for Shear {
+    fn value(&self, now: &Configuration) -> f64 {
+        let energy =
+            |e: &Element| e.area * self.curve.energy(MidLines::of(e.nodes.map(|n| now.x[n])).angle);
+        self.cells.iter().map(energy).sum()
     }
 
-    /// Adds gradient and second derivative, all of it or its positive parts.
-    pub fn add(&self, x: &[[f64; 3]], whole: bool, system: &mut System) {
+    fn linearize(&self, now: &Configuration, stiffness: Stiffness, system: &mut System) {
+        let whole = stiffness == Stiffness::Whole;
         for e in &self.cells {
             if system.skips(&e.nodes) {
                 continue;
             }
-            let lines = MidLines::of(e.nodes.map(|n| x[n]));
+            let lines = MidLines::of(e.nodes.map(|n| now.x[n]));
             let (size, slope) = self.curve.force(lines.angle);
             let stress = if lines.angle < 0.0 { -size } else { size };
             let [u, v] = lines.unit;
@@ -102,6 +105,7 @@ impl Shear {
                 add(&mut system.gradient[node], force * across, by[1]);
             }
 
+            // turns of the mid-lines out of the plane of the cell, alike and opposite, eq. (19c)
             let normal = cross(u, v).map(|c| c / lines.cos);
             let turn = [0, 1].map(|n| normal.map(|c| c / lines.length[n]));
             // tan(θ/2) = cos γ / (1 + sin γ)
@@ -111,6 +115,7 @@ impl Shear {
                 [alike, opposite] = [alike.max(0.0), opposite.max(0.0)];
             }
             let [own, mixed] = [alike + opposite, alike - opposite].map(|sum| 0.5 * e.area * sum);
+            // second derivatives to the mid-lines
             let second = |i: usize, j: usize| {
                 let mut k = scaled(e.area * slope, &outer(by[i], by[j]));
                 k = plus(&k, if i == j { own } else { mixed }, &outer(turn[i], turn[j]));
@@ -124,6 +129,7 @@ impl Shear {
             };
             let (uu, uv, vv) = (second(0, 0), second(0, 1), second(1, 1));
             let vu = transposed(&uv);
+            // and from these to the nodes, with the signs of the nodes in the mid-lines
             let mix = |a: f64, b: f64, c: f64, d: f64| -> Matrix3 {
                 [0, 1, 2].map(|i| {
                     [0, 1, 2]

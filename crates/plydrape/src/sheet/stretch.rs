@@ -5,10 +5,12 @@
 //! the square of its turn, and the false tension of that error would freeze the iteration. Compression turns nothing where
 //! the whole matrix would not be positive definite with it.
 
+use super::configuration::Configuration;
+use super::energy::{Energy, Stiffness};
 use super::fabric::Segment;
 use super::system::{Pair, System, add};
 use crate::geometry::matrix3::{Matrix3, outer};
-use crate::geometry::vector::{dot, sub};
+use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::material::TensionLaw;
 
 /// The stretch of all segments.
@@ -22,15 +24,10 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// Of segments whose pairs of nodes stand in `system`.
+    /// The stretch of segments whose pairs of nodes are in `system`.
     pub fn new(segments: &[Segment], law: TensionLaw, system: &System) -> Self {
         let pairs = segments.iter().map(|s| system.pair(s.nodes)).collect();
         Stretch { segments: segments.to_vec(), pairs, law, predicted: vec![0.0; segments.len()] }
-    }
-
-    /// Energy (J).
-    pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        self.segments.iter().map(|s| self.law.tension(strain(s, x))[0] * s.length * s.width).sum()
     }
 
     /// Tension of a segment per width (N/m).
@@ -45,31 +42,56 @@ impl Stretch {
         }
     }
 
-    /// Predicts tensions after `share` of a linear step from `x`.
-    pub fn predict(&mut self, x: &[[f64; 3]], step: impl Fn(usize) -> [f64; 3], share: f64) {
+    /// Predicts tensions after a share of a linear step of the nodes (m) from `x`, eq. (19h).
+    pub fn predict(&mut self, x: &[[f64; 3]], step: &[[f64; 3]], share: f64) {
         for (s, predicted) in self.segments.iter().zip(&mut self.predicted) {
             let [a, b] = s.nodes.map(|node| node as usize);
             let (unit, length) = direction(x[a], x[b]);
             let [_, tension, slope] = self.law.tension(length / s.length - 1.0);
-            let longer = dot(unit, sub(step(b), step(a))) / s.length;
+            let longer = dot(unit, sub(step[b], step[a])) / s.length;
             let next = (tension + slope * longer) * s.width;
             *predicted += share * (next - *predicted);
         }
     }
 
-    /// Adds gradient and second derivative, all of it or its positive parts.
-    pub fn add(&self, x: &[[f64; 3]], whole: bool, system: &mut System) {
+    /// Largest turn of a segment (rad) in a linear step of the nodes (m) from `x`; `NaN` if a number is not finite.
+    pub fn largest_turn(&self, x: &[[f64; 3]], step: &[[f64; 3]]) -> f64 {
+        let mut most = 0.0_f64;
+        for s in &self.segments {
+            let [a, b] = s.nodes.map(|node| node as usize);
+            let (unit, _) = direction(x[a], x[b]);
+            let turn = norm(cross(unit, sub(step[b], step[a]))) / s.length;
+            if turn > most || turn.is_nan() {
+                most = turn;
+            }
+        }
+        most
+    }
+}
+
+impl Energy for Stretch {
+    fn value(&self, now: &Configuration) -> f64 {
+        let energy = |s: &Segment| self.law.tension(strain(s, &now.x))[0] * s.length * s.width;
+        self.segments.iter().map(energy).sum()
+    }
+
+    fn linearize(&self, now: &Configuration, stiffness: Stiffness, system: &mut System) {
         for ((s, pair), predicted) in self.segments.iter().zip(&self.pairs).zip(&self.predicted) {
             let [a, b] = s.nodes.map(|node| node as usize);
             if system.skips(&[a, b]) {
                 continue;
             }
-            let (unit, length) = direction(x[a], x[b]);
+            // the yarn pulls its ends together by its tension
+            let (unit, length) = direction(now.x[a], now.x[b]);
             let [_, tension, slope] = self.law.tension(length / s.length - 1.0);
             add(&mut system.gradient[b], tension * s.width, unit);
             add(&mut system.gradient[a], -tension * s.width, unit);
 
-            let turning = if whole { *predicted } else { predicted.max(0.0) } / length;
+            // along it the slope of the law, across it the predicted tension, eq. (19h)
+            let turning = match stiffness {
+                Stiffness::Whole => *predicted,
+                Stiffness::Positive => predicted.max(0.0),
+            } / length;
             let stretching = slope * s.width / s.length;
             let mut k: Matrix3 =
                 outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));

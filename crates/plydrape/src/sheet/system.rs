@@ -1,44 +1,29 @@
-//! The linear system of one Newton step: elements add to nodes, what carries a node decides which unknowns these are.
-//!
-//! A free node has a block of three unknowns. A node that a gripper holds follows the gripper. A node of a pad follows
-//! the pad's turn δθ by δx = δθ × a, a its arm, and the pad's shift where its mount is not rigid; a pad without a joint has no turn of
-//! its own.
+//! The linear system of one Newton step: terms of the energy add to nodes and to blocks of unknowns, and what carries a node
+//! ([`Carrier`]) decides which unknowns these are.
 
 use super::cholesky::{BlockMatrix, Cholesky, NotPositiveDefinite, Slot};
+use super::configuration::Configuration;
+use super::energy::Stiffness;
+use super::unknowns::Carrier;
 use crate::geometry::matrix3::{
-    Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
+    IDENTITY, Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
 };
-use crate::geometry::vector::{along, cross, dot};
+use crate::geometry::vector::{along, cross, dot, sub};
 
-/// What carries a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Carrier {
-    /// Its own unknowns.
-    Free {
-        /// Their block.
-        block: u32,
-    },
-    /// A gripper's point.
-    Held {
-        /// The gripper.
-        gripper: u32,
-    },
-    /// A gripper's pad.
-    Pad {
-        /// The gripper.
-        gripper: u32,
-        /// Block of the pad's turn; none if it has no joint.
-        turn: Option<u32>,
-        /// Block of the pad's shift; none if its mount is rigid.
-        shift: Option<u32>,
-    },
-}
-
-/// A pair of nodes that an element couples, and where two free nodes stand in the matrix.
+/// A pair of nodes that an element couples, and where two free nodes are in the matrix.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
     nodes: [u32; 2],
     slot: Option<Slot>,
+}
+
+/// The linear step of a pad.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PadStep {
+    /// Turn of the pad (rad).
+    pub turn: [f64; 3],
+    /// Shift of the pad's middle (m).
+    pub shift: [f64; 3],
 }
 
 /// The linear system.
@@ -49,36 +34,39 @@ pub struct System {
     cholesky: Cholesky,
     /// Gradient of the energy at each node (N).
     pub gradient: Vec<[f64; 3]>,
-    /// How far grippers move each node in the step that is predicted (m); nothing in all others.
+    /// Gradient of the energy to blocks of unknowns themselves, as pads are.
+    block_gradient: Vec<(u32, [f64; 3])>,
+    /// How far grippers move each node in the next linear step (m); zero once it is taken.
     pub moved: Vec<[f64; 3]>,
-    predicts: bool,
+    /// Whether grippers move any node in the next linear step.
+    moves: bool,
     /// What the movement of held nodes adds to the gradient of each node (N).
     pulled: Vec<[f64; 3]>,
+    /// Arm of each node of a pad from the pad's middle (m).
     arms: Vec<[f64; 3]>,
-    /// Nodes that stay where they are, and whether terms of such nodes alone are left out of the sums.
+    /// Nodes that stay where they are.
     still: Vec<bool>,
-    skips: bool,
     /// Whether each block of unknowns is that of a node that stays where it is.
     out: Vec<bool>,
     /// Right-hand side, what pulls at the unknowns.
     right: Vec<f64>,
-    step: Vec<f64>,
+    /// Newton's step of the unknowns.
+    solution: Vec<f64>,
+    /// Newton's step of each node (m).
+    pub step: Vec<[f64; 3]>,
+    /// Newton's step of each pad.
+    pub pad_steps: Vec<PadStep>,
 }
 
 impl System {
-    /// For nodes at fabric places (m) with their carriers, the blocks of unknowns, and all pairs of nodes that elements
-    /// couple.
-    pub fn new(
-        places: &[[f64; 2]],
-        carriers: Vec<Carrier>,
-        block_places: &[[f64; 2]],
-        pairs: impl Iterator<Item = [u32; 2]>,
-    ) -> Self {
-        let unknowns = |node: u32| blocks(carriers[node as usize]);
+    /// The system of nodes with their carriers, of a number of blocks of unknowns and of pads, where elements couple pairs of
+    /// nodes.
+    pub fn new(carriers: Vec<Carrier>, blocks: usize, pads: usize, pairs: &[[u32; 2]]) -> Self {
+        let unknowns = |node: u32| carriers[node as usize].blocks();
         let mut coupled = Vec::new();
         for [a, b] in pairs {
-            for i in unknowns(a).into_iter().flatten() {
-                coupled.extend(unknowns(b).into_iter().flatten().map(|j| [i, j]));
+            for i in unknowns(*a).into_iter().flatten() {
+                coupled.extend(unknowns(*b).into_iter().flatten().map(|j| [i, j]));
             }
         }
         for carrier in &carriers {
@@ -87,41 +75,48 @@ impl System {
             }
         }
         coupled.retain(|[i, j]| i != j);
-        let matrix = BlockMatrix::new(block_places.len(), coupled);
-        let cholesky = Cholesky::new(&matrix);
-        let nodes = places.len();
+        let matrix = BlockMatrix::new(blocks, coupled);
+        let nodes = carriers.len();
+        let zero = vec![[0.0; 3]; nodes];
         System {
             carriers,
-            cholesky,
-            gradient: vec![[0.0; 3]; nodes],
-            moved: vec![[0.0; 3]; nodes],
-            predicts: false,
-            pulled: vec![[0.0; 3]; nodes],
-            arms: vec![[0.0; 3]; nodes],
+            cholesky: Cholesky::new(&matrix),
+            gradient: zero.clone(),
+            block_gradient: Vec::new(),
+            moved: zero.clone(),
+            moves: false,
+            pulled: zero.clone(),
+            arms: zero.clone(),
             still: vec![false; nodes],
-            skips: false,
-            out: vec![false; block_places.len()],
-            right: vec![0.0; 3 * block_places.len()],
-            step: vec![0.0; 3 * block_places.len()],
+            out: vec![false; blocks],
+            right: vec![0.0; 3 * blocks],
+            solution: vec![0.0; 3 * blocks],
+            step: zero,
+            pad_steps: vec![PadStep::default(); pads],
             matrix,
         }
     }
 
-    /// Decides which free nodes stay where they are, from now on.
+    /// Decides which free nodes are no unknowns, until [`System::free_all`].
     pub fn keep_still(&mut self, still: &[bool]) {
         for (node, carrier) in self.carriers.iter().enumerate() {
             if let Carrier::Free { block } = carrier {
                 self.still[node] = still[node];
-                self.out[*block as usize] = self.still[node];
+                self.out[*block as usize] = still[node];
             }
         }
         let out = &self.out;
         self.cholesky.leave_out(|block| out[block]);
     }
 
+    /// Makes the terms of all nodes count again.
+    pub fn free_all(&mut self) {
+        self.still.fill(false);
+    }
+
     /// Whether a term of these nodes is left out, because all of them stay where they are.
     pub fn skips(&self, nodes: &[usize]) -> bool {
-        self.skips && nodes.iter().all(|node| self.still[*node])
+        nodes.iter().all(|node| self.still[*node])
     }
 
     /// A pair of nodes for [`System::couple`].
@@ -140,18 +135,17 @@ impl System {
         self.carriers[node]
     }
 
-    /// Begins a system. `arm` gives a pad node's arm from its gripper (m); with `predicts`, the movement of held nodes
-    /// ([`System::moved`]) adds to the gradient of their neighbors; with `skips`, terms of nodes alone that stay where they are
-    /// are left out.
-    pub fn begin(&mut self, predicts: bool, skips: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
+    /// Begins a system in a configuration: nothing is added yet. Where grippers move nodes in the next step
+    /// ([`System::moved`]), this adds to the gradient of their neighbors.
+    pub fn begin(&mut self, now: &Configuration) {
         self.matrix.clear();
         self.gradient.fill([0.0; 3]);
+        self.block_gradient.clear();
         self.pulled.fill([0.0; 3]);
-        self.predicts = predicts;
-        self.skips = skips;
+        self.moves = self.moved.iter().any(|moved| *moved != [0.0; 3]);
         for (node, carrier) in self.carriers.iter().enumerate() {
             if let Carrier::Pad { gripper, .. } = carrier {
-                self.arms[node] = arm(node, *gripper);
+                self.arms[node] = sub(now.x[node], now.pads[*gripper as usize].position);
             }
         }
     }
@@ -164,13 +158,13 @@ impl System {
             return;
         }
         let [a, b] = pair.nodes.map(|node| node as usize);
-        if self.predicts {
+        if self.moves {
             let (forth, back) = (times(k, self.moved[b]), transposed_times(k, self.moved[a]));
             add(&mut self.pulled[a], 1.0, forth);
             add(&mut self.pulled[b], 1.0, back);
         }
-        for (side, i) in blocks(self.carriers[a]).into_iter().enumerate() {
-            for (other, j) in blocks(self.carriers[b]).into_iter().enumerate() {
+        for (side, i) in self.carriers[a].blocks().into_iter().enumerate() {
+            for (other, j) in self.carriers[b].blocks().into_iter().enumerate() {
                 let (Some(i), Some(j)) = (i, j) else { continue };
                 let mut block = *k;
                 if self.turns(a, side) {
@@ -190,11 +184,11 @@ impl System {
         }
     }
 
-    /// As [`System::couple`] with `s` times the identity.
+    /// Adds to two different nodes, as [`System::couple`], `s` times the identity.
     pub fn couple_scalar(&mut self, pair: Pair, s: f64) {
         match pair.slot {
             Some(slot) => self.matrix.add_scalar(slot, s),
-            None => self.couple(pair, &[[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]]),
+            None => self.couple(pair, &scaled(s, &IDENTITY)),
         }
     }
 
@@ -205,7 +199,7 @@ impl System {
             self.matrix.add_diagonal(block as usize, k);
             return;
         }
-        if self.predicts {
+        if self.moves {
             let forth = times(k, self.moved[node]);
             add(&mut self.pulled[node], 1.0, forth);
         }
@@ -226,19 +220,20 @@ impl System {
         }
     }
 
-    /// As [`System::stiffen`] with `s` times the identity.
+    /// Adds to one node, as [`System::stiffen`], `s` times the identity.
     pub fn stiffen_scalar(&mut self, node: usize, s: f64) {
-        self.stiffen(node, &[[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]]);
+        self.stiffen(node, &scaled(s, &IDENTITY));
     }
 
-    /// Adds a second derivative to a block of unknowns and a gradient to its right-hand side later.
-    pub fn stiffen_block(&mut self, block: usize, k: &Matrix3) {
-        self.matrix.add_diagonal(block, k);
+    /// Adds gradient and second derivative of an energy to a block of unknowns itself: to a pad's turn (N·m) or shift (N).
+    pub fn add_to_block(&mut self, block: u32, gradient: [f64; 3], k: &Matrix3) {
+        self.block_gradient.push((block, gradient));
+        self.matrix.add_diagonal(block as usize, k);
     }
 
-    /// Ends the assembly. `own` is what acts on blocks of unknowns themselves. How the forces on a pad act on its turn by
-    /// their arms is added here, all of it (`whole`) or its positive parts.
-    pub fn end(&mut self, own: &[(u32, [f64; 3])], whole: bool) {
+    /// Ends the assembly: the gradient at nodes becomes that of the unknowns. How the forces on a pad act on its turn by their
+    /// arms is added here, the whole second derivative or its positive part.
+    pub fn end(&mut self, stiffness: Stiffness) {
         self.right.fill(0.0);
         for (node, carrier) in self.carriers.iter().enumerate() {
             let force = self.gradient[node];
@@ -250,7 +245,7 @@ impl System {
                     let arm = self.arms[node];
                     if let Some(turn) = turn {
                         add_at(&mut self.right, turn, cross(arm, g));
-                        self.matrix.add_diagonal(turn as usize, &lever(force, arm, whole));
+                        self.matrix.add_diagonal(turn as usize, &lever(force, arm, stiffness));
                     }
                     if let Some(shift) = shift {
                         add_at(&mut self.right, shift, g);
@@ -258,7 +253,7 @@ impl System {
                 }
             }
         }
-        for (block, g) in own {
+        for (block, g) in &self.block_gradient {
             add_at(&mut self.right, *block, *g);
         }
         for value in &mut self.right {
@@ -274,33 +269,37 @@ impl System {
         self.cholesky.factorize(&self.matrix)
     }
 
-    /// Solves for Newton's step with the matrix that was factorized last.
+    /// Solves for Newton's step of all nodes and pads with the matrix that was factorized last.
     pub fn solve(&mut self) {
-        self.step.copy_from_slice(&self.right);
-        self.cholesky.solve(&mut self.step);
+        self.solution.copy_from_slice(&self.right);
+        self.cholesky.solve(&mut self.solution);
+        self.spread();
     }
 
-    /// The matrix times a direction at each free node.
-    #[cfg(test)]
-    pub fn multiply(&self, direction: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let block = |node: usize| match self.carriers[node] {
-            Carrier::Free { block } => Some(3 * block as usize),
-            _ => None,
-        };
-        let (mut x, mut y) = (vec![0.0; self.step.len()], vec![0.0; self.step.len()]);
-        for (node, d) in direction.iter().enumerate() {
-            if let Some(at) = block(node) {
-                x[at..at + 3].copy_from_slice(d);
-            }
+    /// Spreads Newton's step of the unknowns to the nodes and pads that they carry.
+    fn spread(&mut self) {
+        for node in 0..self.carriers.len() {
+            self.step[node] = match self.carriers[node] {
+                Carrier::Free { block } => self.block_step(block),
+                Carrier::Held { .. } => self.moved[node],
+                Carrier::Pad { gripper, turn, shift } => {
+                    let shift = shift.map_or([0.0; 3], |shift| self.block_step(shift));
+                    let moved = along(self.moved[node], 1.0, shift);
+                    // the arms of a pad without a joint have swung with the frame, its middle has not
+                    let (turn, middle) = match turn {
+                        Some(turn) => (self.block_step(turn), moved),
+                        None => ([0.0; 3], shift),
+                    };
+                    self.pad_steps[gripper as usize] = PadStep { turn, shift: middle };
+                    sub(moved, cross(self.arms[node], turn))
+                }
+            };
         }
-        self.matrix.multiply(&x, &mut y);
-        let of = |node| block(node).map_or([0.0; 3], |at| [y[at], y[at + 1], y[at + 2]]);
-        (0..direction.len()).map(of).collect()
     }
 
     /// Newton's step of a block of unknowns.
-    pub fn step(&self, block: u32) -> [f64; 3] {
-        [0, 1, 2].map(|n| self.step[3 * block as usize + n])
+    fn block_step(&self, block: u32) -> [f64; 3] {
+        [0, 1, 2].map(|n| self.solution[3 * block as usize + n])
     }
 
     /// Whether a block of a node's carrier is a pad's turn.
@@ -309,24 +308,15 @@ impl System {
     }
 }
 
-/// The blocks that carry a node: its own, or a pad's turn and shift.
-fn blocks(carrier: Carrier) -> [Option<u32>; 2] {
-    match carrier {
-        Carrier::Free { block } => [Some(block), None],
-        Carrier::Held { .. } => [None, None],
-        Carrier::Pad { turn, shift, .. } => [turn, shift],
-    }
-}
-
 /// Second derivative of the work of a force −g on an arm a over the turn of the arm: ½ (g aᵀ + a gᵀ) − (g·a) I. Its
 /// positive part is that of a force that pulls along the arm.
-fn lever(g: [f64; 3], arm: [f64; 3], whole: bool) -> Matrix3 {
+fn lever(g: [f64; 3], arm: [f64; 3], stiffness: Stiffness) -> Matrix3 {
     let (reach, square) = (-dot(g, arm), dot(arm, arm));
     let pulls = reach > 0.0 && square > 0.0;
-    let mut k = match whole {
-        true => plus(&scaled(0.5, &outer(g, arm)), 0.5, &outer(arm, g)),
-        false if pulls => scaled(-reach / square, &outer(arm, arm)),
-        false => return [[0.0; 3]; 3],
+    let mut k = match stiffness {
+        Stiffness::Whole => plus(&scaled(0.5, &outer(g, arm)), 0.5, &outer(arm, g)),
+        Stiffness::Positive if pulls => scaled(-reach / square, &outer(arm, arm)),
+        Stiffness::Positive => return [[0.0; 3]; 3],
     };
     for n in 0..3 {
         k[n][n] += reach;
@@ -344,5 +334,38 @@ pub fn add(a: &mut [f64; 3], s: f64, b: [f64; 3]) {
 fn add_at(step: &mut [f64], block: u32, g: [f64; 3]) {
     for n in 0..3 {
         step[3 * block as usize + n] += g[n];
+    }
+}
+
+/// What tests of derivatives look at.
+#[cfg(test)]
+impl System {
+    /// The gradient to all unknowns.
+    pub fn gradient_of_unknowns(&self) -> Vec<f64> {
+        self.right.iter().map(|pull| -pull).collect()
+    }
+
+    /// The matrix times a direction of all unknowns.
+    pub fn multiply(&self, direction: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; direction.len()];
+        self.matrix.multiply(direction, &mut product);
+        product
+    }
+
+    /// Makes a direction of all unknowns the linear step.
+    pub fn go_along(&mut self, direction: &[f64]) {
+        self.solution.copy_from_slice(direction);
+        self.spread();
+    }
+
+    /// Whether the matrix has no negative eigenvalue beyond rounding, as a share of its largest entry on the diagonal.
+    pub fn is_positive(&mut self, rounding: f64) -> bool {
+        let blocks = self.out.len();
+        let unit = |n: usize| (0..3 * blocks).map(|k| f64::from(k == n)).collect::<Vec<f64>>();
+        let diagonal = (0..3 * blocks).map(|n| self.multiply(&unit(n))[n]);
+        let shift = rounding * diagonal.fold(f64::MIN_POSITIVE, f64::max);
+        let shift = scaled(shift, &IDENTITY);
+        (0..blocks).for_each(|block| self.matrix.add_diagonal(block, &shift));
+        self.factorize().is_ok()
     }
 }

@@ -8,6 +8,8 @@ use crate::measure::{Judge, Limits, Name};
 use crate::mold::distance;
 use crate::motion::Motion;
 use crate::ply::{Grid, GripperId, Ply};
+use crate::sheet::configuration::Configuration;
+use crate::sheet::energy::Energy;
 use crate::sheet::event::{at_these_times, holds};
 use crate::sheet::{Drape, EventKind, HandOver, State, Status, drape};
 use crate::state::PlyState;
@@ -231,7 +233,7 @@ fn a_strip_whose_end_is_let_go_hangs_as_a_cantilever() {
         rest(&mut cloth, &held);
         let before = cloth.energy();
         cloth.release(&[2]);
-        assert_eq!(cloth.holds(), [true, true, false]);
+        assert_eq!(cloth.pads.holds(), [true, true, false]);
         rest(&mut cloth, &held);
         assert!(cloth.energy() < before, "{} {before}", cloth.energy());
         let tip = cloth.now.x[spacings + 1];
@@ -281,11 +283,11 @@ fn the_mold_bears_the_weight_of_a_ply_without_pads() {
         let down: Vec<[f64; 3]> = at(0.0).collect();
         bring(&mut cloth, &down, 4, 1.0);
         let reaction = |cloth: &Cloth| {
-            let contact = cloth.contact.as_ref().expect("a mold");
+            let contact = cloth.energies.contact.as_ref().expect("a mold");
             let shifted = |way: f64| {
                 let x: Vec<[f64; 3]> =
                     cloth.now.x.iter().map(|[x, y, z]| [*x, *y, z + way]).collect();
-                contact.energy(&x)
+                contact.value(&Configuration::at_rest(x, Vec::new()))
             };
             let way = 1e-11;
             -(shifted(way) - shifted(-way)) / (2.0 * way)

@@ -1,0 +1,103 @@
+//! The energy of the ply as a sum of terms that all have one interface, eq. (19) and (19g) of `docs/theory/sheet.md`.
+
+use super::bending::Bending;
+use super::configuration::Configuration;
+use super::contact::Contact;
+use super::inertia::Inertia;
+use super::mount::Mounts;
+use super::pads::Pads;
+use super::shear::Shear;
+use super::stretch::Stretch;
+use super::system::System;
+use super::weight::Weight;
+use super::{Sheet, Tuning};
+
+/// How much of the stiffness of an energy, its second derivative, is added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stiffness {
+    /// All of it, with which Newton's iteration converges fastest; the matrix may not be positive definite.
+    Whole,
+    /// The positive part of each element, a positive semi-definite matrix.
+    Positive,
+}
+
+/// A term of the energy.
+pub trait Energy {
+    /// The value in a configuration (J).
+    fn value(&self, now: &Configuration) -> f64;
+
+    /// Adds gradient (N) and stiffness (N/m) to the linear system. The two share their geometry, so they are found together.
+    /// Elements whose nodes all stay where they are ([`System::skips`]) may be left out.
+    fn linearize(&self, now: &Configuration, stiffness: Stiffness, system: &mut System);
+}
+
+/// What a motion of the ply does, which decides which terms act and which nodes are unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// The ply is hung in the air: there is no contact.
+    Hang,
+    /// The grippers move: nodes that lie among others are left out of the linear systems.
+    Follow,
+    /// The grippers stand until the ply is at rest: all nodes are unknowns.
+    Rest,
+}
+
+/// All terms of the energy of a ply.
+#[derive(Debug)]
+pub struct Energies<'a> {
+    /// Inertia over the time step.
+    pub inertia: Inertia,
+    /// Weight.
+    pub weight: Weight,
+    /// Stretch of the yarns.
+    pub stretch: Stretch,
+    /// Shear of the cells.
+    pub shear: Shear,
+    /// Bending of the lines.
+    pub bending: Bending,
+    /// Contact with the mold, and friction there; `None` without a mold.
+    pub contact: Option<Contact<'a>>,
+    /// Mounts and tilt limits of the pads.
+    pub mounts: Mounts<'a>,
+}
+
+impl<'a> Energies<'a> {
+    /// The terms of a sheet that is held by pads, whose unknowns are those of `system`.
+    pub fn new(sheet: &'a Sheet, tuning: &Tuning, pads: &Pads, system: &System) -> Self {
+        let fabric = &sheet.fabric;
+        let masses: Vec<f64> = fabric.areas.iter().map(|area| area * sheet.areal_mass).collect();
+        Energies {
+            inertia: Inertia::new(&masses),
+            weight: Weight::new(masses, sheet.gravity),
+            stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), system),
+            shear: Shear::new(&fabric.cells, sheet.shear.clone(), system),
+            bending: Bending::new(&fabric.bends, sheet.rigidity, &sheet.moment, system),
+            contact: sheet.mold.as_ref().map(|mold| Contact::new(sheet, mold, tuning, system)),
+            mounts: Mounts::new(sheet, tuning, pads, system),
+        }
+    }
+
+    /// The terms of the ply's energy that act in a phase, eq. (19): all but inertia.
+    pub fn potential(&self, phase: Phase) -> impl Iterator<Item = &dyn Energy> {
+        let Energies { weight, stretch, shear, bending, mounts, .. } = self;
+        let elastic: [&dyn Energy; 4] = [weight, stretch, shear, bending];
+        let contact = self.contact.as_ref().filter(|_| phase != Phase::Hang);
+        let contact = contact.map(|contact| contact as &dyn Energy);
+        elastic.into_iter().chain(contact).chain([mounts as &dyn Energy])
+    }
+
+    /// The terms of the incremental potential that act in a phase, eq. (19g).
+    pub fn incremental(&self, phase: Phase) -> impl Iterator<Item = &dyn Energy> {
+        [&self.inertia as &dyn Energy].into_iter().chain(self.potential(phase))
+    }
+
+    /// The contact with the mold, if it acts in a phase.
+    pub fn acting_contact(&self, phase: Phase) -> Option<&Contact<'a>> {
+        self.contact.as_ref().filter(|_| phase != Phase::Hang)
+    }
+
+    /// The contact with the mold, if it acts in a phase, to change.
+    pub fn acting_contact_mut(&mut self, phase: Phase) -> Option<&mut Contact<'a>> {
+        self.contact.as_mut().filter(|_| phase != Phase::Hang)
+    }
+}
