@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterator
 from contextlib import suppress
@@ -25,7 +26,7 @@ DEFAULTS = [
     re.compile(r"\((?P<default>\"[\w-]+\"), the default\)"),
 ]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?toml\n(.*?)^```", re.M | re.S)
-# Beyond this the program refuses a value; the schema does not say so, and a test compares both.
+# Beyond this the program refuses a value, where the schema does not say it itself as of limits; a test compares all.
 RANGES = {
     "contact.friction": "≥ 0",
     "contact.tolerance": "> 0",
@@ -35,34 +36,7 @@ RANGES = {
     "grippers.max_tilt": "> 0, < 90 deg",
     "grippers.pad_radius": "≥ 0",
     "grippers.slip_force": "> 0",
-    "limits.acceleration": "> 0",
-    "limits.bridging": "≥ 0",
-    "limits.clearance": "> 0",
-    "limits.contact_share": "0 to 1",
-    "limits.duration": "> 0",
-    "limits.fibre_angle": "> 0, < 90 deg",
-    "limits.force": "> 0",
     "limits.grip_safety": "≥ 1",
-    "limits.gripper_distance": "> 0",
-    "limits.gripper_force": "> 0",
-    "limits.gripper_load": "> 0",
-    "limits.gripper_pull": "> 0",
-    "limits.height": "≥ 0",
-    "limits.jerk": "> 0",
-    "limits.landing_gripper": "≥ 0",
-    "limits.landing_shear": "> 0, < 90 deg",
-    "limits.out_of_plane": "> 0, < 90 deg",
-    "limits.overstretch": "0 to 1",
-    "limits.penetration": "> 0",
-    "limits.position": "≥ 0",
-    "limits.shear": "> 0, < 90 deg",
-    "limits.slack_angle": "> 0, < 90 deg",
-    "limits.slack_ratio": "0 to 1",
-    "limits.speed": "> 0",
-    "limits.strain": "0 to 1",
-    "limits.tilt": "> 0, < 90 deg",
-    "limits.tilt_rate": "> 0",
-    "limits.wrinkle": "≥ 0",
     "model.axial_stiffness": "> 0",
     "model.gravity": "> 0",
     "mold.radius": "> 0",
@@ -90,17 +64,7 @@ LIKELY = {
     "grippers.pad_radius": '"15 mm"',
     "grippers.slip_force": '"6 N"',
     "grippers.positions": '"start.csv"',
-    "limits.duration": '"30 s"',
-    "limits.force": '"20 N"',
-    "limits.gripper_distance": '"80 mm"',
-    "limits.gripper_force": '"15 N"',
-    "limits.gripper_pull": '"4 N"',
-    "limits.penetration": '"0.5 mm"',
-    "limits.shear": '"40 deg"',
-    "limits.slack_angle": '"2.6 deg"',
-    "limits.tilt": '"35 deg"',
     "limits.workspace": '[["-1 m", "1 m"], ["-1 m", "1 m"], [0, "0.8 m"]]',
-    "limits.wrinkle": '"0.5 mm"',
     "mold.normal": "[0, 0.1, 1]",
     "mold.ring_radius": '"1.2 m"',
     "mold.tube_radius": '"0.3 m"',
@@ -203,7 +167,7 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
         shown = f"`{key} = {example}`" if example else ""
         meaning += choices(schema, of)
         units, ranges = kinds(schema, of)
-        if limits := RANGES.get(f"{path}.{key}"):
+        if limits := RANGES.get(f"{path}.{key}") or bounds(of):
             ranges = [text if WORDS.search(text) else f"{text}, {limits}" for text in ranges]
         row = [f"`{key}`", meaning, ", ".join(units), default, " or ".join(ranges), shown]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") or "–" for cell in row) + " |")
@@ -268,8 +232,7 @@ def kind(schema: Json, option: Json) -> tuple[str, str]:
     match option.get("type"):
         case "number":
             quantity, _, unit = about.partition(" in ")
-            least = f" ≥ {option['minimum']}" if "minimum" in option else ""
-            return ("1" if about == "a ratio" else unit), article(quantity or "number") + least
+            return ("1" if about == "a ratio" else unit), article(quantity or "number")
         case "integer":
             return "", "integer" + (f" ≥ {option['minimum']}" if "minimum" in option else "")
         case "string":
@@ -294,6 +257,27 @@ def kind(schema: Json, option: Json) -> tuple[str, str]:
     return "", ""
 
 
+def bounds(key: Json) -> str:
+    """The range of a number that the schema gives: > 0, < 90 deg."""
+    number = next((option for option in key.get("anyOf", []) if option.get("type") == "number"), {})
+    least, most = number.get("minimum"), number.get("maximum")
+    if (least, most) == (0, 1):
+        return "0 to 1"
+    if most_open := number.get("exclusiveMaximum"):
+        return f"> 0, < {math.degrees(most_open):g} deg"
+    # what is far below anything that somebody would write is zero
+    if "exclusiveMinimum" in number or (least or 0) > 0:
+        return "> 0"
+    return "≥ 0" if least == 0 else ""
+
+
+def ranges() -> dict[str, str]:
+    """The range of every key that has one."""
+    schema = json.loads((DOCS / "scene.schema.json").read_text(encoding="utf-8"))
+    limits = schema["$defs"]["Limits"]["properties"]
+    return RANGES | {f"limits.{key}": text for key, of in limits.items() if (text := bounds(of))}
+
+
 def article(text: str) -> str:
     """A quantity without its article."""
     return re.sub(r"^an? ", "", text)
@@ -303,6 +287,9 @@ def likely(schema: Json, path: str, key: Json, default: str) -> str:
     """A value that somebody would write: one of the list above, the default, a word."""
     if path in LIKELY:
         return LIKELY[path]
+    if quantity(schema, key) and key.get("examples"):
+        value = key["examples"][0]
+        return str(value) if isinstance(value, float) else shown(value)
     if re.match(r"[\d\"]", default):
         return default if re.fullmatch(r'[\d.]+|".*"', default) else f'"{default}"'
     return invented(schema, key) if not quantity(schema, key) else ""

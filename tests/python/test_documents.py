@@ -127,7 +127,7 @@ BEYOND: dict[str, list[tuple[float | str, str]]] = {
 }
 
 
-@pytest.mark.parametrize(("path", "limits"), made("keys").RANGES.items())
+@pytest.mark.parametrize(("path", "limits"), made("keys").ranges().items())
 def test_what_is_beyond_the_range_of_a_key_is_refused(path: str, limits: str) -> None:
     """With the words that say so."""
     table, key = path.split(".")

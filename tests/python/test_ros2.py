@@ -28,13 +28,14 @@ FRAMES = "tf2_msgs/msg/TFMessage"
 OUTPUTS = "control_msgs/msg/DynamicInterfaceGroupValues"
 TOPICS = {
     "/plydrape/trajectory": TRAJECTORY,
+    "/plydrape/loads": TRAJECTORY,
     "/plydrape/vacuum": OUTPUTS,
     "/tf": FRAMES,
     "/tf_static": FRAMES,
     "/plydrape/mold": MARKERS,
     "/plydrape/ply": MARKERS,
 }
-LATCHED = ["/plydrape/trajectory", "/plydrape/mold", "/tf_static"]
+LATCHED = ["/plydrape/trajectory", "/plydrape/loads", "/plydrape/mold", "/tf_static"]
 # Of Jazzy and later; rosbags does not have it.
 OUTPUT_MESSAGES = {
     OUTPUTS: """
@@ -112,7 +113,7 @@ def either(request: pytest.FixtureRequest) -> Exported:
 
 @pytest.fixture(scope="module")
 def mounted(tmp_path_factory: pytest.TempPathFactory) -> Exported:
-    """A drape of grippers on mounts, whose loads are known."""
+    """A drape of grippers on mounts, which have a preload besides."""
     home = tmp_path_factory.mktemp("mounted")
     result = made("simulate", home, SCENE.replace("[target]", MOUNTS + "[target]"))
     return Exported(result, result.export("ros2"))
@@ -246,7 +247,7 @@ def test_mcap_ros2_support_decodes_the_same_by_the_schemas_in_the_bag(either: Ex
                 assert spots == [g["position"] for g in step["grippers"]]
     frames = seen.pop("/tf")
     assert 2 <= frames <= len(table(either)[0])
-    once = dict.fromkeys(["/plydrape/trajectory", "/plydrape/mold", "/tf_static"], 1)
+    once = dict.fromkeys(LATCHED, 1)
     assert seen == {**once, "/plydrape/vacuum": 2, "/plydrape/ply": steps}
 
 

@@ -133,7 +133,7 @@ async function agrees(page, name) {
     assert.ok(away <= FORCES, `${name}, catenary ${n}: ${force} N, the program ${native[k][1]} N`);
     most = Math.max(most, away);
   });
-  for (const { key, values } of data.measures) {
+  for (const { key, values } of data.drape.measures) {
     const expected = step.measures[key]?.value;
     if (expected == null || values[0] === null || key === "contact_share") continue;
     const scale = Math.abs(expected) > 0 ? values[0] / expected : 1;

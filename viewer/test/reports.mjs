@@ -22,20 +22,28 @@ export function findReports() {
 const LINES = `
 import json, sys, plydrape
 result = plydrape.Result.read(sys.argv[1])
+numbers = json.loads(sys.argv[2])
+grippers = {number: result.positions[number - 1].tolist() for number in numbers}
+drapes = [drape for drape in (result, result.also) if drape is not None]
 nu, nv = result.grid
 edges = [((i, j), (i + 1, j)) for j in range(nv) for i in range(nu - 1)]
 edges += [((i, j), (i, j + 1)) for j in range(nv - 1) for i in range(nu)]
-steps = {}
-for number in json.loads(sys.argv[2]):
-    lines = [line.tolist() for line in result.lines(number)]
-    positions = result.positions[number - 1].tolist()
-    steps[number] = {"positions": positions, "lines": lines, "edges": edges}
+steps = None
+for drape in drapes:
+    if drape.model == "catenaries":
+        steps = {
+            number: {
+                "positions": drape.positions[number - 1].tolist(),
+                "lines": [line.tolist() for line in drape.lines(number)],
+                "edges": edges,
+            }
+            for number in numbers
+        }
 sheet = None
 if result.sheet is not None:
     kept = result.sheet.steps.tolist()
     last = len(kept) - 1
     sheet = {
-        "limits": result.summary["sheet"]["limits"],
         "landing": result.sheet.landing_step.tolist(),
         "states": {
             kept[k]: {
@@ -48,14 +56,26 @@ if result.sheet is not None:
             for k in {0, last // 2, last}
         },
     }
-print(json.dumps({"limits": result.summary["limits"], "steps": steps, "sheet": sheet}))
+print(
+    json.dumps(
+        {
+            "model": result.model,
+            "also": None if result.also is None else result.also.model,
+            "accepted": result.accepted,
+            "limits": result.summary["limits"],
+            "grippers": grippers,
+            "steps": steps,
+            "sheet": sheet,
+        }
+    )
+)
 `;
 const results = new Map();
 
 /**
- * What the Python package reads from the result that a page was made from: its limits, and of some steps the
- * positions of the grippers, the curves of all catenaries and the ends of the edges, which come first; of a sheet its
- * limits and three states; or null (a made-up page has none).
+ * What the Python package reads from the result that a page was made from: the model that decides, the one beside it, the verdict and
+ * the limits, and of some steps the positions of the grippers; of catenaries the curves of all of them in these steps, and the ends of the
+ * edges, which come first; of a sheet three states; or null (a made-up page has none).
  */
 export function readResult({ folder }, steps) {
   const file = join(folder, "result.json");

@@ -6,15 +6,15 @@
 
 use divan::{Bencher, black_box};
 use plydrape::catenary::{EndCondition, Profile, Span};
-use plydrape::draping::simulate;
 use plydrape::equilibrium::Solver;
-use plydrape::mold::{Face, Mold, Pose, Sphere, vector};
-use plydrape::ply::Grid;
-use plydrape::layup::{SlopeRule};
+use plydrape::geometry::vector;
+use plydrape::layup::{Model, SlopeRule};
+use plydrape::mold::{Face, Mold, Pose, Sphere};
 use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
+use plydrape::outcome::{Drape, DrapeWatch, Status, drape};
+use plydrape::ply::Grid;
+use plydrape::scene::Scene;
 use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
-use plydrape::sheet::{self, Tuning};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -34,6 +34,12 @@ fn example() -> Scene {
     shipped("01_flat_sheared_mold")
 }
 
+/// A whole drape with all measures by a model.
+fn followed(scene: &Scene, model: Model) -> Drape {
+    let see = &mut |_: usize, _: Option<&_>| ControlFlow::Continue(());
+    drape(scene, model, &mut DrapeWatch { stop: &|| false, see }).expect("the model can drape it")
+}
+
 /// The example's ply over a larger array, level, 98 mm apart.
 fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     let mut scene = example();
@@ -43,7 +49,11 @@ fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     let grid = scene.layup.ply.grid;
     let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
     let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
-    (Solver::new(&scene.layup.ply, &scene.layup.settings), positions, scene.layup.ply.lines().catenaries())
+    (
+        Solver::new(&scene.layup.ply, &scene.layup.settings),
+        positions,
+        scene.layup.ply.lines().catenaries(),
+    )
 }
 
 /// An edge of the example, free at the rim.
@@ -149,7 +159,7 @@ fn array_moment_balance_cold(bencher: Bencher, side: usize) {
 #[divan::bench]
 fn example_30_steps(bencher: Bencher) {
     let scene = example();
-    bencher.bench(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
+    bencher.bench(|| followed(black_box(&scene), Model::Catenaries));
 }
 
 /// 4 × 4 grippers over curved molds, 30 steps cut where they dip, without writing files: a sphere in closed
@@ -157,7 +167,7 @@ fn example_30_steps(bencher: Bencher) {
 #[divan::bench(args = ["04_dome", "07_cubic", "08_stl_mold"], sample_count = 5, sample_size = 1)]
 fn curved_example(bencher: Bencher, name: &str) {
     let scene = shipped(name);
-    bencher.bench_local(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
+    bencher.bench_local(|| followed(black_box(&scene), Model::Catenaries));
 }
 
 /// One factorization and one solution of a sheet of `across × along` nodes, each coupled to its eight neighbours and to
@@ -220,7 +230,7 @@ fn wide_dome(grid: [usize; 2]) -> Scene {
         let share = if arc > 0.0 { radius * (arc / radius).sin() / arc } else { 1.0 };
         [share * x, share * y, radius * ((arc / radius).cos() - 1.0)]
     };
-    let grippers = 0..scene.ply.grid.grippers();
+    let grippers = 0..scene.layup.ply.grid.grippers();
     let step = |k: usize| {
         let between = |n| vector::between(start(n), end(n), k as f64 / 29.0);
         grippers.clone().map(between).collect()
@@ -237,10 +247,8 @@ fn wide_dome(grid: [usize; 2]) -> Scene {
 /// A whole drape of a sheet to rest; panics where it does not come there, because its time would say nothing.
 fn sheet_to_rest(bencher: Bencher, scene: &Scene) {
     bencher.bench_local(|| {
-        let drape =
-            sheet::drape(scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
-        let drape = drape.expect("the scene has a sheet");
-        assert!(drape.summary.converged, "{:?}", drape.summary.status);
+        let drape = followed(scene, Model::Sheet);
+        assert_eq!(drape.summary.status, Status::Converged);
         drape
     });
 }

@@ -4,10 +4,11 @@
 //! `cargo run --release -p plydrape-io --example sheet_convergence` prints it. The time step is the way that grippers go
 //! in a step in which the ply touches; stiffer contact is a smaller depth of penetration.
 
-use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
+use plydrape::measure::{Name, Observation};
 use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
-use plydrape::sheet::{Tuning, drape};
+use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
+use plydrape::scene::Scene;
+use plydrape::sheet::{Drape, HandOver, Status, Tuning, drape};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -50,15 +51,21 @@ fn variants() -> Vec<(String, f64, Tuning)> {
 
 /// Prints one row.
 fn row(name: &str, varied: &str, scene: &Scene, tuning: Tuning) {
-    let summary = match drape(scene, tuning, &|| false, |_| ControlFlow::Continue(())) {
-        Ok(draped) => draped.summary,
+    let layup = &scene.layup;
+    let low = scene.limits.most(Name::Height);
+    let draped = drape(layup, tuning, low, &|| false, |_, _, _| ControlFlow::Continue(()));
+    let Drape { sheet, status, report, last, .. } = match draped {
+        Ok(draped) => draped,
         Err(error) => return println!("| {name} | {varied} | {error} | | | |"),
     };
+    let state = HandOver::default().state(layup, &sheet, &last, true);
+    let seen = Observation { layup, limits: &scene.limits, state: &state, past: None };
+    let measured = |name: Name| name.measure().evaluate(&seen).map(|found| found.value);
     let mm = |value: Option<f64>| value.map_or("none".to_owned(), |mm| format!("{mm:.2}"));
-    let [height, ridge, position] =
-        [summary.height_max_mm, summary.ridge_max_mm, summary.position_max_mm].map(mm);
-    let ended = if summary.converged { "" } else { " (not converged)" };
-    let contact = match (summary.first_contact_step, summary.first_contact_uv_mm) {
+    let [height, position] = [Name::Height, Name::Position].map(|name| mm(measured(name)));
+    let ridge = mm(report.ridge_max_mm);
+    let ended = if status == Status::Converged { "" } else { " (not converged)" };
+    let contact = match (report.first_contact_step, report.first_contact_uv_mm) {
         (Some(step), Some([u, v])) => format!("step {step} at ({u:.0}, {v:.0}) mm"),
         _ => "none".to_owned(),
     };
@@ -89,6 +96,7 @@ fn front(a: f64, slope: f64) -> Scene {
     };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
-    scene.layup.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    scene.layup.motion =
+        Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
     scene
 }

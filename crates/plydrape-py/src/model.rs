@@ -5,7 +5,7 @@ use crate::scene::{Origin, Scene};
 use plydrape::ModelError;
 use plydrape::layup::Model;
 use plydrape_io::scene::{SceneError, SceneFile, parse_for};
-use plydrape_io::sheet::{SheetDrapeError, SheetSize, model_remedy};
+use plydrape_io::sheet::{SheetSize, model_remedy};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -624,11 +624,12 @@ impl Scene {
     #[pyo3(signature = (sample, factor = 1.0))]
     fn with_errors(&self, py: Python<'_>, sample: usize, factor: f64) -> PyResult<Scene> {
         let draw = self.drawn(sample, factor)?;
-        let real = py.detach(|| draw.apply(&self.0.scene));
-        let fault = real.layup.ply.check_motion(&real.layup.motion);
+        let real = py.detach(|| draw.apply(&self.0.layup));
+        let fault = real.ply.check_motion(&real.motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
         let mut scene = (*self.0).clone();
-        scene.scene = real;
+        scene.layup = real;
+        scene.errors = None;
         scene.input = None;
         scene.plan_refusal = None;
         Ok(Scene(Arc::new(scene), Origin::default()))

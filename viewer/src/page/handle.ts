@@ -36,6 +36,8 @@ export interface FullHandle extends Handle {
   model: Model;
   /** A node of the sheet in view (m), or null where none is shown. */
   node(number: number): Place | null;
+  /** A gripper in view (m), or null where the model has not done the step. */
+  gripper(number: number): Place | null;
   /** Fabric coordinates of a node of the sheet (mm), or null without a sheet. */
   fabric(number: number): [number, number] | null;
   /** Where a place is on the picture (CSS pixels from its top left), or null without a picture. */
@@ -99,6 +101,10 @@ export function handle(
       const { sheet } = shown();
       const picture = shown().picture(state.now.index);
       return sheet === null || picture === null ? null : sheet.node(picture, number);
+    },
+    gripper: (number) => {
+      const pads = shown().pads(state.now.index);
+      return pads.length === 0 ? null : ([0, 1, 2].map((c) => pads[3 * number + c]! * MICRO) as Place);
     },
     fabric: (number) => {
       const places = shown().sheet?.places;

@@ -42,6 +42,8 @@ const NARROW = 560;
 const SHEET = 512;
 /** Half the height of a line of text with its halo (CSS pixels). */
 const TALL = 11;
+/** A label at the edge of the picture is moved in by so much at most (CSS pixels). */
+const CUT = 40;
 /** Radius of a ring with its line (CSS pixels). */
 const RING = 16;
 
@@ -248,7 +250,7 @@ export class Overlay {
     const inside = Math.min(Math.max(x, half), width - half);
     return {
       // Moved in if it is cut off by a little; one that is far outside stays there.
-      at: [Math.abs(inside - x) < 24 ? inside : x, y],
+      at: [Math.abs(inside - x) < CUT ? inside : x, y],
       box: { left: -Math.ceil(half), top: -TALL, width: 2 * Math.ceil(half), height: 2 * TALL },
       look: `${font} ${text}`,
       paint: (pen) => {

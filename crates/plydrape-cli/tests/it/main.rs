@@ -16,3 +16,4 @@ mod sheet;
 mod simulate;
 mod span;
 mod study;
+mod verdict;

@@ -28,7 +28,7 @@ fn result(folder: &Path) -> Value {
 
 const FILES: [&str; 5] =
     ["figure.svg", "report.html", "result.json", "steps.csv", "trajectory.csv"];
-/// The same where the ply is draped as a sheet too.
+/// The same where the ply is draped as a sheet.
 const FILES_OF_SHEET: [&str; 6] =
     ["figure.svg", "report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
 
@@ -41,8 +41,14 @@ fn exit_code_is_the_verdict() {
         let output = simulate(&example(name), &folder.path().join(name), &[]);
         assert_eq!(output.status.code(), Some(code), "{name}");
         let shown = text(&output.stdout);
-        let verdict = if code == 0 { "\naccepted\n" } else { "\nnot accepted by the sheet" };
-        assert!(shown.contains(verdict), "{shown}");
+        let word = if code == 0 { "accepted" } else { "not accepted" };
+        // the one model that decides, and no word of the other one
+        let [model, other] = match name {
+            "01_flat_sheared_mold" => ["the sheet", "the catenaries"],
+            _ => ["the catenaries", "the sheet"],
+        };
+        assert!(shown.contains(&format!("\n{word} by {model}")), "{shown}");
+        assert!(!shown.contains(other) && shown.matches("accepted").count() == 1, "{shown}");
         assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
     }
 }
@@ -52,25 +58,18 @@ fn exit_code_is_the_verdict() {
 fn json_is_one_object_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     for scene in [headline(), strip()] {
-        let output = simulate(&scene, &folder.path().join("out"), &["--json"]);
+        let output =
+            simulate(&scene, &folder.path().join("out"), &["--json", "--model", "catenaries"]);
         assert!(output.stderr.is_empty());
         let shown = text(&output.stdout);
         assert_eq!(shown.matches('\n').count(), 1, "{shown}");
-        assert!(shown.ends_with("}\n"));
+        assert!(shown.starts_with("{\"accepted\":") && shown.ends_with("}\n"), "{shown}");
         let printed: Value = serde_json::from_str(&shown).unwrap();
-        for key in [
-            "accepted",
-            "steps",
-            "first_contact_step",
-            "first_contact",
-            "first_shear_step",
-            "worst",
-            "final",
-            "contact_share",
-            "equilibria",
-            "mean_equilibrium_us",
-        ] {
+        for key in ["model", "status", "steps", "worst", "final", "limits", "time_s"] {
             assert!(printed.get(key).is_some(), "{key} in {shown}");
+        }
+        for key in ["first_contact_step", "first_contact", "first_shear_step", "equilibria"] {
+            assert!(printed["catenaries"].get(key).is_some(), "{key} in {shown}");
         }
         for measures in ["worst", "final"] {
             for key in [
@@ -94,18 +93,19 @@ fn json_is_one_object_and_nothing_else() {
 #[test]
 fn the_paper_s_example_has_its_printed_contacts_and_shear() {
     let folder = tempfile::tempdir().unwrap();
-    let output = simulate(&headline(), folder.path(), &["--json"]);
+    let output = simulate(&headline(), folder.path(), &["--json", "--model", "catenaries"]);
     assert_eq!(output.status.code(), Some(1));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(printed["accepted"], false);
     assert_eq!(printed["steps"], 30);
-    assert_eq!(printed["first_contact_step"], 26);
+    let report = &printed["catenaries"];
+    assert_eq!(report["first_contact_step"], 26);
     let falling = |from: [usize; 2], to: [usize; 2]| serde_json::json!({"kind": "falling", "from": from, "to": to});
-    let contacts = printed["first_contact"].as_array().unwrap();
+    let contacts = report["first_contact"].as_array().unwrap();
     let expected = [falling([1, 0], [0, 1]), falling([2, 0], [1, 1]), falling([3, 0], [2, 1])];
     assert_eq!(contacts.as_slice(), expected);
-    assert_eq!(printed["first_shear_step"], 5);
-    assert_eq!(printed["all_shear_step"], 5);
+    assert_eq!(report["first_shear_step"], 5);
+    assert_eq!(report["all_shear_step"], 5);
 
     let last = &result(folder.path())["steps"][29]["measures"];
     for key in ["slack_mm", "wrinkle_mm", "overstretch"] {
@@ -129,7 +129,8 @@ fn results_go_to_the_folder_asked_for_or_beside_the_scene() {
     let output = command().arg("simulate").arg(&scene).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(files(&folder.path().join("strip.results")), FILES);
-    assert!(text(&output.stdout).contains("wrote "));
+    let shown = text(&output.stdout);
+    assert!(shown.contains("strip.results:\n  result.json, steps.csv, "), "{shown}");
 }
 
 #[test]
@@ -231,7 +232,7 @@ fn a_closed_pipe_is_no_failure() {
     assert_eq!(files(Path::new(out)), FILES_OF_SHEET);
 }
 
-/// A drape of 1600 grippers and 3000 steps into the folder `out` of another one.
+/// A drape by catenaries of 1600 grippers and 3000 steps into the folder `out` of another one.
 #[cfg(unix)]
 fn long_run(folder: &Path) -> Command {
     let scene = folder.join("scene.toml");
@@ -242,7 +243,8 @@ fn long_run(folder: &Path) -> Command {
     std::fs::write(&scene, large).unwrap();
     let mut command = command();
     command.env("PLYDRAPE_MEMORY", "200 GB");
-    command.arg("simulate").arg(&scene).arg("-o").arg(folder.join("out"));
+    command.args(["simulate", "--model", "catenaries"]).arg(&scene);
+    command.arg("-o").arg(folder.join("out"));
     command
 }
 
@@ -302,11 +304,15 @@ fn a_step_without_a_solution_exits_with_three() {
         );
         let scene = folder.path().join("stiff.toml");
         std::fs::write(&scene, written).unwrap();
-        let output = simulate(&scene, &folder.path().join("out"), &[]);
+        let output = simulate(&scene, &folder.path().join("out"), &["--verbose"]);
         codes.push(output.status.code());
         let shown = text(&output.stdout);
         match output.status.code() {
-            Some(3) => assert!(shown.contains("step 1 did not converge: "), "{shown}"),
+            Some(3) => {
+                assert!(shown.contains("step 1 did not converge: "), "{shown}");
+                let verdict = "\nnot accepted by the catenaries: equilibrium ";
+                assert!(shown.contains(verdict), "{shown}");
+            }
             Some(0 | 1) => {}
             code => panic!("{code:?} {shown}{}", text(&output.stderr)),
         }

@@ -152,7 +152,9 @@ mod tests {
             readings(&grippers, 1, judged, Form::FILE).iter().map(|r| r.label).collect()
         };
         let slide = Name::SlipLength.measure().label();
-        assert!(!labels(&[]).contains(&slide) && labels(&[]).contains(&Name::Slip.measure().label()));
+        assert!(
+            !labels(&[]).contains(&slide) && labels(&[]).contains(&Name::Slip.measure().label())
+        );
         assert!(labels(&judged(&[(Name::SlipLength, 1.0)])).contains(&slide));
     }
 }

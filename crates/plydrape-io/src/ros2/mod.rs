@@ -213,7 +213,7 @@ mod tests {
         let tolerance = Tolerance::default();
         let first = files(&result, &tolerance).unwrap();
         let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["trajectory.yaml", "vacuum.yaml", "trajectory.mcap"]);
+        assert_eq!(names, ["trajectory.yaml", "vacuum.yaml", "loads.yaml", "trajectory.mcap"]);
         assert!(first == files(&result, &tolerance).unwrap());
     }
 
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn numbers_are_numbers_for_readers_of_either_version() {
         let mut result = sample::draped(2, 2, 2);
-        result.steps[0].grippers[0].position = [1e-7, -1e22, 3.0];
+        result.steps[0].grippers[0].commanded = [1e-7, -1e22, 3.0];
         let files = files(&result, &Tolerance::default()).unwrap();
         let text = String::from_utf8(files[0].1.clone()).unwrap();
         for wanted in ["- 1.0e-7\n", "- -1.0e+22\n", "- 3.0\n"] {

@@ -165,7 +165,7 @@ fn sentence(name: Name, bound: &Bound, kind: &Kind) -> String {
 }
 
 /// A limit (SI) as one would write it, `0.5 mm`, without rounding.
-fn text(value: f64, unit: Unit) -> String {
+pub(super) fn text(value: f64, unit: Unit) -> String {
     let number = (value / unit.si * 1e9).round() / 1e9;
     match unit.recorded {
         "1" | "" => number.to_string(),

@@ -78,3 +78,64 @@ fn workspace(
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse;
+    use super::*;
+    use plydrape::measure::slack_of_angle;
+    use std::path::Path;
+
+    const SCENE: &str = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+        [mold]\nkind = \"plane\"\n[target]\n[limits]\n";
+
+    fn limits(keys: &str) -> Limits {
+        parse(&format!("{SCENE}{keys}\n"), Path::new(""), "scene.toml")
+            .unwrap_or_else(|error| panic!("{error}"))
+            .scene
+            .limits
+    }
+
+    /// Each key sets its own limit and no other, but for the slack ratio, which follows a slack angle.
+    #[test]
+    fn every_limit_is_set_by_the_key_of_its_measure() {
+        let usual = limits("");
+        for (name, bound) in Name::bounded() {
+            let example = 0.9 * bound.example;
+            let value = bound::text(example, name.measure().unit());
+            let quotes = if value.parse::<f64>().is_ok() { "" } else { "\"" };
+            let set = limits(&format!("{} = {quotes}{value}{quotes}", name.measure().name()));
+            for other in Name::ALL {
+                let wanted = match (other, name) {
+                    _ if *other == name => Some(example),
+                    (Name::SlackRatio, Name::SlackAngle) => Some(slack_of_angle(example)),
+                    _ => usual.get(*other),
+                };
+                let near = |found: f64| wanted.is_some_and(|w| (found / w - 1.0).abs() < 1e-9);
+                assert!(
+                    set.get(*other).map_or(wanted.is_none(), near),
+                    "{name:?} {other:?} {:?} {wanted:?}",
+                    set.get(*other)
+                );
+            }
+        }
+    }
+
+    /// The slack ratio stands over that of an angle, in whichever order both are written, and other keys over a preset.
+    #[test]
+    fn what_is_given_stands_over_what_follows_from_it() {
+        for keys in [
+            ["slack_ratio = 0.01", "slack_angle = 0.1"],
+            ["slack_angle = 0.1", "slack_ratio = 0.01"],
+        ] {
+            let set = limits(&keys.join("\n"));
+            assert_eq!(
+                [Name::SlackRatio, Name::SlackAngle].map(|name| set.most(name)),
+                [0.01, 0.1]
+            );
+        }
+        let set = limits("preset = \"drapebot\"\nposition = \"1 mm\"");
+        assert_eq!(set.get(Name::Position), Some(1e-3));
+        assert_eq!(set.get(Name::FibreAngle), Some(3_f64.to_radians()));
+    }
+}

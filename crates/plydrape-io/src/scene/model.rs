@@ -124,3 +124,34 @@ fn remedy(fault: &ModelError) -> &'static str {
         ModelError::Sheet(_) => "mend that, or choose the other model by `kind` in [model]",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{parse, read_for};
+    use super::*;
+    use std::path::Path;
+
+    const SCENE: &str = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.1\n";
+
+    /// The model beside is the other one, whether the scene names it or a caller does; a caller's model takes the place of the scene's.
+    #[test]
+    fn the_model_beside_is_the_one_that_does_not_decide() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("scene.toml");
+        let scene = |keys: &str| format!("{SCENE}[model]\n{keys}\n");
+        assert!(!parse(&scene(""), Path::new(""), "").unwrap().also);
+        assert!(parse(&scene("also = \"catenaries\""), Path::new(""), "").unwrap().also);
+        let fault = parse(&scene("also = \"sheet\""), Path::new(""), "").unwrap_err();
+        assert!(fault.message.contains("is that one") && fault.span.is_some(), "{fault}");
+
+        std::fs::write(&file, scene("also = \"catenaries\"")).unwrap();
+        let read = |model, also| read_for(&file, model, also);
+        assert!(read(None, None).unwrap().also);
+        let catenaries = read(Some(Model::Catenaries), None).unwrap();
+        assert_eq!((catenaries.layup.settings.model, catenaries.also), (Model::Catenaries, false));
+        assert!(read(Some(Model::Catenaries), Some(Model::Sheet)).unwrap().also);
+        let fault = read(None, Some(Model::Sheet)).unwrap_err();
+        assert!(fault.message.contains("is that one") && fault.span.is_none(), "{fault}");
+    }
+}

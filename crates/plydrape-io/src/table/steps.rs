@@ -26,7 +26,7 @@ const SHORT: [Column; 8] = [
     (Name::Strain, "strain %", 3),
 ];
 
-/// Columns behind these where there is room.
+/// Columns of the second table of all steps.
 const MORE: [Column; 5] = [
     (Name::SlackAngle, "slack °", 2),
     (Name::Wrinkle, "wrinkle mm", 2),
@@ -35,11 +35,14 @@ const MORE: [Column; 5] = [
     (Name::OutOfPlane, "out of plane °", 2),
 ];
 
-/// All steps of the model that decides, one row each: time and worst values. Steps that were not solved are named below.
+/// All steps of the model that decides, one row each: time and worst values; what does not fit the width is in a second table. Steps that were
+/// not solved are named below.
 #[must_use]
 pub fn steps_table(result: &ResultFile) -> String {
-    let columns: Vec<Column> = SHORT.iter().chain(&MORE).copied().collect();
-    table(&result.steps, &columns, |_| true) + &failed_solves(result)
+    let all = |columns: &[Column]| table(&result.steps, columns, |_| true);
+    let more = known(&result.steps, &MORE).next().map(|_| all(&MORE));
+    let tables: Vec<String> = [Some(all(&SHORT)), more].into_iter().flatten().collect();
+    tables.join("\n") + &failed_solves(result)
 }
 
 /// At most ten steps: the first, the first with contact, the last, and some evenly between.
@@ -55,8 +58,7 @@ pub(super) fn short(summary: &Summary, steps: &[Step]) -> String {
 
 /// The steps that a function picks by their place, with the columns that have a value in any step.
 fn table(steps: &[Step], columns: &[Column], pick: impl Fn(usize) -> bool) -> String {
-    let known = |(name, ..): &&Column| steps.iter().any(|step| step.measures.get(*name).is_some());
-    let columns: Vec<&Column> = columns.iter().filter(known).collect();
+    let columns: Vec<&Column> = known(steps, columns).collect();
     let mut rows = vec![vec!["step".to_owned(), "time s".to_owned()]];
     rows[0].extend(columns.iter().map(|(_, title, _)| (*title).to_owned()));
     rows.extend(steps.iter().enumerate().filter(|(n, _)| pick(*n)).map(|(_, step)| {
@@ -68,6 +70,12 @@ fn table(steps: &[Step], columns: &[Column], pick: impl Fn(usize) -> bool) -> St
         row
     }));
     aligned(&rows, &[])
+}
+
+/// The columns that have a value in any step.
+fn known<'a>(steps: &[Step], columns: &'a [Column]) -> impl Iterator<Item = &'a Column> {
+    let has = |name: Name| steps.iter().any(|step| step.measures.get(name).is_some());
+    columns.iter().filter(move |(name, ..)| has(*name))
 }
 
 /// Places of the steps to show.
@@ -108,15 +116,28 @@ fn failed_solves(result: &ResultFile) -> String {
 mod tests {
     use super::*;
     use crate::sample;
+    use plydrape::measure::Worst;
 
-    /// Every step is there, in aligned columns.
+    /// Every step is there, in aligned columns, with every value: what does not fit the width is in a table below.
     #[test]
-    fn the_whole_table_shows_every_step() {
-        let text = steps_table(&sample::draped(4, 2, 30));
-        assert_eq!(text.lines().count(), 31);
-        let widths: BTreeSet<usize> = text.lines().map(|l| l.chars().count()).collect();
-        assert_eq!(widths.len(), 1, "{text}");
-        assert!(widths.last() <= Some(&100), "{text}");
+    fn the_whole_table_shows_every_step_and_every_column() {
+        let mut result = sample::draped(4, 2, 30);
+        for (name, ..) in SHORT.iter().chain(&MORE) {
+            let worst = Worst { value: 123.456, at: String::new(), place: None };
+            result.steps[3].measures.set(*name, Some(worst));
+        }
+        let text = steps_table(&result);
+        let tables: Vec<&str> = text.split("\n\n").collect();
+        assert_eq!(tables.len(), 2, "{text}");
+        for table in tables {
+            assert_eq!(table.lines().count(), 31);
+            let widths: BTreeSet<usize> = table.lines().map(|l| l.chars().count()).collect();
+            assert!(widths.len() == 1 && widths.last() < Some(&100), "{text}");
+        }
+        for (_, title, _) in SHORT.iter().chain(&MORE) {
+            assert!(text.contains(title), "{title}");
+        }
+        assert_eq!(steps_table(&sample::sheet(4, 2, 3)).lines().count(), 4);
     }
 
     /// Of many steps ten at most, among them the first, the last and the first contact.

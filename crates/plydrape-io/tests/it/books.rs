@@ -1,9 +1,9 @@
 //! Plybooks: what is shared and what is a ply's own, what lies on what, and what is refused.
 
+use crate::common::drape_sheet;
+use plydrape::measure::Name;
 use plydrape::mold::Mold;
-use plydrape::sheet::{self, Tuning};
 use plydrape_io::scene::{self, Book, SceneError};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// What the plies of these books share: a plane, an array of 3 × 2 cups, straight paths.
@@ -47,9 +47,9 @@ fn a_ply_has_the_shared_keys_and_its_own_in_their_place() {
     let [a, b] = &book.plies[..] else { panic!("two plies") };
     assert_eq!([a.scene.title.as_str(), b.scene.title.as_str()], ["Part: a", "Part: b"]);
     assert_eq!([a.scene.thickness, b.scene.thickness], [Some(0.5e-3), Some(0.3e-3)]);
-    assert_eq!([a.scene.limits.height, b.scene.limits.height], [0.5e-3, 1e-3]);
+    assert_eq!([a, b].map(|ply| ply.scene.limits.most(Name::Height)), [0.5e-3, 1e-3]);
     let heading = |ply: &scene::BookPly| {
-        ply.scene.target.as_ref().unwrap().drape.as_ref().unwrap().layup.heading
+        ply.scene.layup.target.as_ref().unwrap().drape.as_ref().unwrap().layup.heading
     };
     assert_eq!([heading(a), heading(b)], [0.0, 30_f64.to_radians()]);
     assert_eq!([a.folder(0), b.folder(1)], ["01_a", "02_b"]);
@@ -72,7 +72,7 @@ fn a_ply_lies_on_the_earlier_ones_that_it_overlaps() {
     let expected: [&[usize]; 5] = [&[], &[], &[0, 1], &[], &[1, 2]];
     assert_eq!(lies_on, expected);
     for ply in &book.plies {
-        let layers = match ply.scene.mold.as_ref() {
+        let layers = match ply.scene.layup.mold.as_ref() {
             Some(Mold::Layered(layered)) => layered.relief.0.len(),
             Some(Mold::Plane(_)) => 0,
             other => panic!("{other:?}"),
@@ -87,11 +87,7 @@ fn a_ply_lies_on_the_earlier_ones_that_it_overlaps() {
 fn the_second_ply_lands_one_thickness_above_the_first() {
     let book =
         book(&[ply("first", [0.34, 0.24], [0.0; 2]), ply("second", SIZE, [0.0; 2])].concat());
-    let drape = |n: usize| {
-        let stop = || false;
-        let scene = &book.plies[n].scene;
-        sheet::drape(scene, Tuning::default(), &stop, |_| ControlFlow::Continue(())).unwrap()
-    };
+    let drape = |n: usize| drape_sheet(&book.plies[n].scene).sheet.unwrap().drape;
     let [first, second] = [drape(0), drape(1)];
     let mean = |positions: &[[f64; 3]]| {
         let common = positions.iter().filter(|p| p[0].abs() < 0.1 && p[1].abs() < 0.05);
@@ -108,10 +104,7 @@ fn the_second_ply_lands_one_thickness_above_the_first() {
 #[test]
 fn a_ply_comes_down_to_the_mold_beside_the_one_beneath() {
     let book = book(&[ply("first", SIZE, [-0.12, 0.0]), ply("second", SIZE, [0.0; 2])].concat());
-    let stop = || false;
-    let scene = &book.plies[1].scene;
-    let drape =
-        sheet::drape(scene, Tuning::default(), &stop, |_| ControlFlow::Continue(())).unwrap();
+    let drape = drape_sheet(&book.plies[1].scene).sheet.unwrap().drape;
     let mut seen = [0, 0];
     for [x, _, z] in &drape.last.positions {
         if *x < -0.05 {

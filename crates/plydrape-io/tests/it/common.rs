@@ -3,12 +3,12 @@
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::draping::record::{CatenaryState, CatenaryStep};
 use plydrape::equilibrium::{End, SlopeSource, Solver};
-use plydrape::material::{Material, Section};
-use plydrape::ply::{ContactSegment, Grid, Ply};
-use plydrape::layup::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
-use plydrape::scene::{Scene};
 use plydrape::layup::Model;
-use plydrape::outcome::{self, DrapeWatch, Step};
+use plydrape::layup::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
+use plydrape::material::{Material, Section};
+use plydrape::outcome::{self, Drape, DrapeWatch, Step};
+use plydrape::ply::{ContactSegment, Grid, Ply};
+use plydrape::scene::Scene;
 use plydrape_io::{ResultFile, sheet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -45,6 +45,20 @@ pub fn drape_until(scene: &Scene, last: usize) -> ResultFile {
     let drape = outcome::drape(scene, scene.layup.settings.model, watch);
     let drape = drape.unwrap_or_else(|fault| panic!("{fault}"));
     ResultFile::new(scene, None, sheet::keep(drape, &std::env::temp_dir()).unwrap())
+}
+
+/// The drape of a scene by the sheet, whichever model the scene chooses.
+pub fn drape_sheet(scene: &Scene) -> Drape {
+    let go = &mut |_: usize, _: Option<&_>| ControlFlow::Continue(());
+    let drape = outcome::drape(scene, Model::Sheet, &mut DrapeWatch { stop: &|| false, see: go });
+    drape.unwrap_or_else(|fault| panic!("{fault}"))
+}
+
+/// The result of a scene by the model that decides, with the states of its sheet in a folder.
+pub fn decided(scene: &Scene, folder: &Path) -> ResultFile {
+    let model = scene.layup.settings.model;
+    let drape = sheet::drape(scene, model, folder, &|| false, |_| {});
+    ResultFile::new(scene, None, drape.unwrap_or_else(|fault| panic!("{fault}")))
 }
 
 /// What the catenaries of a step are.

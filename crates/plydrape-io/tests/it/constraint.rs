@@ -2,8 +2,8 @@
 
 use crate::common::{Point, RULES, free, paper_ply, settings};
 use plydrape::equilibrium::{Direction, Solver, Status, heading};
+use plydrape::layup::SlopeRule;
 use plydrape::ply::{Grid, Lines, shear};
-use plydrape::layup::{SlopeRule};
 
 /// Parallelogram cells of sides 97.5 mm, sheared by `angle` (rad) in the horizontal plane.
 fn sheared(grid: Grid, angle: f64) -> Vec<Point> {

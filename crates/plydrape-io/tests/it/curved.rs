@@ -1,13 +1,13 @@
 //! Contact on curved molds: what rolls on lies where it belongs, troughs are bridged, and drapes converge.
 
-use crate::common::{distance, drape, example};
+use crate::common::{distance, drape, example, lines};
+use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
 use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
+use plydrape::motion::Motion;
 use plydrape::net::{Layup, Net};
 use plydrape::ply::{Fibres, Grid, Kind};
-use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
-use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
+use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
 use std::sync::Arc;
 
@@ -92,7 +92,7 @@ fn rolled(
 fn drift(result: &ResultFile, along: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> f64 {
     let last = result.steps.last().expect("steps");
     let mut worst = 0.0_f64;
-    for (n, catenary) in last.catenaries.iter().enumerate() {
+    for (n, catenary) in lines(last).iter().enumerate() {
         let contact = catenary.contact.as_ref().expect("it has been rolled on");
         let last = contact.points.len() - 1;
         for (arc, point) in contact.ends().iter().zip([contact.points[0], contact.points[last]]) {
@@ -163,7 +163,7 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
         let sag = (0.375 * excess).sqrt() * length;
         let result = drape(&scene);
         let last = result.steps.last().expect("steps");
-        let bridge = last.catenaries[0].bridging.expect("it bridges the trough");
+        let bridge = lines(last)[0].bridging.expect("it bridges the trough");
         // it sags by no more than that, and touches within the tolerance at the walls
         let low = wall - bridge.gap;
         assert!(low > -tolerance && low < sag + tolerance, "{radius} {half}: {low} {sag}");
@@ -206,7 +206,7 @@ fn a_mesh_of_a_sphere_drapes_like_the_sphere() {
         let mold = cap(radius, n);
         let result = rolled(mold.clone(), along, 60, 1e-5, Stepping::Cut);
         // what has landed lies on the triangles
-        for catenary in &result.steps.last().expect("steps").catenaries {
+        for catenary in lines(result.steps.last().expect("steps")) {
             for point in &catenary.contact.as_ref().expect("contact").points {
                 assert!(mold.signed_distance(*point).abs() < 1e-12, "{n}: {point:?}");
             }
@@ -248,7 +248,7 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
         };
         let result = drape(&scene);
         let last = result.steps.last().expect("steps");
-        let edges = last.catenaries.iter().filter(|c| c.kind.is_edge());
+        let edges = lines(last).iter().filter(|c| c.kind.is_edge());
         let contacts = edges.filter_map(|c| c.contact.as_ref());
         let errors = contacts.flat_map(|c| c.landing_error_mm.iter().flatten().flatten());
         let error = errors.copied().fold(0.0, f64::max);
@@ -290,7 +290,7 @@ fn a_sphere_as_a_formula_drapes_like_the_sphere() {
     let formula = Mold::Graph(Graph { pose, surface, domain });
     let [exact, found] = [sphere, formula].map(|mold| rolled(mold, along, 60, 2e-4, Stepping::Cut));
     for (a, b) in exact.steps.iter().zip(&found.steps) {
-        for (a, b) in a.catenaries.iter().zip(&b.catenaries) {
+        for (a, b) in lines(a).iter().zip(lines(b)) {
             let (Some(a), Some(b)) = (&a.contact, &b.contact) else {
                 assert_eq!(a.contact.is_some(), b.contact.is_some());
                 continue;
@@ -305,7 +305,7 @@ fn a_sphere_as_a_formula_drapes_like_the_sphere() {
 
 /// Landing error of an edge of a dome at the end (mm), and the slack of its free segments (mm).
 fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
-    let edge = &result.steps.last().expect("steps").catenaries[edge];
+    let edge = &lines(result.steps.last().expect("steps"))[edge];
     let contact = edge.contact.as_ref().expect("it has landed");
     let errors = contact.landing_error_mm.iter().flatten().flatten().copied();
     let slack = edge.spans.iter().map(|span| span.slack_mm(edge.length)).fold(0.0, f64::max);
@@ -423,7 +423,8 @@ fn laying_within_the_tolerance_stretches_nothing() {
             let ring = Strategy { pretension: 1e-4, curvature: 3.0, ..first };
             let positions = trajectory(&scene, &heights, ring).expect("a target");
             let times = (0..positions.len()).map(|n| n as f64).collect();
-            let scene = Scene { motion: Motion { times, positions }, ..scene.clone() };
+            let mut scene = scene.clone();
+            scene.layup.motion = Motion { times, positions };
             let stretch = drape(&scene).summary.worst.value(Name::Overstretch).expect("edges");
             // without the rule it is the tolerance, as a share of an edge: 0.2 %
             assert!(stretch < 8e-4, "{name}, {steps} steps: {stretch}");

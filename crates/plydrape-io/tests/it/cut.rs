@@ -1,13 +1,12 @@
 //! Plies as they are cut: outlines, holes, overhang, cups that hold or not, and arrays at any angle to the yarns.
 
-use crate::common::distance;
+use crate::common::{distance, drape_sheet};
 use plydrape::ply::Grid;
 use plydrape::scene::Scene;
-use plydrape::sheet::{self, Sheet, Status, Tuning};
+use plydrape::sheet::{self, Sheet, Status};
 use plydrape_io::export::{self, Format};
 use plydrape_io::outline::{self, Options};
 use plydrape_io::scene;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A scene whose table [ply] has these keys, held still in the air or, with a mold, moved straight down on it.
@@ -22,8 +21,7 @@ const CYLINDER: &str = "origin = \"centred\"\n[mold]\nkind = \"cylinder\"\nradiu
     [motion]\nkind = \"straight\"\nsteps = 2\n[target]\nseed = \"middle\"\n";
 
 fn drape(scene: &Scene) -> sheet::Drape {
-    let stop = || false;
-    sheet::drape(scene, Tuning::default(), &stop, |_| ControlFlow::Continue(())).unwrap()
+    drape_sheet(scene).sheet.unwrap().drape
 }
 
 /// A rectangle that ends at its cups, whatever it is called: cut to a size, or told by its array alone.
@@ -50,7 +48,7 @@ fn the_cups_bear_the_weight_of_what_is_cut_out() {
         assert_eq!(scene.layup.ply.grippers(), cups);
         let outline = &scene.layup.ply.cut.as_ref().unwrap().outline;
         let drape = drape(&scene);
-        assert_eq!(drape.summary.status, Status::Converged);
+        assert_eq!(drape.status, Status::Converged);
         let carried: f64 = -drape.last.forces.iter().map(|force| force[2]).sum::<f64>();
         let weight = drape.sheet.areal_mass * drape.sheet.gravity * outline.area();
         assert!((carried / weight - 1.0).abs() < 1e-4, "{carried} N of {weight} N");
@@ -72,7 +70,7 @@ fn a_drawing_may_lie_anywhere() {
             outline.join(", "),
             place(0.19, 0.13)
         );
-        parse(&ply, "").ply
+        parse(&ply, "").layup.ply
     };
     // along the yarns, and at 40 degrees to them
     for (here, there) in
@@ -127,15 +125,15 @@ fn a_list_of_cups_is_the_array_at_their_places() {
         parse(&format!("{sized}\ngrippers = [3, 2]\ncell = [0.1, 0.1]"), "pad_radius = 0.015\n");
     let list = "points = [[0.025, 0.025], [0.125, 0.025], [0.225, 0.025], [0.025, 0.125], [0.125, 0.125], [0.225, 0.125]]";
     let list = parse(&format!("{sized}\n{list}"), "pad_radius = 0.015\n");
-    assert_eq!(array.ply.grippers(), list.ply.grippers());
-    let [a, b] = [&array, &list].map(|scene| Sheet::new(scene).unwrap());
+    assert_eq!(array.layup.ply.grippers(), list.layup.ply.grippers());
+    let [a, b] = [&array, &list].map(|scene| Sheet::new(&scene.layup).unwrap());
     assert_eq!(a.fabric.places.len(), b.fabric.places.len());
     for (a, b) in a.grippers.iter().zip(&b.grippers) {
         assert!((a.place[0] - b.place[0]).hypot(a.place[1] - b.place[1]) < 1e-12);
     }
     let masked = "grippers = [3, 2]\ncell = [0.1, 0.1]\narray = { holds = [\"###\", \"###\"] }";
     let masked = parse(&format!("{sized}\n{masked}"), "pad_radius = 0.015\n");
-    assert_eq!(masked.ply, array.ply);
+    assert_eq!(masked.layup.ply, array.layup.ply);
 }
 
 /// Cups beside the ply hold nothing; one that is partly on it holds nothing only if the scene says so.
@@ -148,7 +146,7 @@ fn cups_hold_where_there_is_ply_around_them() {
         )
     };
     let scene = parse(&ply(", partly = \"leave-off\""), "");
-    let ids: Vec<_> = (0..scene.ply.grippers()).map(|n| scene.layup.ply.id(n)).collect();
+    let ids: Vec<_> = (0..scene.layup.ply.grippers()).map(|n| scene.layup.ply.id(n)).collect();
     assert_eq!(ids, [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [0, 2]]);
     let text = format!("[ply]\n{}\nmaterial = \"krogh2018\"\n", ply(""));
     let refused = scene::parse(&text, Path::new(""), "scene").unwrap_err();
@@ -166,10 +164,7 @@ fn a_cut_ply_is_written_to_every_file() {
     );
     let scene = parse(ply, &rest);
     let folder = tempfile::tempdir().unwrap();
-    let mut result = crate::common::drape(&scene);
-    let draped = plydrape_io::sheet::drape(&scene, folder.path(), &|| false, |_| {}).unwrap();
-    result.summary.sheet = Some(draped.summary);
-    result.sheet_states = Some(draped.states);
+    let result = crate::common::decided(&scene, folder.path());
     let results = folder.path().join("results");
     plydrape_io::write_all(&result, &results).unwrap_or_else(|error| panic!("{error}"));
     let read = plydrape_io::read::read(&results.join("result.json")).unwrap();
@@ -222,8 +217,8 @@ fn an_outline_may_be_a_drawing() {
         )
     };
     let read = |outline: &str| scene::parse(&text(outline), &folder, "scene");
-    let drawn = read("{ file = \"square.dxf\", unit = \"mm\" }").unwrap().scene.ply;
-    let points = read("[[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]").unwrap().scene.ply;
+    let drawn = read("{ file = \"square.dxf\", unit = \"mm\" }").unwrap().scene.layup.ply;
+    let points = read("[[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]").unwrap().scene.layup.ply;
     let [a, b] = [&drawn, &points].map(|ply| &ply.cut.as_ref().unwrap().outline);
     assert!((a.area() - b.area()).abs() < 1e-15);
     assert_eq!(drawn.grippers(), points.grippers());

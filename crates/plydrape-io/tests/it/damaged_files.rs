@@ -1,7 +1,6 @@
 //! What comes in through files: results with a forged check sum, files without end, and texts that would grow beyond all memory.
 
-use crate::common::examples;
-use plydrape::draping;
+use crate::common::{drape, examples};
 use plydrape::scene::Plan;
 use plydrape_io::export::{self, Format};
 use plydrape_io::mesh::{self, MeshFileError};
@@ -9,7 +8,6 @@ use plydrape_io::scene::{self, SceneError};
 use plydrape_io::size::PlanSheets;
 use plydrape_io::{ResultFile, formula, input, page, read, size};
 use serde_json::Value;
-use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -24,8 +22,9 @@ fn parse(text: &str) -> Result<scene::SceneFile, SceneError> {
 
 fn draped() -> ResultFile {
     let scene = parse(SCENE).unwrap();
-    let drape = draping::simulate(&scene, |_| ControlFlow::Continue(()));
-    ResultFile::new(&scene, scene.input.clone(), drape)
+    let mut result = drape(&scene);
+    result.scene.input = scene.input.clone();
+    result
 }
 
 /// Every place of a value that holds a number or a list, as a JSON pointer.

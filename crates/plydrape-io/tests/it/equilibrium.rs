@@ -4,9 +4,9 @@
 use crate::common::{inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::Profile;
 use plydrape::equilibrium::{Direction, Property, Solver, Status};
+use plydrape::layup::{Settings, SlopeRule};
 use plydrape::material::Section;
 use plydrape::ply::{Grid, Kind, Lines, Ply};
-use plydrape::layup::{Settings, SlopeRule};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

@@ -1,16 +1,14 @@
 //! Pictures of drapes on curved molds and of nets. They stay in the `tmp` folder of the build's target for a look.
 
-use plydrape::draping::simulate;
+use plydrape::layup::Target;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface};
+use plydrape::motion::Motion;
 use plydrape::net::{EdgeRule, Generators, Layup, Net};
 use plydrape::ply::Grid;
-use plydrape::layup::{Target};
-use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
+use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
 use plydrape_io::net::{Findings, write_all};
 use plydrape_io::{self, figure};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The ply of the first example, its cells 100 mm, on a mold: let down in straight lines onto `target`
@@ -35,7 +33,7 @@ fn lowered(grid: Grid, mold: Mold, target: &[[f64; 3]], height: f64, steps: usiz
         times: (0..steps).map(|n| n as f64).collect(),
         positions: (0..steps).map(|n| at(1.0 - n as f64 / last as f64)).collect(),
     };
-    ResultFile::new(&scene, None, simulate(&scene, |_| ControlFlow::Continue(())))
+    crate::common::drape(&scene)
 }
 
 /// Points of a mold above a grid about the origin, `spacing` (m) apart in plan.

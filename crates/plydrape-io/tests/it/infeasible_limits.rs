@@ -1,6 +1,6 @@
 //! What a scene rules out by itself, before any plan: each limit with its amount, from plane geometry.
 
-use plydrape::measure::{Verdict};
+use plydrape::measure::Verdict;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape_io::scene;
 use std::path::Path;

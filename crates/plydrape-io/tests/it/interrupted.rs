@@ -1,9 +1,9 @@
 //! Searches that are ended from outside: there is a plan all the same, and its drape is complete.
 
 use crate::common::examples;
+use plydrape::layup::Model;
+use plydrape::measure::Name;
 use plydrape::planner::{self, Planned, Progress};
-use plydrape::layup::{Model};
-use plydrape::sheet::Status;
 use plydrape_io::scene::{self, SceneFile};
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ fn dome() -> SceneFile {
     let mut scene = scene::read(&examples().join("04_dome/scene.toml")).unwrap();
     scene.layup.settings.model = Model::Sheet;
     scene.layup.settings.sheet.mesh = Some(0.05);
-    scene.limits.height = 1e-6;
+    scene.limits.set(Name::Height, Some(1e-6));
     (scene.plan.steps, scene.plan.evaluations) = (20, 1_000_000);
     scene
 }
@@ -40,28 +40,27 @@ fn a_search_that_is_ended_finishes_its_best_plan() {
     let plans = [ended(&scene, at_once), ended(&scene, early)];
     for planned in plans {
         assert!(planned.interrupted);
-        let sheet = planned.sheet.expect("a sheet");
-        assert_eq!(sheet.drape.summary.steps, planned.motion.times().len());
-        assert_ne!(sheet.drape.summary.status, Status::Interrupted);
+        let summary = planned.outcome.drape.summary;
+        assert_eq!(summary.steps, planned.motion.times().len());
+        assert!(!summary.interrupted());
         assert_eq!(planned.decisions, 1);
     }
     // a limit that is kept, so that the search decides
     let mut easy = scene;
-    easy.limits.height = 1.0;
-    easy.limits.out_of_plane = 1.0;
+    easy.limits.set(Name::Height, Some(1.0));
+    easy.limits.set(Name::OutOfPlane, Some(1.0));
     easy.plan.improve = true;
     let planned = ended(&easy, deciding);
     assert!(planned.interrupted && planned.decisions == 1);
-    assert_ne!(planned.sheet.expect("a sheet").drape.summary.status, Status::Interrupted);
+    assert!(!planned.outcome.drape.summary.interrupted());
 }
 
 /// Who ends even that has the states so far.
 #[test]
 fn a_plan_that_is_finished_can_be_ended_too() {
     let planned = ended(&dome(), |progress| progress.candidates > 0 || progress.finishing);
-    let sheet = planned.sheet.expect("a sheet");
-    assert_eq!(sheet.drape.summary.status, Status::Interrupted);
-    assert!(sheet.drape.summary.steps < planned.motion.times().len());
+    let summary = planned.outcome.drape.summary;
+    assert!(summary.interrupted() && summary.steps < planned.motion.times().len());
     assert_eq!(planned.decisions, 0);
 }
 
@@ -78,8 +77,8 @@ fn an_accepted_plan_is_only_replaced_by_an_accepted_one() {
     };
     let planned = planner::plan(&scene, None, watcher).unwrap();
     assert!(accepted.is_sorted() && accepted.last() == Some(&true));
-    let sheet = planned.sheet.as_ref().expect("the sheet decides");
-    assert!(sheet.drape.summary.accepted() && !planned.interrupted);
+    assert_eq!(planned.outcome.drape.summary.model, Model::Sheet);
+    assert!(planned.accepted() && !planned.interrupted);
     let ranked = planned.record.evaluations - planned.decisions;
     assert!((32..=40).contains(&ranked), "{ranked}");
 }

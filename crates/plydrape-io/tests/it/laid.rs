@@ -141,7 +141,7 @@ fn what_hangs_over_between_nodes_is_not_accepted() {
     assert!(ideal.net.missing.is_empty());
     let findings = Findings::of(&ideal.net, &ideal.mold, None, None);
     let summary = Summary::of(&ideal.net, &findings, None);
-    assert!(!summary.accepted());
+    assert!(!summary.accepted);
     assert!(summary.verdict().contains("4 mm beyond the mold's boundary"), "{}", summary.verdict());
     let boundary = summary.boundary.unwrap();
     assert!((boundary.off_mold_length - 0.228).abs() < 1e-6, "{boundary:?}");

@@ -1,14 +1,12 @@
 //! Catenaries between cups that are no whole array along the yarns: some cups off, and rows at 45° to the yarns.
 
-use crate::common::distance;
+use crate::common::{distance, drape, hung, lines};
 use plydrape::catenary::{EndCondition, Profile, Span};
-use plydrape::draping::simulate;
 use plydrape::equilibrium::Solver;
+use plydrape::layup::SlopeRule;
 use plydrape::ply::{Kind, Ply};
-use plydrape::layup::{SlopeRule};
-use plydrape::scene::{Scene};
+use plydrape::scene::Scene;
 use plydrape_io::scene;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A scene whose table [ply] has these keys, drape by its catenaries.
@@ -33,17 +31,16 @@ fn array(size: [usize; 2], more: &str) -> String {
 #[test]
 fn a_whole_rectangle_that_is_cut_has_the_states_of_its_array() {
     let array = "grippers = [4, 3]\ncell = [0.1, 0.1]";
-    let [told, cut] = [String::new(), "\nsize = [0.3, 0.2]".into()].map(|size: String| {
-        simulate(&parse(&format!("{array}{size}"), CYLINDER), |_| ControlFlow::Continue(()))
-    });
-    assert!(told.steps.last().unwrap().catenaries.iter().any(|line| line.contact.is_some()));
+    let [told, cut] = [String::new(), "\nsize = [0.3, 0.2]".into()]
+        .map(|size: String| drape(&parse(&format!("{array}{size}"), CYLINDER)));
+    assert!(lines(told.steps.last().unwrap()).iter().any(|line| line.contact.is_some()));
     for (a, b) in told.steps.iter().zip(&cut.steps) {
         // the middle of the target is found once from indices and once from places: the same to rounding
-        for (p, q) in a.cells.iter().zip(&b.cells) {
+        for (p, q) in hung(a).cells.iter().zip(&hung(b).cells) {
             assert_eq!((p.cell, p.shearing), (q.cell, q.shearing));
             assert!((p.shear_deg - q.shear_deg).abs() < 1e-9);
         }
-        for (p, q) in a.catenaries.iter().zip(&b.catenaries) {
+        for (p, q) in lines(a).iter().zip(lines(b)) {
             assert_eq!(
                 (p.kind, p.from, p.to, p.spans.len()),
                 (q.kind, q.from, q.to, q.spans.len())
@@ -132,11 +129,11 @@ fn contact_and_free_lengths_add_up_to_the_set_lengths() {
         CYLINDER.replace("seed = \"middle\"", "seed = \"middle\"\ndirection = \"45 deg\"");
     for (ply, rest) in [(off.as_str(), CYLINDER), (bias.as_str(), bias_target.as_str())] {
         let scene = parse(ply, rest);
-        let drape = simulate(&scene, |_| ControlFlow::Continue(()));
+        let drape = drape(&scene);
         assert_eq!(drape.steps.len(), 6);
         let last = drape.steps.last().unwrap();
-        assert!(last.catenaries.iter().filter(|line| line.contact.is_some()).count() > 10);
-        for line in drape.steps.iter().flat_map(|step| &step.catenaries) {
+        assert!(lines(last).iter().filter(|line| line.contact.is_some()).count() > 10);
+        for line in drape.steps.iter().flat_map(|step| lines(step)) {
             let lying = line.contact.as_ref().map_or(0.0, |contact| contact.length());
             let free: f64 = line.spans.iter().map(|span| span.length).sum();
             assert!((lying + free - line.length).abs() < 1e-9, "{line:?}");
@@ -194,7 +191,8 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
     let rest = CYLINDER.replace("seed = \"middle\"", "seed = \"middle\"\ndirection = \"45 deg\"");
     let scene = parse(&array([4, 3], "warp = \"45 deg\""), &rest);
     let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
-    let (mold, target) = (scene.layup.mold.as_ref().unwrap(), &scene.layup.target.as_ref().unwrap().grippers);
+    let (mold, target) =
+        (scene.layup.mold.as_ref().unwrap(), &scene.layup.target.as_ref().unwrap().grippers);
     for n in 0..lines.catenaries() {
         let [a, b] = lines.ends(n).map(|gripper| target[gripper]);
         let length = lines.flat_length(n, 1.0);
@@ -241,7 +239,7 @@ fn rows_at_30_degrees_have_no_catenaries() {
         )
     };
     let parse = |model: &str| scene::parse(&text(model), Path::new(""), "scene");
-    assert!(!parse("sheet").unwrap().scene.ply.has_lines());
+    assert!(!parse("sheet").unwrap().scene.layup.ply.has_lines());
     let error = parse("catenaries").err().unwrap().to_string();
     assert!(error.contains("at 45° to them"), "{error}");
 }

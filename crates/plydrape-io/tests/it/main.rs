@@ -38,6 +38,7 @@ mod sheet_shown;
 mod slack_limits;
 mod solve_status;
 mod stepwise;
+mod table_of_limits;
 mod tool;
 mod transport;
 mod verdict;

@@ -20,7 +20,7 @@ fn scene(mold: &str, target: &str, grippers: &str) -> Scene {
 }
 
 fn mold(keys: &str) -> Mold {
-    scene(keys, "", "").mold.expect("a mold")
+    scene(keys, "", "").layup.mold.expect("a mold")
 }
 
 const DOME: &str = "kind = \"sphere\"\nradius = 0.5";
@@ -94,7 +94,7 @@ fn rows_of_a_height_grid_come_in_any_order() {
     };
     let there = scene::parse(&text("reversed.csv"), folder.path(), "scene.toml").unwrap();
     let here = mold("kind = \"height-grid\"\nfile = \"molds/bowl.csv\"");
-    assert_eq!(there.mold, Some(here));
+    assert_eq!(there.layup.mold, Some(here));
 }
 
 #[test]
@@ -110,7 +110,8 @@ fn sides_and_kinds_become_faces() {
 #[test]
 fn cells_are_divided_so_that_the_seed_is_a_node() {
     let layup = |mold: &str, target: &str| {
-        let target = scene(mold, &format!("[target]\n{target}"), "").target.expect("a target");
+        let target =
+            scene(mold, &format!("[target]\n{target}"), "").layup.target.expect("a target");
         let layup = target.drape.expect("a net").layup;
         (layup.nodes, layup.seed)
     };
@@ -126,7 +127,7 @@ fn cells_are_divided_so_that_the_seed_is_a_node() {
 #[test]
 fn the_target_says_how_the_net_is_laid() {
     let target = "[target]\norigin = [0.05, 0]\ndirection = \"30 deg\"\nshear = \"-5 deg\"\ngenerators = \"least-shear\"\nedges = \"chord\"\nmesh = \"50 mm\"\nseed = \"middle\"";
-    let target = scene(DOME, target, "").target.expect("a target");
+    let target = scene(DOME, target, "").layup.target.expect("a target");
     let layup = target.drape.expect("a net").layup;
     assert_eq!((layup.generators, layup.edges), (Generators::LeastShear, EdgeRule::Chord));
     assert_eq!((layup.heading, layup.shear), (30f64.to_radians(), -5f64.to_radians()));
@@ -137,7 +138,7 @@ fn the_target_says_how_the_net_is_laid() {
 /// By symmetry: the four corners of a ply laid from its middle on top of a dome are equally high.
 #[test]
 fn grippers_end_at_nodes_of_the_net() {
-    let target = scene(DOME, "[target]\nseed = \"middle\"", "").target.expect("a target");
+    let target = scene(DOME, "[target]\nseed = \"middle\"", "").layup.target.expect("a target");
     let net = target.drape.expect("a net");
     for (index, place) in target.grippers.iter().enumerate() {
         assert_eq!(net.node([10 * (index % 4), 10 * (index / 4)]), Some(*place));
@@ -153,6 +154,7 @@ fn a_seed_in_the_middle_of_a_flat_ply_moves_it_by_half() {
     let plane = "kind = \"plane\"\ntilt = \"10 deg\"";
     let by = |target: &str| {
         scene(plane, &format!("[target]\nshear = \"20 deg\"\n{target}"), "")
+            .layup
             .target
             .unwrap()
             .grippers
@@ -188,7 +190,7 @@ fn a_centred_start_has_its_middle_and_heading_above_the_target() {
 #[test]
 fn a_pick_up_has_its_middle_and_heading_where_the_scene_says() {
     let target = "[target]\nseed = \"middle\"\ndirection = \"30 deg\"";
-    let start = |keys: &str| scene(DOME, target, keys).motion.positions[0].clone();
+    let start = |keys: &str| scene(DOME, target, keys).layup.motion.positions[0].clone();
     for (keys, heading) in
         [("middle = [1, -0.2]\ndirection = \"75 deg\"", 75.0_f64), ("middle = [1, -0.2]", 0.0)]
     {

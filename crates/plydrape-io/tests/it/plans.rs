@@ -1,15 +1,15 @@
 //! What a plan must reach: every solved mold of the examples, and a variant of each, judged by the sheet, draped once more
 //! along the files that were written. Limits are repeated here as numbers.
 
+use crate::common::drape_sheet;
 use crate::common::examples;
 use crate::scaled::scaled;
-use plydrape::measure::{Verdict};
-use plydrape::measure::Name;
-use plydrape::planner::{self, Planned};
+use plydrape::measure::{Name, Verdict};
 use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
-use plydrape::sheet;
-use plydrape_io::result::ResultFile;
+use plydrape::outcome::{Status, Summary};
+use plydrape::planner::{self, Checkpoint, Planned};
+use plydrape::scene::Scene;
+use plydrape_io::result::{ResultFile, Turned};
 use plydrape_io::scene;
 use plydrape_io::{csv, plan, read, table};
 use std::ops::ControlFlow;
@@ -79,27 +79,33 @@ fn planned(scene: &Scene) -> Planned {
     planner::plan(scene, None, &mut |_| ControlFlow::Continue(())).expect("mold and target")
 }
 
+/// The result of a plan, with states of its sheet in a folder, and the plan from which a search goes on.
+fn kept(scene: &Scene, plan: Planned, folder: &Path) -> (ResultFile, Checkpoint) {
+    let checkpoint = plan.checkpoint.clone();
+    (ResultFile::planned(scene, None, plan, folder).unwrap(), checkpoint)
+}
+
 fn verdict<'a>(result: &'a ResultFile, name: &str) -> &'a Verdict {
     let found = result.summary.limits.iter().find(|limit| limit.name.measure().name() == name);
     found.unwrap_or_else(|| panic!("{name} has no verdict"))
 }
 
 /// The sheet along a motion over the mold of a scene, with lines every tenth of a cell.
-fn draped(scene: &Scene, motion: Motion) -> sheet::Summary {
-    let mut scene = Scene { motion, ..scene.clone() };
-    scene.layup.settings.sheet.mesh = Some(0.1 * scene.layup.ply.cell[0].min(scene.layup.ply.cell[1]));
-    let tuning = sheet::Tuning::default();
-    let drape = sheet::drape(&scene, tuning, &|| false, |_| ControlFlow::Continue(()));
-    drape.expect("a sheet").summary
+fn draped(scene: &Scene, motion: Motion) -> Summary {
+    let mut scene = scene.clone();
+    scene.layup.motion = motion;
+    scene.layup.settings.sheet.mesh =
+        Some(0.1 * scene.layup.ply.cell[0].min(scene.layup.ply.cell[1]));
+    drape_sheet(&scene).summary
 }
 
 /// A sheet over a mold `s` times as large as an example keeps height, position and tilt.
-fn keeps_what_counts(summary: &sheet::Summary, s: f64, position: f64, what: &str) {
-    let height = summary.height_max_mm.expect("a mold");
-    let off = summary.position_max_mm.expect("an ideal drape");
-    let tilt = summary.tilt_max_deg;
+fn keeps_what_counts(summary: &Summary, s: f64, position: f64, what: &str) {
+    let height = summary.last.value(Name::Height).expect("a mold");
+    let off = summary.last.value(Name::Position).expect("an ideal drape");
+    let tilt = summary.worst.value(Name::Tilt).expect("grippers");
     println!("{what}: {height:.3} mm high, {off:.3} mm off, tilt {tilt:.1}°");
-    assert!(summary.converged, "{what}: {:?}", summary.status);
+    assert_eq!(summary.status, Status::Converged, "{what}");
     assert!(height <= s * HEIGHT, "{what}: {height} mm high");
     assert!(off <= s * position, "{what}: {off} mm off");
     assert!(tilt <= TILT, "{what}: a gripper tilts by {tilt}°");
@@ -108,7 +114,7 @@ fn keeps_what_counts(summary: &sheet::Summary, s: f64, position: f64, what: &str
 /// From a step on, that of the first contact, no gripper rises off the mold by more than `rise` (m).
 fn only_comes_down(scene: &Scene, positions: &[Vec<[f64; 3]>], rise: f64, what: &str) {
     let mold = scene.layup.mold.as_ref().expect("a mold");
-    for n in 0..scene.ply.grid.grippers() {
+    for n in 0..scene.layup.ply.grid.grippers() {
         let mut lowest = f64::INFINITY;
         for (step, grippers) in positions.iter().enumerate() {
             let height = mold.signed_distance(grippers[n]);
@@ -187,8 +193,8 @@ fn is_draped(scene: &Scene, s: f64, made: Option<PathBuf>, position: f64, what: 
     let folder = tempfile::tempdir().unwrap();
     let made = made.unwrap_or_else(|| {
         let plan = planned(scene);
-        let result = ResultFile::planned(scene, None, &plan);
-        plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
+        let (result, checkpoint) = kept(scene, plan, folder.path());
+        plan::write_all(&result, &checkpoint, folder.path()).unwrap();
         folder.path().to_path_buf()
     });
     let table = |name: &str| poses(&std::fs::read_to_string(made.join(name)).unwrap());
@@ -198,22 +204,22 @@ fn is_draped(scene: &Scene, s: f64, made: Option<PathBuf>, position: f64, what: 
     assert!(along.positions.last() == Some(targets), "{what}: it ends beside its target");
     let summary = draped(scene, along.clone());
     keeps_what_counts(&summary, s, position, &format!("{what}, trajectory.csv"));
-    let first = summary.first_contact_step.expect("contact") - 1;
+    let first = summary.first_contact_step().expect("contact") - 1;
     only_comes_down(scene, &along.positions[first..], scene.layup.settings.contact.tolerance, what);
     // as it moves between the steps
     let between = motion(&samples, samples.len() / (2 * steps.len()));
     let summary = draped(scene, between);
     keeps_what_counts(&summary, s, position, &format!("{what}, motion.csv"));
     let result = read::read(&made.join("result.json")).unwrap();
-    let (motion, attitudes) = result.motion().unwrap().expect("a plan");
-    let dense = csv::motion(&motion, &attitudes, &scene.layup.ply, 1000.0).unwrap();
+    let Turned { motion, attitudes } = result.motion().unwrap().expect("a plan");
+    let dense = csv::motion(motion, attitudes, &scene.layup.ply, 1000.0).unwrap();
     moves_within_its_rates(&poses(&dense), s, 1000.0, what);
 }
 
 /// An example as it is shipped, planned once for all that needs its plan.
 fn example_is_draped(example: &Example, position: f64) {
     let scene = example.scene();
-    assert!(!draped(&scene, scene.layup.motion.clone()).accepted, "straight paths will do");
+    assert!(!draped(&scene, scene.layup.motion.clone()).accepted(), "straight paths will do");
     is_draped(&scene, 1.0, example.plan_made_before(), position, &scene.title);
 }
 
@@ -284,8 +290,8 @@ fn one_thread_and_two_write_the_same_bytes() {
         let plan = pool.install(|| planned(&scene));
         assert!(plan.record.evaluations > 20, "{} drapes: no evolution", plan.record.evaluations);
         let folder = tempfile::tempdir().unwrap();
-        let result = ResultFile::planned(&scene, None, &plan);
-        let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
+        let (result, checkpoint) = kept(&scene, plan, folder.path());
+        let files = plan::write_all(&result, &checkpoint, folder.path()).unwrap();
         files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
     });
     assert!(one.len() >= 7 && one == two);
@@ -293,12 +299,11 @@ fn one_thread_and_two_write_the_same_bytes() {
 
 /// A plan that is not accepted: whole, written whole, and the measure that it fails by is named.
 fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
-    let plan = planned(scene);
-    let result = ResultFile::planned(scene, None, &plan);
+    let folder = tempfile::tempdir().unwrap();
+    let (result, checkpoint) = kept(scene, planned(scene), folder.path());
     assert!(!result.summary.accepted());
     assert_eq!(result.summary.steps, result.summary.steps_planned);
-    let folder = tempfile::tempdir().unwrap();
-    let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
+    let files = plan::write_all(&result, &checkpoint, folder.path()).unwrap();
     assert!(files.len() >= 7 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
     let limiting = table::limiting(&result.summary.limits).expect("a limit").clone();
     assert!(!limiting.at.is_empty() && limiting.value.is_finite());

@@ -1,16 +1,15 @@
 //! Grippers on mounts are commanded beyond their places: the pull that holds the ply taut, the press as it lands, and what a
 //! plan stands with them.
 
-use crate::common::{distance, example, examples};
-use plydrape::equilibrium::Status;
+use crate::common::{distance, drape, drape_sheet, example, examples};
 use plydrape::errors::{Errors, Term};
-use plydrape::outcome::{Watch};
+use plydrape::layup::Stepping;
+use plydrape::measure::Name;
+use plydrape::outcome::{Status, Watch};
 use plydrape::planner;
 use plydrape::planner::path::Strategy;
 use plydrape::planner::path::preload::{Preload, ends};
-use plydrape::layup::{Stepping};
-use plydrape::scene::{Scene};
-use plydrape::sheet;
+use plydrape::scene::Scene;
 use plydrape_io::scene;
 use std::ops::ControlFlow;
 
@@ -75,7 +74,7 @@ fn a_gripper_presses_with_its_share_of_the_load() {
     scene.layup.settings.pad.axial_stiffness = Some(1e4);
     let stiff = depth(&scene);
     assert!(soft > 0.0 && (soft / stiff - 2.0).abs() < 1e-9, "{soft} {stiff}");
-    assert!(5e3 * soft <= scene.limits.gripper_load, "{soft}");
+    assert!(5e3 * soft <= scene.limits.most(Name::GripperLoad), "{soft}");
     scene.layup.settings.pad.axial_stiffness = None;
     assert_eq!(depth(&scene), 0.0, "a rigid axis is not commanded beyond");
 }
@@ -105,14 +104,11 @@ fn catenaries_and_sheet_load_the_mounts_of_a_taut_array_alike() {
     let apart = |share: f64| raised.iter().map(|[x, y, z]| [share * x, share * y, *z]).collect();
     scene.layup.motion.positions = [0.99, 1.0, 1.01, 1.02, 1.03, 1.04].map(apart).to_vec();
     scene.layup.motion.times = (0..6).map(f64::from).collect();
-    let catenaries = plydrape::simulate(&scene, |_| ControlFlow::Continue(()));
-    let along = |_: &sheet::State| ControlFlow::Continue(());
-    let sheet = sheet::drape(&scene, sheet::Tuning::default(), &|| false, along).expect("a sheet");
-    let last = catenaries.steps.last().expect("steps");
-    assert!(last.solver.status == Status::Converged && sheet.summary.converged);
+    let (catenaries, sheet) = (drape(&scene), drape_sheet(&scene));
+    assert_eq!([catenaries.summary.status, sheet.summary.status], [Status::Converged; 2]);
     let loads = |n: usize| {
-        let mount = last.grippers[n].mount.expect("mounts that yield");
-        [mount.force, sheet.last.forces[n]].map(|[x, y, _]| [x, y])
+        let last = [&catenaries.steps, &sheet.steps].map(|steps| steps.last().expect("steps"));
+        last.map(|step| step.grippers[n].force).map(|[x, y, _]| [x, y])
     };
     let most = (0..raised.len()).flat_map(|n| loads(n)[1]).fold(0.0, |m: f64, c| m.max(c.abs()));
     assert!(most > 2.0, "{most} N");
@@ -148,8 +144,8 @@ fn the_first_members_pull_against_the_errors_of_the_scene() {
 fn mounts_stand_ten_times_the_errors_of_rigid_grippers() {
     let rigid = example("01_flat_sheared_mold");
     let mut mounted = rigid.clone();
-    mounted.settings.pad.lateral_stiffness = Some(2e3);
-    mounted.settings.pad.axial_stiffness = Some(2e3);
+    mounted.layup.settings.pad.lateral_stiffness = Some(2e3);
+    mounted.layup.settings.pad.axial_stiffness = Some(2e3);
     let stands = |scene: &Scene| {
         let go = &mut |_: &planner::Progress| ControlFlow::Continue(());
         let planned = planner::plan(scene, None, go).expect("a plan");

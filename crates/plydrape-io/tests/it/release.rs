@@ -1,12 +1,12 @@
 //! When pads let go: from the scene file to the result and its states.
 
-use plydrape::draping::simulate;
-use plydrape::measure::Name;
+use crate::common::decided;
 use plydrape::layup::{Release, ReleaseOrder};
-use plydrape::scene::{Scene};
-use plydrape::sheet::{Event, EventKind, Status};
+use plydrape::measure::Name;
+use plydrape::outcome::Status;
+use plydrape::scene::Scene;
+use plydrape::sheet::{Event, EventKind};
 use plydrape_io::{ResultFile, csv, read, scene, write_all};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A ply of 4 × 2 grippers that is lowered on a plane, sheared by 10°, with more tables.
@@ -23,15 +23,13 @@ fn flat(more: &str) -> Scene {
 /// The result of a scene, with its states in a folder that lives as long.
 fn draped(scene: &Scene) -> (ResultFile, tempfile::TempDir) {
     let dir = tempfile::tempdir().unwrap();
-    let mut result = ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())));
-    result.drape_sheet(scene, dir.path(), &|| false, |_| {}).unwrap();
-    (result, dir)
+    (decided(scene, dir.path()), dir)
 }
 
 /// What the table says, and what it does not say.
 #[test]
 fn the_table_release_says_order_and_dwell() {
-    let read = |more: &str| flat(more).release;
+    let read = |more: &str| flat(more).layup.release;
     assert_eq!(read(""), None);
     let end = ReleaseOrder::End;
     assert_eq!(read("[release]\n"), Some(Release::new(end, 0.0)));
@@ -54,8 +52,7 @@ fn a_result_has_the_events_and_the_state_after_the_release() {
         event(end + 2.0, EventKind::Release),
     ];
     assert_eq!(result.events(), expected);
-    let sheet = result.summary.sheet.as_ref().unwrap();
-    assert_eq!((sheet.status, sheet.steps), (Status::Converged, 8));
+    assert_eq!((result.summary.status, result.summary.steps), (Status::Converged, 8));
 
     let folder = dir.path().join("out");
     write_all(&result, &folder).unwrap();
@@ -91,7 +88,7 @@ fn the_duration_of_a_motion_ends_with_the_release() {
         (found.value, found.ok)
     };
     assert_eq!(verdict(&result), (9.0, false));
-    assert!(!result.summary.motion_accepted() && !result.summary.accepted());
+    assert!(!result.summary.accepted());
     let summary = &result.summary;
     let both = [&summary.worst, &summary.last].map(|numbers| numbers.value(Name::Duration));
     assert_eq!(both, [Some(9.0); 2]);
@@ -100,9 +97,7 @@ fn the_duration_of_a_motion_ends_with_the_release() {
     let back = read::parse(result.text().unwrap().as_bytes(), Path::new("result.json")).unwrap();
     assert_eq!(verdict(&back), (9.0, false));
     let enough = of("9 s");
-    let motion = simulate(&enough, |_| ControlFlow::Continue(()));
-    let mut kept = ResultFile::new(&enough, None, motion);
-    kept.summary.decide_by(result.summary.sheet.clone().unwrap());
+    let (kept, _dir) = draped(&enough);
     assert_eq!(verdict(&kept), (9.0, true));
 }
 
@@ -133,7 +128,7 @@ fn a_result_with_impossible_events_is_refused() {
         (|events| events.reverse(), "not in the order of time"),
     ] {
         let mut result = result.clone();
-        change(&mut result.summary.sheet.as_mut().unwrap().events);
+        change(&mut result.summary.events);
         let text = result.text().unwrap();
         let fault = read::parse(text.as_bytes(), Path::new("result.json")).unwrap_err();
         assert!(fault.to_string().contains(what), "{fault}");

@@ -1,12 +1,12 @@
 //! Result files: complete, read back to the same numbers, and the page made from them.
 
 use crate::common;
-use plydrape::draping::simulate;
 use plydrape::errors::{Errors, GripperErrors, MoldErrors, Term};
 use plydrape::measure::Name;
-use plydrape::planner;
 use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
+use plydrape::planner;
+use plydrape::scene::Scene;
+use plydrape_io::result::Turned;
 use plydrape_io::scene::{self, SceneFile};
 use plydrape_io::{Content, ResultFile};
 use plydrape_io::{csv, figure, page, read};
@@ -39,9 +39,9 @@ fn short(scene: &Scene) -> Scene {
 
 /// The result of a drape of these steps.
 fn drape(scene: &SceneFile) -> ResultFile {
-    let short = short(scene);
-    let drape = simulate(&short, |_| ControlFlow::Continue(()));
-    ResultFile::new(&short, scene.input.clone(), drape)
+    let mut result = common::drape(&short(scene));
+    result.scene.input = scene.input.clone();
+    result
 }
 
 fn again(result: &ResultFile) -> ResultFile {
@@ -71,8 +71,7 @@ fn all_outputs_can_be_made_from_the_file_alone() {
 #[test]
 fn a_result_says_the_errors_of_its_scene_and_holds_no_waves() {
     let mut scene = common::example("01_flat_sheared_mold");
-    let plain =
-        ResultFile::new(&scene, None, simulate(&short(&scene), |_| ControlFlow::Continue(())));
+    let plain = common::drape(&short(&scene));
     let text = plain.text().unwrap();
     assert!(!text.contains("\"errors\"") && !text.contains("length_factor"));
 
@@ -81,12 +80,11 @@ fn a_result_says_the_errors_of_its_scene_and_holds_no_waves() {
     let gripper = GripperErrors { position: term, ..GripperErrors::default() };
     let errors = Errors { seed: 7, gripper, mold, ..Errors::default() };
     scene.errors = Some(errors);
-    let result =
-        ResultFile::new(&scene, None, simulate(&short(&scene), |_| ControlFlow::Continue(())));
+    let result = common::drape(&short(&scene));
     assert_eq!(again(&result).scene.errors, Some(errors));
 
-    let real = errors.draw(0, scene.layup.ply.grid.grippers()).apply(&short(&scene));
-    let result = ResultFile::new(&real, None, simulate(&real, |_| ControlFlow::Continue(())));
+    let real = errors.draw(0, scene.layup.ply.grid.grippers()).apply(&scene.layup);
+    let result = common::drape(&short(&Scene { layup: real, ..scene }));
     let refused = result.text().unwrap_err().to_string();
     assert!(refused.contains("waves of one draw") && refused.contains("waviness"), "{refused}");
 }
@@ -112,16 +110,16 @@ fn the_sheet_of_a_plan_is_kept_as_if_draped_along_it() {
     let text = text + "\n[sheet]\nmesh = \"25 mm\"\nkeep = 7\n[limits]\ntilt_rate = \"1 deg/s\"\n";
     let mut scene = scene::parse(&text, &path, "flat").unwrap().scene;
     (scene.plan.steps, scene.plan.evaluations) = (20, 1);
-    let mut planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+    let planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(planned.record.limited_by[0].name, Name::TiltRate);
     let dir = tempfile::tempdir().unwrap();
-    let mut kept = ResultFile::planned(&scene, None, &planned);
-    let mut draped = kept.clone();
-    kept.keep_sheet(planned.sheet.take().expect("a sheet"), dir.path()).unwrap();
-    scene.layup.motion = planned.motion.steps();
-    draped.drape_sheet(&scene, dir.path(), &|| false, |_| {}).unwrap().expect("a sheet");
+    let along = planner::along(&scene, &planned.motion);
+    let kept = ResultFile::planned(&scene, None, planned, dir.path()).unwrap();
+    let draped = common::decided(&along, dir.path());
 
-    assert_eq!(kept.text().unwrap(), draped.text().unwrap());
+    assert!(kept.steps == draped.steps, "the steps differ");
+    let ended = |result: &ResultFile| (result.summary.status, result.summary.worst.clone());
+    assert_eq!(ended(&kept), ended(&draped));
     let bytes = |result: &ResultFile| {
         let mut bytes = Vec::new();
         result.sheet_states.as_ref().unwrap().write(&mut bytes).unwrap();
@@ -137,9 +135,11 @@ fn a_planned_motion_survives_the_file() {
         scene::read(&common::examples().join("01_flat_sheared_mold/scene.toml")).unwrap();
     (scene.plan.steps, scene.plan.evaluations) = (20, 1);
     let planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
-    let back = again(&ResultFile::planned(&scene, None, &planned));
-    let (motion, attitudes) = back.motion().unwrap().unwrap();
-    assert_eq!(motion, planned.motion);
-    assert_eq!(attitudes, planned.attitudes);
+    let (motion, attitudes) = (planned.motion.clone(), planned.attitudes.clone());
+    let dir = tempfile::tempdir().unwrap();
+    let result = ResultFile::planned(&scene, None, planned, dir.path()).unwrap();
+    let turned = Turned { motion, attitudes };
+    assert_eq!(result.motion().unwrap(), Some(&turned));
+    assert_eq!(again(&result).motion().unwrap(), Some(&turned));
     assert!(again(&drape(&scene)).motion().unwrap().is_none());
 }

@@ -4,12 +4,13 @@
 //! with s: EI ~ s³ and EA ~ s. By area the mass is that of a line over the cell, ~ 1/s, and with it bending rigidity ~ s²,
 //! while tension and shear force per width stay. Times stay: a motion's speeds and their limits grow with s.
 
+use plydrape::layup::Target;
 use plydrape::material::{Material, Section};
+use plydrape::measure::Name;
 use plydrape::mold::{Graph, HeightGrid, Mesh, Mold, Plane, Pose, Saddle, Surface};
-use plydrape::net::{Layup, Net};
-use plydrape::layup::{Target};
 use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
+use plydrape::net::{Layup, Net};
+use plydrape::scene::Scene;
 use std::sync::Arc;
 
 type Point = [f64; 3];
@@ -18,13 +19,13 @@ type Point = [f64; 3];
 pub fn scaled(scene: &Scene, s: f64) -> Scene {
     let mut out = scene.clone();
     let mold = scene.layup.mold.as_ref().map(|mold| scaled_mold(mold, s));
-    out.ply.cell = scene.layup.ply.cell.map(|side| s * side);
-    out.ply.material = scaled_material(&scene.layup.ply.material, s);
-    out.motion = Motion {
+    out.layup.ply.cell = scene.layup.ply.cell.map(|side| s * side);
+    out.layup.ply.material = scaled_material(&scene.layup.ply.material, s);
+    out.layup.motion = Motion {
         times: scene.layup.motion.times.clone(),
         positions: scene.layup.motion.positions.iter().map(|places| points(places, s)).collect(),
     };
-    out.target = scene.layup.target.as_ref().map(|target| Target {
+    out.layup.target = scene.layup.target.as_ref().map(|target| Target {
         grippers: points(&target.grippers, s),
         drape: target.drape.as_ref().zip(mold.as_ref()).map(|(net, mold)| {
             let Layup { mesh, place, .. } = net.layup;
@@ -32,9 +33,9 @@ pub fn scaled(scene: &Scene, s: f64) -> Scene {
             Arc::new(Net::drape(mold, layup).expect("the net of a scaled mold"))
         }),
     });
-    out.mold = mold;
+    out.layup.mold = mold;
 
-    let settings = &mut out.settings;
+    let settings = &mut out.layup.settings;
     settings.axial_stiffness *= s;
     settings.contact.tolerance *= s;
     settings.contact.tack /= s;
@@ -44,25 +45,24 @@ pub fn scaled(scene: &Scene, s: f64) -> Scene {
     out.plan.move_limit = out.plan.move_limit.map(|length| s * length);
 
     let limits = &mut out.limits;
-    for length in [
-        &mut limits.bridging,
-        &mut limits.landing_contact,
-        &mut limits.landing_gripper,
-        &mut limits.penetration,
-        &mut limits.height,
-        &mut limits.position,
-        &mut limits.gripper_distance,
-        &mut limits.gripper_load,
-        &mut limits.speed,
-        &mut limits.acceleration,
-        &mut limits.jerk,
+    for name in [
+        Name::Bridging,
+        Name::LandingGripper,
+        Name::Penetration,
+        Name::Height,
+        Name::Position,
+        Name::GripperDistance,
+        Name::GripperLoad,
+        Name::Speed,
+        Name::Acceleration,
+        Name::Jerk,
+        Name::GripperForce,
+        Name::Force,
+        Name::GripperPull,
+        Name::Wrinkle,
     ] {
-        *length *= s;
+        limits.set(name, limits.get(name).map(|bound| s * bound));
     }
-    for force in [&mut limits.gripper_force, &mut limits.force, &mut limits.gripper_pull] {
-        *force = force.map(|force| s * force);
-    }
-    limits.wrinkle = limits.wrinkle.map(|height| s * height);
     limits.workspace = limits.workspace.map(|sides| sides.map(|side| side.map(|x| s * x)));
     out
 }

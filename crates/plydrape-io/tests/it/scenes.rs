@@ -1,10 +1,11 @@
 //! Scenes that pass: the template, the examples, and the same positions written in other ways.
 
 use plydrape::errors::{Errors, GripperErrors, Term};
-use plydrape::material::{Section, ShearCurve, TensionLaw};
 use plydrape::layup::{Friction, Model, PadSettings, Settings, SheetSettings, SheetTime};
+use plydrape::material::{Section, ShearCurve, TensionLaw};
 use plydrape::measure::Limits;
-use plydrape::scene::{Scene};
+use plydrape::measure::Name;
+use plydrape::scene::Scene;
 use plydrape_io::scene::{self, SceneError, SceneFile};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,7 @@ fn the_template_passes_its_own_check() {
     let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.layup.ply.grid.grippers(), 12);
     assert_eq!(scene.layup.motion.positions.len(), 30);
-    assert_eq!(scene.limits.shear, 45f64.to_radians());
+    assert_eq!(scene.limits.most(Name::Shear), 45f64.to_radians());
 }
 
 #[test]
@@ -74,7 +75,7 @@ fn positions_are_the_same_however_they_are_written() {
         let text = format!(
             "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.1]\nmaterial = \"krogh2018\"\n[grippers]\n{grippers}\n"
         );
-        parse(&text).unwrap_or_else(|e| panic!("{e}")).scene.motion.positions
+        parse(&text).unwrap_or_else(|e| panic!("{e}")).scene.layup.motion.positions
     };
     let spacing = with("spacing = [0.098, 0.098]\nheight = 0.05\norigin = [0.01, 0]");
     let table = with(
@@ -92,7 +93,7 @@ fn positions_are_the_same_however_they_are_written() {
 #[test]
 fn a_motion_file_defines_start_and_steps() {
     let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[motion]\nkind = \"file\"\nfile = \"tests/it/trajectory.csv\"\n";
-    let motion = parse(text).unwrap_or_else(|e| panic!("{e}")).scene.motion;
+    let motion = parse(text).unwrap_or_else(|e| panic!("{e}")).scene.layup.motion;
     assert_eq!(motion.times, [0.0, 0.5, 2.0]);
     assert_eq!(motion.positions[0], [[0.0, 0.0, 0.05], [0.098, 0.0, 0.05]]);
     assert_eq!(motion.positions[2][1], [0.099, 0.0, 0.02]);
@@ -183,14 +184,14 @@ fn a_plan_and_its_limits_are_read_in_si() {
         (plydrape::scene::PlanMethod::Stepwise, 40, 1 << 63)
     );
     assert_eq!((plan.move_limit, plan.rate, plan.evaluations), (Some(0.005), 1000.0, 100));
-    let limits = scene.limits;
-    assert_eq!(limits.gripper_distance, 0.06);
+    let limits = &scene.limits;
+    assert_eq!(limits.most(Name::GripperDistance), 0.06);
     assert_eq!(limits.workspace, Some([[-0.5, 1.0], [-1.0, 1.0], [0.0, 2.0]]));
-    assert!((limits.speed - 0.1).abs() < 1e-15, "{}", limits.speed);
+    assert!((limits.most(Name::Speed) - 0.1).abs() < 1e-15, "{}", limits.most(Name::Speed));
 
     let scene = parse(text).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.plan, plydrape::scene::Plan::default());
-    assert_eq!((scene.limits.gripper_distance, scene.limits.workspace), (0.05, None));
+    assert_eq!((scene.limits.most(Name::GripperDistance), scene.limits.workspace), (0.05, None));
 }
 
 /// What a scene says nothing of follows from its ply and its contact, or from the sources that the keys name.
@@ -202,7 +203,7 @@ fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
         bare.replace(" }", ", locking_angle = \"40 deg\", locking_test = \"picture frame\" }");
     let with = |material: &str, limits: &str| {
         let text = text.replace("MATERIAL", material);
-        parse(&format!("{text}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}")).limits
+        parse(&format!("{text}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}")).scene.limits
     };
     let near = |found: f64, expected: f64| {
         assert!((found - expected).abs() <= 1e-15 * expected, "{found} {expected}");
@@ -210,14 +211,17 @@ fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
     let degrees = |angle: f64| angle.to_radians();
 
     let limits = with(bare, "");
-    near(limits.shear, degrees(45.0));
-    near(limits.landing_shear, degrees(3.0));
-    near(limits.tilt_rate, degrees(90.0));
-    assert_eq!((limits.penetration, limits.strain, limits.gripper_load), (1e-3, 0.005, 10.0));
-    assert_eq!((limits.gripper_pull, limits.duration), (None, None));
+    near(limits.most(Name::Shear), degrees(45.0));
+    near(limits.most(Name::LandingShear), degrees(3.0));
+    near(limits.most(Name::TiltRate), degrees(90.0));
+    assert_eq!(
+        [Name::Penetration, Name::Strain, Name::GripperLoad].map(|n| limits.most(n)),
+        [1e-3, 0.005, 10.0]
+    );
+    assert_eq!([Name::GripperPull, Name::Duration].map(|n| limits.get(n)), [None; 2]);
 
-    near(with(&locking, "").shear, degrees(40.0));
-    near(with(&locking, "shear = \"50 deg\"").shear, degrees(50.0));
+    near(with(&locking, "").most(Name::Shear), degrees(40.0));
+    near(with(&locking, "shear = \"50 deg\"").most(Name::Shear), degrees(50.0));
     for rate in [
         "\"30 deg/s\"",
         "\"30 °/s\"",
@@ -225,17 +229,15 @@ fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
         "0.5235987755982988",
         "\"0.5235987755982988 rad/s\"",
     ] {
-        near(with(bare, &format!("tilt_rate = {rate}")).tilt_rate, degrees(30.0));
+        near(with(bare, &format!("tilt_rate = {rate}")).most(Name::TiltRate), degrees(30.0));
     }
     let given = "landing_shear = \"2 deg\"\nstrain = \"0.2 %\"\npenetration = \"3 mm\"\ngripper_load = \"500 mN\"\ngripper_pull = 4\nduration = \"2 min\"\n";
     let limits = with(bare, given);
-    near(limits.landing_shear, degrees(2.0));
-    near(limits.strain, 0.002);
-    near(limits.penetration, 0.003);
-    assert_eq!(
-        (limits.gripper_load, limits.gripper_pull, limits.duration),
-        (0.5, Some(4.0), Some(120.0))
-    );
+    near(limits.most(Name::LandingShear), degrees(2.0));
+    near(limits.most(Name::Strain), 0.002);
+    near(limits.most(Name::Penetration), 0.003);
+    let given = [Name::GripperLoad, Name::GripperPull, Name::Duration].map(|n| limits.most(n));
+    assert_eq!(given, [0.5, 4.0, 120.0]);
 }
 
 /// Words for the middle are one: where they have a meaning, all of them are taken.
@@ -252,8 +254,8 @@ fn every_word_for_the_middle_is_taken() {
     let usual = scene("centered", "middle");
     for word in ["centred", "center", "centre", "middle", "centered"] {
         let other = scene(word, word);
-        assert_eq!(other.motion, usual.motion, "{word}");
-        assert_eq!(other.target, usual.target, "{word}");
+        assert_eq!(other.layup.motion, usual.layup.motion, "{word}");
+        assert_eq!(other.layup.target, usual.layup.target, "{word}");
     }
 }
 
@@ -269,7 +271,7 @@ fn a_value_with_its_unit_is_believed_where_a_plain_number_is_not() {
     let error = scene("100", "1").unwrap_err();
     assert_eq!(error.message, "`100` would make cells of 100 m");
     assert!(error.help.starts_with("did you mean \"100 mm\"?"), "{error}");
-    assert_eq!(scene("\"100 m\"", "1").unwrap().ply.cell, [100.0; 2]);
+    assert_eq!(scene("\"100 m\"", "1").unwrap().layup.ply.cell, [100.0; 2]);
     assert!(scene("0.1", "75").unwrap_err().help.starts_with("did you mean \"75 mm\"?"));
     assert!(scene("0.1", "\"75 m\"").is_ok());
     // a table of positions is read as one is
@@ -284,7 +286,7 @@ fn a_material_is_read_from_the_units_of_its_data_sheet() {
             "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\n[ply.material]\nmass = \"{mass}\"\nbending_rigidity_warp = \"{rigidity}\"\n\
              bending_rigidity_weft = 0\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
         );
-        match parse(&text).unwrap_or_else(|e| panic!("{e}")).ply.material.section {
+        match parse(&text).unwrap_or_else(|e| panic!("{e}")).layup.ply.material.section {
             Section::Areal { mass, warp_rigidity, .. } => [mass, warp_rigidity],
             Section::Line { .. } => panic!("{text}"),
         }
@@ -317,7 +319,7 @@ fn a_file_saved_on_windows_is_read_as_any_other() {
     std::fs::write(&file, format!("\u{feff}{}", scene::TEMPLATE.replace('\n', "\r\n"))).unwrap();
     let read = scene::read(&file).unwrap_or_else(|e| panic!("{e}"));
     let template = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(read.motion, template.motion);
+    assert_eq!(read.layup.motion, template.layup.motion);
 }
 
 /// Every key of the sheet in a unit of its own.
@@ -331,10 +333,13 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
     };
     let paper = "material = \"krogh2018\"";
     let usual = scene(paper, "", "");
-    assert_eq!(usual.settings, Settings::default());
-    assert_eq!(usual.limits, Limits::of(&usual.ply, &usual.settings));
-    assert_eq!(usual.ply.material.tension, Some(TensionLaw::Linear { stiffness: 1e6 }));
-    assert_eq!(usual.ply.material.shear_curve.as_ref().map(|c| c.force(0.2)), Some((1.0, 5.0)));
+    assert_eq!(usual.layup.settings, Settings::default());
+    assert_eq!(usual.limits, Limits::of(&usual.layup));
+    assert_eq!(usual.layup.ply.material.tension, Some(TensionLaw::Linear { stiffness: 1e6 }));
+    assert_eq!(
+        usual.layup.ply.material.shear_curve.as_ref().map(|c| c.force(0.2)),
+        Some((1.0, 5.0))
+    );
 
     let given = scene(
         &format!("{paper}\noverhang = \"30 mm\""),
@@ -344,7 +349,7 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
          [contact]\nfriction = 0.3\ntack = \"0.09 kPa\"\n\
          [limits]\nheight = \"1 mm\"\nout_of_plane = \"2 deg\"\nposition = \"3 mm\"\ngripper_force = \"8 N\"",
     );
-    let (settings, limits) = (given.settings, given.limits);
+    let (settings, limits) = (given.layup.settings, given.limits);
     let sheet =
         SheetSettings { mesh: Some(0.0125), overhang: 0.03, time: SheetTime::Real, keep: 40 };
     assert_eq!((settings.model, settings.sheet), (Model::Sheet, sheet));
@@ -357,8 +362,9 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
     };
     assert_eq!(settings.pad, pad);
     assert_eq!((settings.contact.friction, settings.contact.tack), (Friction::Coulomb(0.3), 90.0));
-    assert_eq!((limits.height, limits.position, limits.gripper_force), (1e-3, 3e-3, Some(8.0)));
-    assert_eq!(limits.out_of_plane, 2f64.to_radians());
+    let given = [Name::Height, Name::Position, Name::GripperForce].map(|n| limits.most(n));
+    assert_eq!(given, [1e-3, 3e-3, 8.0]);
+    assert_eq!(limits.most(Name::OutOfPlane), 2f64.to_radians());
 
     for (word, friction) in [
         ("\"stick\"", Friction::Stick),
@@ -367,7 +373,7 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
         ("0", Friction::Coulomb(0.0)),
     ] {
         let found = scene(paper, "", &format!("[contact]\nfriction = {word}"));
-        assert_eq!(found.settings.contact.friction, friction, "{word}");
+        assert_eq!(found.layup.settings.contact.friction, friction, "{word}");
     }
 }
 
@@ -378,7 +384,7 @@ fn tension_and_shear_are_a_slope_or_a_table() {
         let text = format!(
             "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n[ply.material]\nmass = 3.1\nbending_rigidity_warp = 9e-5\nbending_rigidity_weft = 9e-5\n{curves}\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n{more}"
         );
-        parse(&text).map(|scene| scene.scene.ply.material)
+        parse(&text).map(|scene| scene.scene.layup.ply.material)
     };
     let tables = "tension = { strain = [0, \"0.2 %\", 0.01], force = [0, \"1 N/mm\", 9e3] }\n\
          shear_curve = { angle = [0, \"20 deg\"], force = [0, \"10 N/m\"] }";

@@ -1,12 +1,12 @@
 //! How the sheet judges fronts on the dome and straight paths: figures of two independent cloth simulators.
 
-use crate::common::example;
-use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
-use plydrape::layup::{Friction};
+use crate::common::{drape_sheet, example};
+use plydrape::layup::Friction;
+use plydrape::measure::Name;
 use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
-use plydrape::sheet::{Tuning, drape};
-use std::ops::ControlFlow;
+use plydrape::outcome::Status;
+use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
+use plydrape::scene::Scene;
 
 /// The dome of the examples with lines every 20 mm, rolled on from its middle by a front of curvature `a` (1/m), whose lines
 /// are not made taut: so are the fronts of the references.
@@ -26,17 +26,17 @@ fn front(a: f64, slope: f64) -> Scene {
     };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
-    scene.layup.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    scene.layup.motion =
+        Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
     scene
 }
 
 /// Largest height at the end of a drape, which comes to rest (mm).
 fn height(mut scene: Scene, friction: Friction) -> f64 {
     scene.layup.settings.contact.friction = friction;
-    let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
-    let summary = draped.expect("the scene has a sheet").summary;
-    assert!(summary.converged, "{:?}", summary.status);
-    summary.height_max_mm.expect("the scene has a mold")
+    let summary = drape_sheet(&scene).summary;
+    assert_eq!(summary.status, Status::Converged);
+    summary.last.value(Name::Height).expect("the scene has a mold")
 }
 
 /// Under stick a steep front leaves 0.11 mm on the dome and a shallow one ridges of 2.1 to 2.3 mm, of which the
@@ -59,11 +59,11 @@ fn with_little_friction_every_path_ends_flat() {
         assert!(found < 0.12, "{a} {slope}: {found} mm");
     }
     let mut straight = example("04_dome");
-    straight.settings.sheet.mesh = Some(0.02);
+    straight.layup.settings.sheet.mesh = Some(0.02);
     let found = height(straight, friction);
     assert!(found < 0.15, "{found} mm");
     let mut flat = example("01_flat_sheared_mold");
-    flat.settings.sheet.mesh = Some(0.02);
+    flat.layup.settings.sheet.mesh = Some(0.02);
     let found = height(flat, friction);
     assert!(found < 0.01, "{found} mm");
 }
@@ -77,10 +77,9 @@ fn the_paper_s_straight_path_touches_first_in_the_middle_of_an_outer_cell() {
     // contact is all that is asked
     scene.layup.motion.positions.truncate(23);
     scene.layup.motion.times.truncate(23);
-    let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
-    let summary = draped.expect("the scene has a sheet").summary;
-    assert_eq!(summary.first_contact_step, Some(22));
-    let [u, v] = summary.first_contact_uv_mm.expect("it touches");
+    let report = drape_sheet(&scene).summary.sheet.expect("the sheet reports");
+    assert_eq!(report.first_contact_step, Some(22));
+    let [u, v] = report.first_contact_uv_mm.expect("it touches");
     let outer = f64::min(u, 300.0 - u);
     assert!((outer - 50.0).abs() < 11.0 && (v - 50.0).abs() < 11.0, "{u} {v}");
 }

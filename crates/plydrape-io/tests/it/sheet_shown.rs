@@ -1,20 +1,20 @@
 //! What shows the sheet of a result: files for VTK, the page, the figure.
 
 use crate::common::examples;
-use plydrape::draping::simulate;
+use plydrape::outcome;
 use plydrape_io::{ResultFile, page, scene, vtk};
 use std::ops::ControlFlow;
 
-/// The dome with nine cells of 50 mm between grippers, and its states in a folder that lives as long.
+/// The dome with nine cells of 50 mm between grippers by both models, and the states of its sheet in a folder that lives as long.
 fn dome() -> (ResultFile, tempfile::TempDir) {
     let path = examples().join("04_dome");
     let text = std::fs::read_to_string(path.join("scene.toml")).unwrap();
     let text = text.replace("steps = 30", "steps = 6") + "[sheet]\nmesh = \"50 mm\"\nkeep = 4\n";
-    let scene = scene::parse(&text, &path, "dome").unwrap().scene;
-    let drape = simulate(&scene, |_| ControlFlow::Continue(()));
-    let mut result = ResultFile::new(&scene, None, drape);
+    let mut scene = scene::parse(&text, &path, "dome").unwrap().scene;
+    scene.also = true;
+    let outcome = outcome::simulate(&scene, |_| ControlFlow::Continue(())).unwrap();
     let dir = tempfile::tempdir().unwrap();
-    result.drape_sheet(&scene, dir.path(), &|| false, |_| {}).unwrap().expect("a sheet");
+    let result = ResultFile::of_outcome(&scene, None, outcome, dir.path()).unwrap();
     (result, dir)
 }
 
@@ -70,21 +70,33 @@ fn vtk_files_hold_the_states_that_were_kept() {
     assert_eq!(all.matches("name=\"sheet\"").count(), 4);
 }
 
-/// The page holds the steps that have a state, with the limits of the sheet before those of the catenaries.
+/// The page has every step with the grippers, and the ply in the states that were kept: the nearest one where there is none. Beside the sheet,
+/// which judges, stand the catenaries, which do not.
 #[test]
-fn the_page_shows_both_models_in_the_same_steps() {
+fn the_page_shows_every_step_and_the_other_model_beside() {
     let (result, _dir) = dome();
     let html = page::html(&result).unwrap();
     let (_, tail) = html.split_once("id=\"plydrape-data\">").unwrap();
     let data: serde_json::Value =
         serde_json::from_str(tail.split_once("</script>").unwrap().0.trim()).unwrap();
-    let sheet = &data["sheet"];
-    assert_eq!(data["steps"].as_array().unwrap().len(), 4);
-    assert_eq!(sheet["states"], serde_json::json!([0, 1, 2, 3]));
-    assert_eq!(sheet["positions"]["count"], 49);
-    assert_eq!(sheet["cells"].as_array().unwrap().len(), 4 * 36);
-    assert_eq!(sheet["forces"]["count"], 16);
-    assert_eq!(sheet["limits"][0]["name"], "height");
-    assert_eq!(data["accepted"], false);
+    let (drape, also) = (&data["drape"], &data["also"]);
+    assert_eq!(data["steps"], serde_json::json!([1, 2, 3, 4, 5, 6]));
+    assert_eq!((&drape["model"], &also["model"]), (&"sheet".into(), &"catenaries".into()));
+    let list = |value: &serde_json::Value| -> Vec<u64> {
+        value.as_array().unwrap().iter().filter_map(serde_json::Value::as_u64).collect()
+    };
+    let (drawn, pictures) = (list(&drape["drawn"]), list(&drape["pictures"]));
+    assert_eq!((drawn.len(), drawn[0], drawn[3]), (4, 1, 6));
+    for (step, picture) in (1..).zip(pictures) {
+        let away = |kept: u64| kept.abs_diff(step);
+        assert_eq!(drawn.iter().copied().map(away).min(), Some(away(drawn[picture as usize])));
+    }
+    assert_eq!(drape["grippers"]["forces"]["steps"], 6);
+    assert_eq!(drape["grippers"]["forces"]["count"], 16);
+    assert_eq!(drape["sheet"]["positions"]["count"], 49);
+    assert_eq!(drape["sheet"]["cells"].as_array().unwrap().len(), 4 * 36);
+    assert_eq!(data["accepted"], result.summary.accepted());
+    assert_eq!(data["limits"].as_array().unwrap().len(), result.summary.limits.len());
+    assert!(also["measures"].as_array().unwrap().iter().all(|course| course["limit"].is_null()));
     assert_eq!(html, page::html(&result).unwrap());
 }

@@ -1,10 +1,8 @@
 //! Limits in the currency of an engineer: slack as a fiber angle and as the height of a wrinkle, and presets of limits.
 
 use crate::common::{drape, example};
-use plydrape::measure::{Name, Verdict};
-use plydrape::preset::Preset;
-use plydrape::measure::Limits;
-use plydrape::scene::{Scene};
+use plydrape::measure::{Limits, Name, Preset, Verdict};
+use plydrape::scene::Scene;
 use plydrape_io::result::ResultFile;
 use std::path::Path;
 
@@ -39,8 +37,8 @@ fn slack_as_an_angle_and_as_a_height_has_verdicts_of_its_own() {
     let slack = last(Name::Slack) * 1e-3;
     let height = 1e3 * 1.3256 * length.powf(3.0 / 7.0) * slack.powf(4.0 / 7.0);
     for (factor, ok) in [(1.01, true), (0.99, false)] {
-        scene.limits.slack_angle = Some(factor * angle.to_radians());
-        scene.limits.wrinkle = Some(factor * 1e-3 * height);
+        scene.limits.set(Name::SlackAngle, Some(factor * angle.to_radians()));
+        scene.limits.set(Name::Wrinkle, Some(factor * 1e-3 * height));
         let result = drape(&scene);
         for (name, value, unit) in [(Name::SlackAngle, angle, "°"), (Name::Wrinkle, height, "mm")]
         {
@@ -59,13 +57,13 @@ fn slack_as_an_angle_and_as_a_height_has_verdicts_of_its_own() {
 fn a_slack_angle_takes_the_place_of_the_default_slack_ratio() {
     let three = 3_f64.to_radians();
     let limits = scene("slack_angle = \"3 deg\"").limits;
-    near(limits.slack_ratio, 0.25 * three * three, 1e-12);
-    near(limits.slack_angle.expect("it is set"), three, 1e-12);
+    near(limits.most(Name::SlackRatio), 0.25 * three * three, 1e-12);
+    near(limits.most(Name::SlackAngle), three, 1e-12);
     let limits = scene("slack_angle = \"3 deg\"\nslack_ratio = \"0.02 %\"").limits;
-    near(limits.slack_ratio, 2e-4, 1e-12);
+    near(limits.most(Name::SlackRatio), 2e-4, 1e-12);
     let limits = scene("wrinkle = \"0.3 mm\"").limits;
-    assert_eq!((limits.slack_ratio, limits.slack_angle), (5e-4, None));
-    near(limits.wrinkle.expect("it is set"), 3e-4, 1e-12);
+    assert_eq!([Name::SlackRatio, Name::SlackAngle].map(|n| limits.get(n)), [Some(5e-4), None]);
+    near(limits.most(Name::Wrinkle), 3e-4, 1e-12);
 }
 
 /// By its name, with the figures that it lists, each the limit of its own measure; all others as without it.
@@ -83,15 +81,18 @@ fn a_preset_sets_its_figures_and_no_other_limit() {
                 "deg" => 1_f64.to_radians(),
                 other => panic!("{other}"),
             };
-            near(measure.limit(&scene).expect("a limit"), figure.value / unit, 1e-12);
+            near(
+                measure.limit(&scene.layup, &scene.limits).expect("a limit"),
+                figure.value / unit,
+                1e-12,
+            );
             assert!(!figure.source.is_empty());
         }
         for name in Name::ALL.iter().filter(|name| preset.value(**name).is_none()) {
             // the slack ratio of a slack angle is the same limit in another unit
             if *name != Name::SlackRatio || preset.value(Name::SlackAngle).is_none() {
-                let before = Scene { limits: usual, ..scene.clone() };
-                let limit = |scene: &Scene| name.measure().limit(scene);
-                assert_eq!(limit(&scene), limit(&before), "{preset:?} {name:?}");
+                let limit = |limits: &Limits| name.measure().limit(&scene.layup, limits);
+                assert_eq!(limit(&scene.limits), limit(&usual), "{preset:?} {name:?}");
             }
         }
     }
@@ -104,14 +105,14 @@ fn single_keys_stand_over_a_preset() {
         ["preset = \"drapebot\"\nposition = \"1 mm\"", "position = \"1 mm\"\npreset = \"drapebot\""]
     {
         let limits = scene(text).limits;
-        near(limits.position, 1e-3, 1e-12);
-        near(limits.fibre_angle, 3_f64.to_radians(), 1e-12);
+        near(limits.most(Name::Position), 1e-3, 1e-12);
+        near(limits.most(Name::FibreAngle), 3_f64.to_radians(), 1e-12);
     }
     let limits: Limits = scene("preset = \"ply-angle\"\nslack_angle = \"2 deg\"").limits;
-    near(limits.slack_ratio, 0.25 * 2_f64.to_radians().powi(2), 1e-12);
+    near(limits.most(Name::SlackRatio), 0.25 * 2_f64.to_radians().powi(2), 1e-12);
     let limits = scene("preset = \"ply-angle\"\nslack_ratio = \"1 %\"").limits;
-    near(limits.slack_ratio, 0.01, 1e-12);
-    near(limits.slack_angle.expect("of the preset"), 3_f64.to_radians(), 1e-12);
+    near(limits.most(Name::SlackRatio), 0.01, 1e-12);
+    near(limits.most(Name::SlackAngle), 3_f64.to_radians(), 1e-12);
 }
 
 /// A result keeps its limits and its preset.

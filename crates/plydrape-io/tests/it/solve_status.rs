@@ -3,9 +3,9 @@
 use crate::common::{Point, RULES, free, inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
+use plydrape::layup::{Settings, SlopeRule};
 use plydrape::material::Section;
 use plydrape::ply::{Grid, Ply};
-use plydrape::layup::{Settings, SlopeRule};
 
 /// A ply of cells of another size, mass (kg/m) and rigidity (N m²).
 fn ply(nu: usize, nv: usize, cell: f64, mass: f64, flexural_rigidity: f64) -> Ply {

@@ -1,20 +1,19 @@
 //! The stepwise planner: its gradients against central differences of the model solved anew, and its plans
 //! judged by draping along them.
 
-use crate::common::{Point, distance, example};
+use crate::common::{self, Point, distance, example, lines};
 use crate::scaled::scaled;
-use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
 use plydrape::equilibrium::{Side, Solver, Status};
+use plydrape::layup::{ContactEnd, SlopeRule, Stepping};
 use plydrape::measure::Name;
 use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
+use plydrape::motion::Motion;
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
 use plydrape::planner::stepwise::tuning::TUNING;
 use plydrape::planner::stepwise::{Outcome, Stepwise, stepwise};
 use plydrape::ply::{ContactSegment, Grid};
-use plydrape::layup::{ContactEnd, SlopeRule, Stepping};
-use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
+use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -143,9 +142,9 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
     let positions: Vec<Point> = (ply.positions.iter().enumerate())
         .map(|(n, p)| [0, 1, 2].map(|k| p[k] + shift * direction[3 * n + k]))
         .collect();
-    let mut solver = Solver::new(&ply.scene.ply, &ply.scene.settings);
+    let mut solver = Solver::new(&ply.scene.layup.ply, &ply.scene.layup.settings);
     let equilibrium = solver.solve(&positions, &ply.contacts);
-    let shape = shape(&ply.scene.ply, &solver, equilibrium, &positions, &ply.contacts);
+    let shape = shape(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
     Solved { solver, shape, positions }
 }
 
@@ -154,7 +153,7 @@ fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
     let Solved { solver, shape, positions } = solved;
     let look = Sensitivity::whole(&ply.scene, solver, shape, positions, &ply.contacts);
     let mut out = Vec::new();
-    let grid = ply.scene.ply.grid;
+    let grid = ply.scene.layup.ply.grid;
     for span in &look.shape.spans {
         let mut push = |what: &str, quantity: Option<Quantity>| {
             let name = format!("{what} of catenary {} segment {}", span.catenary, span.segment);
@@ -192,7 +191,7 @@ fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
 
 /// What must be the same on both sides of a point for the state to be differentiable there.
 fn kind(ply: &Ply, solved: &Solved) -> (Vec<Option<bool>>, Vec<bool>, Vec<bool>, usize) {
-    let (problem, bound) = (solved.solver.problem(), ply.scene.settings.max_tilt.tan());
+    let (problem, bound) = (solved.solver.problem(), ply.scene.layup.settings.max_tilt.tan());
     (
         problem.shearing.iter().map(|s| s.map(|(_, falling)| falling)).collect(),
         solved.solver.slopes().iter().map(|s| s.abs() >= bound).collect(),
@@ -271,13 +270,13 @@ fn drape(scene: &Scene, plan: &Stepwise) -> ResultFile {
     let mut scene = scene.clone();
     let times = (0..plan.positions.len()).map(|n| n as f64).collect();
     scene.layup.motion = Motion { times, positions: plan.positions.clone() };
-    ResultFile::new(&scene, None, simulate(&scene, |_| ControlFlow::Continue(())))
+    common::drape(&scene)
 }
 
 /// Largest slack of an edge at the end (mm).
 fn slack(result: &ResultFile) -> f64 {
     let last = result.steps.last().expect("steps");
-    let edges = last.catenaries.iter().filter(|c| c.kind.is_edge());
+    let edges = lines(last).iter().filter(|c| c.kind.is_edge());
     edges.flat_map(|c| c.spans.iter().map(|span| span.slack_mm(c.length))).fold(0.0, f64::max)
 }
 
@@ -331,8 +330,7 @@ fn plans_of_gently_curved_molds_are_accepted() {
 fn a_plan_leaves_a_tenth_of_the_slack_of_straight_paths_on_curved_molds() {
     for name in ["04_dome", "05_cylinder", "06_saddle"] {
         let scene = cut(name);
-        let straight =
-            slack(&ResultFile::new(&scene, None, simulate(&scene, |_| ControlFlow::Continue(()))));
+        let straight = slack(&common::drape(&scene));
         let plan = plan(&scene);
         assert_eq!(plan.outcome, Outcome::Arrived, "{name}");
         let result = drape(&scene, &plan);
@@ -357,7 +355,7 @@ fn moves_keep_to_their_limit_and_nothing_rises_after_the_landing() {
     assert!(plan.positions.len() <= 100);
     assert_eq!(plan.positions.first(), scene.layup.motion.positions.first());
     let result = drape(&scene, &plan);
-    let landed = result.summary.first_contact_step.expect("it lands");
+    let landed = result.summary.first_contact_step().expect("it lands");
     let mold = scene.layup.mold.as_ref().expect("a mold");
     for (step, pair) in plan.positions.windows(2).enumerate() {
         for (a, b) in pair[0].iter().zip(&pair[1]) {
@@ -370,7 +368,7 @@ fn moves_keep_to_their_limit_and_nothing_rises_after_the_landing() {
     let targets = &scene.layup.target.as_ref().expect("a target").grippers;
     let last = plan.positions.last().expect("steps");
     for (place, target) in last.iter().zip(targets) {
-        assert!(distance(*place, *target) <= scene.limits.landing_gripper);
+        assert!(distance(*place, *target) <= scene.limits.most(Name::LandingGripper));
     }
 }
 

@@ -1,14 +1,13 @@
 //! Grippers that a robot carries: what it cannot follow is not done, in both models, with errors or without.
 
-use plydrape::draping::simulate;
+use crate::common::drape_sheet;
+use plydrape::layup::Layup;
 use plydrape::measure::Name;
 use plydrape::scene::Scene;
-use plydrape::sheet;
 use plydrape_io::program::Program;
 use plydrape_io::read;
 use plydrape_io::result::ResultFile;
 use plydrape_io::scene;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// 2 × 2 grippers, 98 mm apart, of which one row comes 18 mm nearer to the other and 30 mm lower.
@@ -37,7 +36,7 @@ fn along_z() -> Scene {
 }
 
 fn draped(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
+    crate::common::drape(scene)
 }
 
 fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -74,9 +73,7 @@ fn what_the_axes_cannot_follow_is_not_done() {
 fn both_models_hang_from_where_the_tool_brings_the_grippers() {
     let scene = along_z();
     let result = draped(&scene);
-    let drape =
-        sheet::drape(&scene, sheet::Tuning::default(), &|| false, |_| ControlFlow::Continue(()))
-            .unwrap();
+    let drape = drape_sheet(&scene).sheet.unwrap().drape;
     let tool = scene.layup.tool.as_ref().unwrap();
     let places: Vec<[f64; 3]> = result.steps[9].grippers.iter().map(|g| g.position).collect();
     let stem = tool.direction(&places);
@@ -97,9 +94,9 @@ fn errors_come_after_the_tool() {
     let scene = along_z();
     let with = closing(errors);
     let draw = with.errors.unwrap().draw(3, 4);
-    let carried = scene.carried().0.into_owned();
-    let real = draw.apply(&scene);
-    assert_eq!(real.motion, draw.apply(&Scene { tool: None, ..carried }).motion);
+    let carried = scene.layup.carried().0.into_owned();
+    let real = draw.apply(&scene.layup);
+    assert_eq!(real.motion, draw.apply(&Layup { tool: None, ..carried }).motion);
     // the tool is still there, for the direction of its stems, and leaves the errors as they are
     let (made, record) = real.carried();
     assert_eq!(
@@ -115,7 +112,7 @@ fn pads_without_joints_are_turned_as_the_frame() {
     let axes = "[tool]\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }]";
     let ball = draped(&padded(axes));
     let scene = padded(&format!("{axes}\njoints = \"none\""));
-    assert!(!scene.tilts());
+    assert!(!scene.layup.tilts());
     let result = draped(&scene);
     let program = Program::of(&result).unwrap();
     for (k, (step, with_joints)) in result.steps.iter().zip(&ball.steps).enumerate() {
@@ -173,7 +170,8 @@ fn flange_and_strokes_of_a_program_bring_the_pads_to_their_places() {
     assert_eq!(program.frames.mold.position, [1.0, 0.0, 0.5]);
     let names: Vec<&str> = program.axes.iter().map(|axis| axis.name.as_str()).collect();
     assert_eq!(names, ["g0_0_z", "g1_0_z", "g0_1_z", "g1_1_z"]);
-    let (flange, mounts) = (program.flange.as_ref().unwrap(), &scene.layup.tool.as_ref().unwrap().mounts);
+    let (flange, mounts) =
+        (program.flange.as_ref().unwrap(), &scene.layup.tool.as_ref().unwrap().mounts);
     // passive joints, apart from what the tool does
     let tilts = result.steps.iter().map(|step| step.grippers.iter().map(|g| g.tilt_deg));
     for (k, step) in tilts.enumerate() {

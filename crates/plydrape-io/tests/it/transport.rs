@@ -1,14 +1,12 @@
 //! The way from the pick-up to the first formation: rigid, clear of mold and table, and formed near the mold.
 
-use crate::common::{Point, distance, example};
-use plydrape::draping::simulate;
+use crate::common::{Point, distance, drape, example};
 use plydrape::measure::Name;
-use plydrape::motion::{Bounds, TimedMotion};
+use plydrape::motion::Motion;
+use plydrape::motion::TimedMotion;
 use plydrape::planner::path::tuning::TUNING;
 use plydrape::planner::path::{Formation, MoldHeights, Strategy, trajectory, transport};
-use plydrape::motion::Motion;
-use plydrape::scene::{Scene};
-use std::ops::ControlFlow;
+use plydrape::scene::Scene;
 use std::path::Path;
 
 const RING: Strategy = Strategy {
@@ -120,7 +118,7 @@ fn a_timed_motion_keeps_a_carried_array_within_its_fabric() {
     let (_, transport) = to_ring(&scene, steps);
     let count = carried(&transport, steps);
     let positions = trajectory(&scene, &heights, RING).expect("a target");
-    let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits)).expect("a motion");
+    let motion = TimedMotion::new(&positions, &scene.limits.motion_bounds()).expect("a motion");
     let start = &scene.layup.motion.positions[0];
     let timed = motion.steps().positions;
     let largest = timed[..count - 1].iter().map(|p| change_of_shape(start, p));
@@ -235,7 +233,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             let (heading, incline) = (chance.within([-3.1, 3.1]), chance.within([-0.1, 0.1]));
             let start: Vec<Point> = (0..12)
                 .map(|n| {
-                    let [i, j] = plain.ply.grid.id(n).map(|k| k as f64);
+                    let [i, j] = plain.layup.ply.grid.id(n).map(|k| k as f64);
                     let (u, v) = (spacing * (i - 1.5), spacing * (j - 1.0));
                     let (x, y) = (
                         heading.cos() * u - heading.sin() * v,
@@ -251,10 +249,8 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             let raise = if above.is_finite() { -above } else { -0.1 - lowest }
                 + chance.within([0.002, 0.2]);
             let start: Vec<Point> = start.iter().map(|p| [p[0], p[1], p[2] + raise]).collect();
-            let scene = Scene {
-                motion: Motion { times: vec![0.0], positions: vec![start.clone()] },
-                ..plain.clone()
-            };
+            let mut scene = plain.clone();
+            scene.layup.motion = Motion { times: vec![0.0], positions: vec![start.clone()] };
             let (formation, positions) = to_ring(&scene, 90);
             let count = carried(&positions, 90);
             // mirrored at its end, so that it ends at the place where the array is formed
@@ -396,8 +392,9 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     let (formation, positions) = to_ring(&scene, 90);
     let along = |positions: Vec<Vec<Point>>| {
         let times = (0..positions.len()).map(|k| k as f64).collect();
-        let scene = Scene { motion: Motion { times, positions }, ..scene.clone() };
-        let drape = simulate(&scene, |_| ControlFlow::Continue(()));
+        let mut scene = scene.clone();
+        scene.layup.motion = Motion { times, positions };
+        let drape = drape(&scene);
         let worst = |name| drape.summary.worst.value(name).expect("grippers");
         [worst(Name::Tilt), worst(Name::Overstretch)]
     };

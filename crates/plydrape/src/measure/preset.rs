@@ -13,10 +13,10 @@ pub enum Preset {
     /// Tolerances that the project DrapeBot gives for draping.
     #[cfg_attr(feature = "serde", serde(rename = "drapebot"))]
     DrapeBot,
-    /// A usual tolerance of the angle of a ply, in its plane and out of it.
-    PlyAngle,
     /// No place higher than half a millimeter.
     LowWrinkle,
+    /// A usual tolerance of the angle of a ply, in its plane and out of it.
+    PlyAngle,
 }
 
 /// One limit of a preset.

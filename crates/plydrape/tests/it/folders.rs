@@ -24,7 +24,7 @@ const CRATES: [(&str, &str); 5] = [
     ),
     (
         "plydrape-py",
-        "arrays error json quantity limits mold net table scene+ply sample sheet surface result work drape measure \
+        "arrays error json quantity mold net table scene+ply model beside limits sample sheet surface result work drape measure \
          jacobian+equilibrium+solver span outcome+pickle+batch fit",
     ),
     ("plydrape-live", "answer boundary"),

@@ -1,6 +1,7 @@
 //! What the engine does, as one program.
 
 mod folders;
+mod limits_table;
 mod mold;
 mod places;
 mod span;

@@ -110,7 +110,8 @@ impl JsonSchema for LimitsTable {
             properties.insert(key.into(), schema.into());
         };
         let words = Preset::ALL.iter().map(|preset| {
-            json_schema!({ "const": preset.name(), "type": "string", "description": preset.about() })
+            let about = format!("{}.", preset.about());
+            json_schema!({ "const": preset.name(), "type": "string", "description": about })
         });
         own(
             PRESET,

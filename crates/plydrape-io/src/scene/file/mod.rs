@@ -339,7 +339,7 @@ pub(super) enum MotionKind {
 pub(super) struct ModelTable {
     /// The whole ply as a sheet of cloth, or a net of catenaries; "sheet" unless given.
     pub kind: Option<Located<ModelKey>>,
-    /// The other model, to be draped beside the one that decides and shown with it; it judges nothing. None unless given.
+    /// The other model, to be draped beside the one that decides; it is shown and judges nothing. Unless given, none.
     pub also: Option<Located<ModelKey>>,
     /// How shared slopes are found, "moment-balance" unless given.
     pub slopes: Option<Slopes>,

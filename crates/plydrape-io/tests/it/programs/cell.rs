@@ -1,7 +1,7 @@
 //! A cell made by hand, and what a reader has played of its program.
 
-use plydrape::mold::Pose;
 use plydrape::geometry::vector::{between, distance, dot, turned};
+use plydrape::mold::Pose;
 use plydrape::ply::gripper_name;
 use plydrape_io::export::Files;
 use plydrape_io::program::sampling::Deviation;

@@ -1,8 +1,8 @@
 //! The bag of a program, played without ROS 2: every message is decoded by the definition that stands in the bag.
 
 use super::cell::{DURATION, IDS, cell, product, rejected, text};
-use plydrape::mold::Pose;
 use plydrape::geometry::vector::distance;
+use plydrape::mold::Pose;
 use plydrape::ply::gripper_name;
 use plydrape_io::program::sampling::Deviation;
 use plydrape_io::program::{Program, Tolerance};

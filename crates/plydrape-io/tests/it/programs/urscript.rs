@@ -2,8 +2,8 @@
 
 use super::cell::{Played, Point};
 use super::tokens::{Line, Reader, Token, lines};
-use plydrape::mold::Pose;
 use plydrape::geometry::vector::{norm, turned};
+use plydrape::mold::Pose;
 use plydrape_io::export::Files;
 use plydrape_io::program::Frames;
 use std::collections::{BTreeMap, BTreeSet};
