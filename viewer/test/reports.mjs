@@ -34,7 +34,7 @@ for drape in drapes:
         steps = {
             number: {
                 "positions": drape.positions[number - 1].tolist(),
-                "lines": [line.tolist() for line in drape.lines(number)],
+                "lines": [line.tolist() for line in result.lines(number)],
                 "edges": edges,
             }
             for number in numbers

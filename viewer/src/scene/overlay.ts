@@ -43,7 +43,7 @@ const SHEET = 512;
 /** Half the height of a line of text with its halo (CSS pixels). */
 const TALL = 11;
 /** A label at the edge of the picture is moved in by so much at most (CSS pixels). */
-const CUT = 40;
+const CUT = 24;
 /** Radius of a ring with its line (CSS pixels). */
 const RING = 16;
 

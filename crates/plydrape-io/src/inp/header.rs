@@ -6,6 +6,7 @@ use super::motion::{HANG, LOAD};
 use super::section::ShellSection;
 use super::text::Deck;
 use crate::result::ResultFile;
+use plydrape::layup::Model;
 use plydrape::ply::Direction;
 
 /// Widest line of the header's text.
@@ -80,15 +81,19 @@ pub(super) fn write(
     }
 
     heading(deck, "What the deck does not carry");
-    paragraph(
-        deck,
-        "The model's catenaries: here the ply is a sheet. It shears with the stiffness above, at any angle; locking and the model's shearing diagonals are not in it.",
-    );
-    if mold.is_some() {
-        paragraph(
-            deck,
+    let [ply, touch] = match result.model() {
+        Model::Catenaries => [
+            "The model's catenaries: here the ply is a sheet. It shears with the stiffness above, at any angle; locking and the model's shearing diagonals are not in it.",
             "The model's infinite friction, its contact segments and its rule of laying without stretch. Add *FRICTION to the interaction TOUCH for friction.",
-        );
+        ],
+        Model::Sheet => [
+            "The curves of the model's sheet: the ply shears and stretches with the stiffnesses above, at any angle and strain; locking is not in it.",
+            "The model's friction and tack. Add *FRICTION to the interaction TOUCH for friction.",
+        ],
+    };
+    paragraph(deck, ply);
+    if mold.is_some() {
+        paragraph(deck, touch);
     }
     paragraph(
         deck,

@@ -1,7 +1,7 @@
 //! An input deck for CalculiX and Abaqus: the ply as shells, the grippers' motion, gravity and the mold.
 //!
-//! [`text`] makes it from a result file alone. It is a second opinion: the model sees the ply as catenaries between the
-//! grippers, a shell code as a sheet. The parts:
+//! [`text`] makes it from a result file alone, whose grippers are those of the model that decides. It is a second opinion: the shells know
+//! nothing of what that model found of the ply. The parts:
 //!
 //! - `mesh`: the flat ply, quadratic shells S8R with nodes at the grippers;
 //! - `section`: one homogeneous layer with the ply's areal mass, bending rigidities and membrane stiffness;

@@ -19,15 +19,16 @@ const FINE: f64 = 1e4;
 /// The measures of a single gripper, in the order in which the page tells them, and which of both loads on a pad they bound.
 const MEASURES: [(Name, Bounds); 7] = [
     (Name::Tilt, Bounds::Neither),
-    (Name::GripperLoad, Bounds::Across),
-    (Name::GripperPull, Bounds::Along),
+    (Name::GripperLoad, Bounds::Both),
+    (Name::GripperPull, Bounds::Both),
     (Name::GripperForce, Bounds::Both),
     (Name::Slip, Bounds::Along),
     (Name::Holding, Bounds::Across),
     (Name::SlipLength, Bounds::Neither),
 ];
 
-/// Which of the loads on a pad a measure bounds: the one along the ply, or the one across it.
+/// Which of the loads on a pad a measure bounds: the one along the ply, or the one across it. Load against gravity and horizontal pull of a
+/// tilted pad are made of both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Bounds {
     Along,
@@ -133,13 +134,13 @@ mod tests {
         assert_eq!(used(&tilted([0.0, 0.0, -6.0]), &[]), [UNKNOWN, UNKNOWN]);
     }
 
-    /// What the verdict judges shows: of 3 N level and 6 N down the load of 6 N beyond 5 N, the pull of 3 N of 4 N, the whole
-    /// 6.708 N of 5 N where that is a limit.
+    /// What the verdict judges shows: of 3 N level and 6 N down on a tilted pad it is the load of 6 N, which is beyond 5 N, for both loads on the
+    /// pad; where the whole force of 6.708 N must not exceed 5 N, it is that.
     #[test]
     fn the_limit_that_is_used_most_counts() {
         let gripper = tilted([3.0, 0.0, -6.0]);
         let mut limits = judged(&[(Name::GripperLoad, 5.0), (Name::GripperPull, 4.0)]);
-        assert_eq!(used(&gripper, &limits), [750, 1200]);
+        assert_eq!(used(&gripper, &limits), [1200, 1200]);
         limits.extend(judged(&[(Name::GripperForce, 5.0)]));
         assert_eq!(used(&gripper, &limits), [1342, 1342]);
     }

@@ -20,7 +20,7 @@ use plydrape::ply::gripper_name;
 pub struct Tolerance {
     /// Of the tool's center and of the pads (m). As a default 0.1 mm: large robots come back to a point to within 0.05 mm to
     /// 0.1 mm (the repeatability of ISO 9283 in their data sheets), so that less could not be told from it, and it is a
-    /// small share of the error of 0.5 mm or so that a plan has to stand in any cell.
+    /// small share of the error of 0.5 mm or so that a plan has to tolerate in any cell.
     pub position: f64,
     /// Of the tool's orientation (rad). As a default 0.1°: what it does to the pads counts in the position already, so
     /// this matters only for a tool without pads far from its center.

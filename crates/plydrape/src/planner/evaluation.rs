@@ -6,7 +6,7 @@
 use crate::clearance::Nearest;
 use crate::errors::Errors;
 use crate::layup::{Layup, Model, SheetTime, Stepping};
-use crate::measure::{Limits, Name, Verdict, Worst, Worth, clearance_found};
+use crate::measure::{Limits, Name, Unit, Verdict, Worst, Worth, clearance_found};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::{self, Judged, ModelError};
 use crate::planner::search_state::SearchState;
@@ -123,7 +123,12 @@ fn ranked_sheet(
     if let Some(release) = &mut layup.release {
         release.dwell = 0.0;
     }
-    outcome::judge(&layup, limits, usize::MAX, &|| state.report().is_break())
+    let mut judged = outcome::judge(&layup, limits, usize::MAX, &|| state.report().is_break())?;
+    if mesh == Mesh::Coarse {
+        // forces at grippers that hold a point are those of the lines beside it, and far larger where these are far apart
+        judged.limits.retain(|verdict| verdict.name.measure().unit() != Unit::NEWTON);
+    }
+    Ok(judged)
 }
 
 /// A judgment with one more limit in place of an earlier one on the same measure.

@@ -97,7 +97,8 @@ impl View<'_> {
                 let place = rim.of(&state.positions);
                 let closest = mold.closest_point(place);
                 if !closest.beyond {
-                    points.push(extra(rim.place, place, closest.distance));
+                    // a point of the boundary lies on the chord between nodes, which may be in the mold
+                    points.push(extra(rim.place, place, closest.distance.max(0.0)));
                 }
             }
         }

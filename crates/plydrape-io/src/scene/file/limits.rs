@@ -6,10 +6,9 @@ use crate::scene::quantity::{Length, Quantity, Ratio, Raw, RawSeed};
 use plydrape::measure::{Name, Preset};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::de::{Deserializer, MapAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
-use std::sync::LazyLock;
 
 /// What an accepted drape keeps to.
 #[derive(Debug, Default)]
@@ -25,6 +24,8 @@ pub(in crate::scene) struct LimitsTable {
 }
 
 /// A key of the table.
+#[derive(Deserialize)]
+#[serde(try_from = "String")]
 enum Key {
     Preset,
     Workspace,
@@ -32,37 +33,22 @@ enum Key {
     Bound(Name),
 }
 
-const PRESET: &str = "preset";
-const WORKSPACE: &str = "workspace";
-const GRIP_SAFETY: &str = "grip_safety";
+impl TryFrom<String> for Key {
+    type Error = String;
 
-/// All keys, those of measures in the order of tables.
-static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
-    let bounds = Name::bounded().map(|(name, _)| name.measure().name());
-    [PRESET].into_iter().chain(bounds).chain([WORKSPACE, GRIP_SAFETY]).collect()
-});
-
-impl<'de> Deserialize<'de> for Key {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Word;
-        impl Visitor<'_> for Word {
-            type Value = Key;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a key")
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<Key, E> {
-                match word {
-                    PRESET => Ok(Key::Preset),
-                    WORKSPACE => Ok(Key::Workspace),
-                    GRIP_SAFETY => Ok(Key::GripSafety),
-                    word => Name::bounded()
-                        .find(|(name, _)| name.measure().name() == word)
-                        .map(|(name, _)| Key::Bound(name))
-                        .ok_or_else(|| E::unknown_field(word, &KEYS)),
-                }
-            }
+    fn try_from(word: String) -> Result<Key, String> {
+        let mut bounded = Name::bounded().map(|(name, _)| name);
+        match word.as_str() {
+            "preset" => Ok(Key::Preset),
+            "workspace" => Ok(Key::Workspace),
+            "grip_safety" => Ok(Key::GripSafety),
+            word => bounded.find(|name| name.measure().name() == word).map(Key::Bound).ok_or_else(|| {
+                let bounds: Vec<&str> = Name::bounded().map(|(name, _)| name.measure().name()).collect();
+                let bounds = bounds.join("`, `");
+                // in the words of serde
+                format!("unknown field `{word}`, expected one of `preset`, `{bounds}`, `workspace`, `grip_safety`")
+            }),
         }
-        deserializer.deserialize_str(Word)
     }
 }
 
@@ -114,18 +100,18 @@ impl JsonSchema for LimitsTable {
             json_schema!({ "const": preset.name(), "type": "string", "description": about })
         });
         own(
-            PRESET,
+            "preset",
             json_schema!({ "oneOf": words.collect::<Vec<_>>() }),
             "A named set of limits, none unless given; the other keys here stand over it. `plydrape limits` lists them with the source of \
              each figure.",
         );
         own(
-            WORKSPACE,
+            "workspace",
             generator.subschema_for::<Fixed<Fixed<Quantity<Length>, 2>, 3>>(),
             "Box that the grippers must stay in: [from, to] in x, y and z (m); none unless given.",
         );
         own(
-            GRIP_SAFETY,
+            "grip_safety",
             generator.subschema_for::<Quantity<Ratio>>(),
             "By how much the grippers' `slip_force` and `holding_force` must exceed the loads, 1.5 unless given.",
         );
