@@ -26,7 +26,8 @@ DEFAULTS = [
     re.compile(r"\((?P<default>\"[\w-]+\"), the default\)"),
 ]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?toml\n(.*?)^```", re.M | re.S)
-# Beyond this the program refuses a value, where the schema does not say it itself as of limits; a test compares all.
+# Beyond this the program refuses a value, where the schema does not say so itself, as it does of
+# limits; a test compares all.
 RANGES = {
     "contact.friction": "≥ 0",
     "contact.tolerance": "> 0",

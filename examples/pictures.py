@@ -68,9 +68,10 @@ def folders(results: Path, name: str) -> dict[str, Path]:
 
 
 def numbers(folder: Path) -> dict[str, object]:
-    """The outcome of a drape: of a sheet four digits of the height and what belongs to it, and where
-    the catenaries were draped beside it whether they keep the limits; of catenaries six digits of
-    each measure.
+    """The outcome of a drape.
+
+    Of a sheet four digits of the height and what belongs to it, and where the catenaries were
+    draped beside it whether they keep the limits; of catenaries six digits of each measure.
     """
     content = json.loads((folder / "result.json").read_text())
     summary = content["summary"]

@@ -25,6 +25,7 @@ from plydrape.limits import Limits
 __all__ = [
     "__version__",
     "ClosestPoints",
+    "Drape",
     "Equilibria",
     "Equilibrium",
     "Jacobian",
@@ -91,6 +92,77 @@ class ClosestPoints:
     def points(self, /) -> NDArray[float64]:
         """
         The closest points of the mold (m), shape (n, 3).
+        """
+
+@final
+class Drape:
+    """
+    A drape by the model that does not decide, `Result.also`: grippers, loads and measures of every step, and no verdict.
+
+    Arrays are as those of `Result`.
+
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> beside = plydrape.simulate(scene, also="catenaries").also
+    >>> beside
+    <plydrape.Drape by the catenaries, 30 steps>
+    >>> beside.loads.shape, "height_mm" in beside.measures
+    ((30, 8, 3), False)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def commanded(self, /) -> NDArray[float64]:
+        """
+        Where the robot holds the grippers (m), shape (steps, grippers, 3): their positions where their mounts are rigid.
+        """
+    @property
+    def first_contact_step(self, /) -> int | None:
+        """
+        First step in which the ply touches the mold; None if it does not.
+        """
+    @property
+    def loads(self, /) -> NDArray[float64]:
+        """
+        Force of the ply on each gripper (N), shape (steps, grippers, 3).
+        """
+    @property
+    def measures(self, /) -> dict[str, NDArray[float64]]:
+        """
+        The worst value of every measure of the model in each step, by name, each of shape (steps,); nan where it has no meaning in
+        a step. The unit is part of the name, ratios have none. A measure that the model does not evaluate is not there.
+        """
+    @property
+    def model(self, /) -> str:
+        """
+        The model that draped: "sheet" or "catenaries".
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Positions of the grippers (m), shape (steps, grippers, 3): where they hold the fabric.
+        """
+    @property
+    def quaternions(self, /) -> NDArray[float64]:
+        """
+        Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's normal, x along
+        u.
+        """
+    @property
+    def summary(self, /) -> dict[str, Any]:
+        """
+        How the drape came out: the `summary` of `also` in result.json.
+        """
+    @property
+    def tilts_deg(self, /) -> NDArray[float64]:
+        """
+        Angles between the ply's normal at the grippers and their stems, which are upright unless a tool turns them (°), shape
+        (steps, grippers).
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Time of each step (s), shape (steps,).
         """
 
 @final
@@ -1070,29 +1142,41 @@ class Ply:
 @final
 class Result:
     """
-    A drape: every force, shape, contact and measure of every step, and the verdict.
+    A drape: the grippers, loads and measures of every step, and the verdict, by the model that decides.
 
-    Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
-    catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
+    What is of one model alone is there wherever that has draped, whether it decides or was asked for beside by `also`: the states
+    of the `sheet`, and of the catenaries `forces`, `slack_mm`, `contact`, `shear_deg`, `lines`, `contact_lines` and `surface`.
+    Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest, catenaries as in
+    `Ply`. Steps count from 1, the start; −1 is the last.
 
     Examples
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
     >>> result = plydrape.simulate(scene)
-    >>> result.positions.shape, result.summary["first_contact_step"]
-    ((30, 8, 3), 26)
+    >>> result.model, result.positions.shape, result.first_contact_step
+    ('sheet', (30, 8, 3), 22)
     """
     def __repr__(self, /) -> str: ...
     @property
     def accepted(self, /) -> bool:
         """
-        Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries; and in enough
-        cells of the sample, if there is one.
+        Whether every step was done and every limit holds, by the model that decides, and in enough cells of the sample, if there is
+        one.
         """
     @property
-    def catenary_limits(self, /) -> Limits:
+    def also(self, /) -> Drape | None:
         """
-        Every limit of the drape by catenaries, judged, by its name; of a drape with the sheet it does not decide.
+        The drape by the model that does not decide, as it was asked for by `also`; None where it was not. It is shown and judges
+        nothing.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plydrape.simulate(scene).also is None
+        True
+        >>> beside = plydrape.simulate(scene, also="catenaries").also
+        >>> beside.model, beside.first_contact_step
+        ('catenaries', 26)
         """
     @property
     def cell(self, /) -> tuple[float, float]:
@@ -1100,9 +1184,19 @@ class Result:
         Fabric length of a cell along u and v (m).
         """
     @property
+    def commanded(self, /) -> NDArray[float64]:
+        """
+        Where the robot holds the grippers (m), shape (steps, grippers, 3): their positions where their mounts are rigid.
+        """
+    @property
     def contact(self, /) -> NDArray[float64]:
         """
         Fabric length of each catenary that is in contact (m), shape (steps, catenaries).
+
+        Raises
+        ------
+        ValueError
+            As `forces`.
         """
     def contact_lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
         """
@@ -1119,17 +1213,24 @@ class Result:
         list of ndarray
             An array of points (m), shape (n, 3), for each catenary that touches.
 
+        Raises
+        ------
+        IndexError
+            If there is no such step.
+        ValueError
+            As `forces`.
+
         Examples
         --------
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
+        >>> result = plydrape.simulate(scene, model="catenaries")
         >>> len(result.contact_lines(1)), len(result.contact_lines(26))
         (0, 3)
         """
     @property
     def converged(self, /) -> bool:
         """
-        Whether every equilibrium was found, by the model that decides.
+        Whether every step was solved and the ply is at rest at the end, by the model that decides.
         """
     @property
     def events(self, /) -> list[dict[str, Any]]:
@@ -1190,10 +1291,20 @@ class Result:
         ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
         """
     @property
+    def first_contact_step(self, /) -> int | None:
+        """
+        First step in which the ply touches the mold, by the model that decides; None if it does not.
+        """
+    @property
     def forces(self, /) -> NDArray[float64]:
         """
         Horizontal force of each catenary (N), shape (steps, catenaries): of its free segment that pulls or pushes most; of
         a stretched diagonal its shear force. nan where the model gives none.
+
+        Raises
+        ------
+        ValueError
+            If no catenaries were draped, as the sheet decides and `also` did not ask for them.
         """
     @property
     def grid(self, /) -> tuple[int, int]:
@@ -1219,8 +1330,7 @@ class Result:
     @property
     def limits(self, /) -> Limits:
         """
-        Every limit that decides on the drape, judged, by its name: of the sheet and of the motion where the sheet was draped, else of the
-        catenaries.
+        Every limit, judged by the model that decides, by its name.
 
         Examples
         --------
@@ -1243,18 +1353,35 @@ class Result:
         list of ndarray
             An array of points (m), shape (n, 3), for each catenary.
 
+        Raises
+        ------
+        IndexError
+            If there is no such step.
+        ValueError
+            As `forces`.
+
         Examples
         --------
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
+        >>> result = plydrape.simulate(scene, model="catenaries")
         >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
         (16, 3)
         """
     @property
+    def loads(self, /) -> NDArray[float64]:
+        """
+        Force of the ply on each gripper (N), shape (steps, grippers, 3).
+        """
+    @property
     def measures(self, /) -> dict[str, NDArray[float64]]:
         """
-        The worst value of every measure in each step, by name, each of shape (steps,); nan where it has no
-        meaning. The unit is part of the name, ratios have none.
+        The worst value of every measure of the model in each step, by name, each of shape (steps,); nan where it has no meaning in
+        a step. The unit is part of the name, ratios have none. A measure that the model does not evaluate is not there.
+        """
+    @property
+    def model(self, /) -> str:
+        """
+        The model that decides: "sheet" or "catenaries".
         """
     @property
     def mold(self, /) -> Mold | None:
@@ -1350,7 +1477,7 @@ class Result:
     @property
     def positions(self, /) -> NDArray[float64]:
         """
-        Positions of the grippers (m), shape (steps, grippers, 3).
+        Positions of the grippers (m), shape (steps, grippers, 3): where they hold the fabric.
         """
     @property
     def program(self, /) -> str:
@@ -1360,8 +1487,8 @@ class Result:
     @property
     def quaternions(self, /) -> NDArray[float64]:
         """
-        Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's
-        normal, x along u.
+        Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's normal, x along
+        u.
         """
     @staticmethod
     def read(path: str | PathLike[str]) -> Result:
@@ -1514,14 +1641,18 @@ class Result:
     @property
     def shear_deg(self, /) -> NDArray[float64]:
         """
-        Shear angle of each cell (°), shape (steps, cells along v, cells along u), or (steps, cells) where the cups are no whole
-        array along the yarns; 0 where no bias line shears.
+        Shear angle of each cell between catenaries (°), shape (steps, cells along v, cells along u), or (steps, cells) where the
+        cups are no whole array along the yarns; 0 where no bias line shears.
+
+        Raises
+        ------
+        ValueError
+            As `forces`.
         """
     @property
     def sheet(self, /) -> Sheet | None:
         """
-        The whole ply as a sheet over its steps; None where the catenaries decide. Everything else here is of the
-        catenaries.
+        The states of the whole ply as a sheet, where it was draped as one; else None.
 
         Raises
         ------
@@ -1533,8 +1664,8 @@ class Result:
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
         >>> plydrape.simulate(scene, model="catenaries").sheet is None
         True
-        >>> plydrape.simulate(scene, model="sheet").sheet.converged
-        True
+        >>> plydrape.simulate(scene).sheet
+        <plydrape.Sheet of 341 nodes, 30 states>
         """
     def show(self, /, *, height: SupportsIndex = 640) -> plydrape.notebook.Page:
         """
@@ -1560,6 +1691,11 @@ class Result:
     def slack_mm(self, /) -> NDArray[float64]:
         """
         Slack of each catenary (mm), shape (steps, catenaries): all of its free segments.
+
+        Raises
+        ------
+        ValueError
+            As `forces`.
         """
     @property
     def stands(self, /) -> dict[str, Any] | None:
@@ -1577,11 +1713,11 @@ class Result:
     @property
     def summary(self, /) -> dict[str, Any]:
         """
-        The outcome: the `summary` of result.json.
+        The outcome by the model that decides: the `summary` of result.json.
         """
     def surface(self, /, step: SupportsIndex, *, intervals: SupportsIndex = 8) -> Surface:
         """
-        The ply of a step as a surface with so many intervals along each side of a cell.
+        The ply between the catenaries of a step as a surface with so many intervals along each side of a cell.
 
         Parameters
         ----------
@@ -1595,10 +1731,17 @@ class Result:
         Surface
             The surface.
 
+        Raises
+        ------
+        IndexError
+            If there is no such step.
+        ValueError
+            As `forces`, or if there are too many intervals.
+
         Examples
         --------
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
+        >>> result = plydrape.simulate(scene, model="catenaries")
         >>> surface = result.surface(1, intervals=4)
         >>> surface.size, surface.points.shape, surface.triangles.shape
         ((13, 5), (65, 3), (96, 3))
@@ -1627,7 +1770,8 @@ class Result:
     @property
     def tilts_deg(self, /) -> NDArray[float64]:
         """
-        Angles between the ply's normal at the grippers and the vertical (°), shape (steps, grippers).
+        Angles between the ply's normal at the grippers and their stems, which are upright unless a tool turns them (°), shape
+        (steps, grippers).
         """
     @property
     def times(self, /) -> NDArray[float64]:
@@ -1682,8 +1826,8 @@ class Result:
         Parameters
         ----------
         table : {"measures", "grippers", "catenaries", "limits"}, default "measures"
-            "measures", one row a step; "grippers", one row a step and gripper; "catenaries", one row a step and catenary;
-            "limits", one row a limit that decides.
+            "measures", one row a step; "grippers", one row a step and gripper; "limits", one row a limit, all of the model that
+            decides; "catenaries", one row a step and catenary, where catenaries were draped.
 
         Returns
         -------
@@ -1695,7 +1839,7 @@ class Result:
         ExtraError
             If pandas is not installed.
         ValueError
-            If there is no such table.
+            If there is no such table, or no catenaries were draped for theirs.
 
         Examples
         --------
@@ -1716,7 +1860,8 @@ class Result:
         Returns
         -------
         pyvista.MultiBlock
-            The blocks "mold", "ply", "catenaries" and "grippers", and "sheet" where it was draped, as far as there are such.
+            The blocks "mold" and "grippers", "ply" and "catenaries" where catenaries were draped, "sheet" where the sheet was, as far
+            as there are such.
 
         Raises
         ------
@@ -1730,16 +1875,17 @@ class Result:
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
         >>> blocks = plydrape.simulate(scene).to_pyvista()
         >>> blocks.keys()
-        ['mold', 'ply', 'catenaries', 'grippers', 'sheet']
-        >>> blocks["ply"].array_names
-        ['gap_mm', 'height_mm', 'shear_deg']
+        ['mold', 'grippers', 'sheet']
+        >>> blocks["sheet"].array_names
+        ['height_mm', 'contact', 'landing_step', 'shear_deg']
         """
     def to_xarray(self, /) -> xarray.Dataset:
         """
         Everything over the steps as one labeled data set. Needs xarray.
 
-        Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array), `xyz`, `catenary` and
-        `cell_u`, `cell_v`; every variable has its `units` and `long_name`. Names and units are those of the properties.
+        Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array) and `xyz`, and where
+        catenaries were draped `catenary`, `cell_u` and `cell_v`; every variable has its `units` and `long_name`. Names and units are
+        those of the properties.
 
         Returns
         -------
@@ -2294,7 +2440,7 @@ class Scene:
 @final
 class Sheet:
     """
-    The whole ply as a sheet: its states over the steps that were kept, what was measured, and the verdict.
+    The whole ply as a sheet: its states over the steps that were kept. Measures and the verdict are those of its result.
 
     Nodes stand where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
     Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
@@ -2302,17 +2448,11 @@ class Sheet:
     Examples
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    >>> result = plydrape.simulate(scene, model="sheet")
-    >>> sheet = result.sheet
+    >>> sheet = plydrape.simulate(scene).sheet
     >>> sheet.positions.shape, sheet.summary["first_contact_step"]
     ((30, 341, 3), 22)
     """
     def __repr__(self, /) -> str: ...
-    @property
-    def accepted(self, /) -> bool:
-        """
-        Whether every limit of the sheet holds and every state was found.
-        """
     @property
     def areas(self, /) -> NDArray[float64]:
         """
@@ -2347,11 +2487,6 @@ class Sheet:
     def landing_step(self, /) -> NDArray[int64]:
         """
         Step in which each node came to the mold and stayed, shape (nodes,); 0 of one that did not.
-        """
-    @property
-    def limits(self, /) -> Limits:
-        """
-        Every limit of the sheet, judged, by its name, as in `Result.limits`.
         """
     @property
     def pad_forces(self, /) -> NDArray[float64]:
@@ -2397,7 +2532,7 @@ class Sheet:
     @property
     def summary(self, /) -> dict[str, Any]:
         """
-        The outcome: `sheet` in the `summary` of result.json.
+        What the sheet says beside its measures: `sheet` in its `summary` in result.json.
         """
     @property
     def tension(self, /) -> NDArray[float64]:
@@ -2739,8 +2874,8 @@ class Surface:
     Examples
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    >>> result = plydrape.simulate(scene)
-    >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
+    >>> result = plydrape.simulate(scene, model="catenaries")
+    >>> bool((result.surface(1).gap > 0).all())
     True
     """
     @property
@@ -2775,7 +2910,8 @@ class Surface:
         Examples
         --------
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> grid = plydrape.simulate(scene).surface(-1, intervals=4).to_pyvista()
+        >>> result = plydrape.simulate(scene, model="catenaries")
+        >>> grid = result.surface(-1, intervals=4).to_pyvista()
         >>> grid.dimensions, grid.array_names
         ((13, 5, 1), ['gap_mm'])
         """
@@ -2937,7 +3073,7 @@ def outcome(
     scene: Scene, *, progress: typing.Callable[[int, int, str], object] | None = None
 ) -> Outcome:
     """
-    Drapes a scene along its motion and differentiates where the ply has come to.
+    Drapes a scene along its motion by catenaries, whatever its model is, and differentiates where the ply has come to.
 
     Parameters
     ----------
@@ -2953,6 +3089,8 @@ def outcome(
 
     Raises
     ------
+    SceneError
+        If catenaries cannot drape the scene.
     ValueError
         If the drape has no steps, or the derivatives would take more memory than allowed.
 
@@ -2972,13 +3110,14 @@ def plan(
     improve: bool | None = None,
     time: float | str | None = None,
     checkpoint: str | None = None,
+    also: typing.Literal["sheet", "catenaries"] | None = None,
     without_errors: bool = False,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Plan:
     """
     Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 
-    Where the scene's model is the sheet, the sheet decides on the plan; the catenaries are draped along it too.
+    The scene's model drapes and decides.
 
     The search ends with a plan that keeps all limits with a margin. Other threads of Python run on meanwhile. Ctrl-C raises
     KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
@@ -3003,6 +3142,8 @@ def plan(
         drape that decides on that plan may take a little longer.
     checkpoint : str, optional
         Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
+    also : {"sheet", "catenaries"}, optional
+        The model that does not decide, to be draped along the plan too and shown beside as `Result.also`; it never judges.
     without_errors : bool, default False
         Whether the plan is judged without errors.
     progress : callable, optional
@@ -3018,7 +3159,7 @@ def plan(
     PlanError
         If the scene has no mold or target, or `checkpoint` is not of its ply.
     SceneError
-        If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
+        If its motion has a `duration`, which a plan would ignore, or if a model cannot drape it.
     ValueError
         If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
 
@@ -3034,20 +3175,24 @@ def simulate(
     scene: Scene,
     *,
     model: typing.Literal["sheet", "catenaries"] | None = None,
+    also: typing.Literal["sheet", "catenaries"] | None = None,
     without_errors: bool = False,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Result:
     """
     Drapes the ply of a scene along its motion, as `plydrape simulate` does.
 
-    Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a sample of its cells too.
+    One model drapes and decides. Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a
+    sample of its cells too.
 
     Parameters
     ----------
     scene : Scene
         The scene.
     model : {"sheet", "catenaries"}, optional
-        The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
+        The model that drapes and decides, instead of the scene's.
+    also : {"sheet", "catenaries"}, optional
+        The other model, to be draped too and shown beside as `Result.also`; it never judges.
     without_errors : bool, default False
         Whether the errors of the scene are left out.
     progress : callable, optional
@@ -3061,7 +3206,7 @@ def simulate(
     Raises
     ------
     SceneError
-        If the scene has no sheet, because its material lacks a stiffness for instance.
+        If a model cannot drape the scene: its material lacks a stiffness that the sheet needs, for instance.
     OutputError
         If the states of the sheet cannot be kept in the folder for temporary files.
     ValueError
@@ -3073,14 +3218,16 @@ def simulate(
     >>> plydrape.simulate(scene).accepted
     True
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    >>> plydrape.simulate(scene, model="sheet").sheet
-    <plydrape.Sheet of 341 nodes, 30 states, not accepted>
+    >>> result = plydrape.simulate(scene, also="catenaries")
+    >>> result.model, result.also.model
+    ('sheet', 'catenaries')
     """
 
 def simulate_all(
     scenes: typing.Iterable[Scene],
     *,
     model: typing.Literal["sheet", "catenaries"] | None = None,
+    also: typing.Literal["sheet", "catenaries"] | None = None,
     threads: SupportsIndex | None = None,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> list[Result]:
@@ -3092,7 +3239,9 @@ def simulate_all(
     scenes : iterable of Scene
         The scenes.
     model : {"sheet", "catenaries"}, optional
-        The model that decides, instead of that of each scene: "sheet" or "catenaries".
+        The model that drapes and decides, instead of that of each scene.
+    also : {"sheet", "catenaries"}, optional
+        The other model, to be draped too and shown beside as `Result.also`; it never judges.
     threads : int, optional
         How many at once; one a core unless given. The results do not depend on it.
     progress : callable, optional

@@ -46,7 +46,7 @@ class Limit:
     --------
     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
     >>> plydrape.simulate(scene).limits["tilt"]
-    <plydrape.Limit tilt: 28.64 °, at most 40 °, kept; step 9, fabric point (300.0, 0.0) mm>
+    <plydrape.Limit tilt: 28.64 °, at most 40 °, kept; step 9, gripper g3_0>
 
     """
 
@@ -110,7 +110,7 @@ class Limits(Mapping[str, Limit]):
     >>> limits["height"].kept, limits["height"].unit
     (False, 'mm')
     >>> [limit.name for limit in limits.values() if not limit.kept]
-    ['height', 'out_of_plane', 'fibre_angle', 'position', 'strain']
+    ['strain', 'fibre_angle', 'height', 'out_of_plane', 'position']
 
     """
 

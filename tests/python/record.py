@@ -31,7 +31,7 @@ def rows(columns: Entry, keys: list[str] | None = None) -> list[Entry]:
 
 
 def steps(of_model: list[Entry], content: Entry) -> list[Entry]:
-    """Every step by a model with a list of grippers; of catenaries with lists of these and of cells."""
+    """Every step by a model with its grippers; of catenaries with lists of these and of cells."""
     grid = content["scene"]["ply"]["grid"]
     lines = rows(content.get("catenaries", {}))
     contacts: list[Entry | None] = [None] * len(lines)

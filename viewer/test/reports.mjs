@@ -40,7 +40,7 @@ for drape in drapes:
             for number in numbers
         }
 sheet = None
-if result.sheet is not None:
+if result.model == "sheet":
     kept = result.sheet.steps.tolist()
     last = len(kept) - 1
     sheet = {
@@ -50,7 +50,7 @@ if result.sheet is not None:
                 "nodes": result.sheet.positions[k].tolist(),
                 "heights": result.sheet.heights[k].tolist(),
                 "forces": result.sheet.pad_forces[k].tolist(),
-                "turns": result.sheet.pad_quaternions[k].tolist(),
+                "turns": result.quaternions[kept[k] - 1].tolist(),
                 "grippers": result.sheet.grippers[k].tolist(),
             }
             for k in {0, last // 2, last}

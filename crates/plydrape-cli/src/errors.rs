@@ -8,43 +8,31 @@ use plydrape_io::ResultFile;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Which of the drapes with errors somebody broke off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BrokenOff {
-    /// Those of the sample.
-    Sample,
-    /// Those by which the errors that it tolerates are found.
-    Tolerance,
-}
-
-impl BrokenOff {
-    /// What is printed below the verdict.
-    pub fn text(self) -> &'static str {
-        match self {
-            BrokenOff::Sample => "interrupted before the cells with errors were draped\n",
-            BrokenOff::Tolerance => "interrupted before it was known which errors it tolerates\n",
-        }
-    }
-}
-
 /// Judges a result with errors, on all cores, until somebody breaks it off. Someone at a terminal sees a bar, others a plain
-/// line a minute on standard error; nothing is shown if `quiet`.
+/// line a minute on standard error; nothing is shown if `quiet`. Returns whether it was done to its end.
 pub fn judge(
     result: &mut ResultFile,
     robustness: &Robustness,
     interrupt: &Interrupt,
     quiet: bool,
-) -> Option<BrokenOff> {
+) -> bool {
     let samples = robustness.sampled().map_or(0, |errors| errors.samples);
     let template = "draping {pos} of {len} cells with errors {bar:40} {eta} left";
     let eyes = Eyes::new(interrupt, bar(samples, template, quiet), samples, quiet);
     if !eyes.judge_by(|watch| robustness.judge_sample(&mut result.summary, watch)) {
-        return Some(BrokenOff::Sample);
+        return false;
     }
     let template = "looking for the errors that it tolerates, {elapsed}";
     let eyes = Eyes::new(interrupt, bar(0, template, quiet), 0, quiet);
-    let found = eyes.judge_by(|watch| robustness.judge_stands(&mut result.summary, watch));
-    (!found).then_some(BrokenOff::Tolerance)
+    eyes.judge_by(|watch| robustness.judge_stands(&mut result.summary, watch))
+}
+
+/// What is printed below a verdict after which somebody broke off; a drape that was broken off says so itself.
+pub fn left_out(result: &ResultFile, interrupted: bool) -> &'static str {
+    match interrupted && !result.summary.interrupted() {
+        true => "interrupted after the verdict was found: what comes after it is left out\n",
+        false => "",
+    }
 }
 
 /// Who looks on.

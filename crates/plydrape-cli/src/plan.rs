@@ -1,7 +1,7 @@
 //! `plydrape plan`: finds a motion that puts the ply on its mold, and says how it went.
 
 use crate::argument;
-use crate::errors::{self, BrokenOff};
+use crate::errors;
 use crate::failure::{Done, Failure};
 use crate::model::{self, ModelName};
 use crate::numbers::short;
@@ -181,7 +181,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let planned = planner::plan_without_errors(&scene, earlier.as_ref(), watch);
     let (took, ended) = search.finish();
     let found = arguments.judged(&scene, planned?, folder.stage(), &interrupt, quiet)?;
-    let Found { result, checkpoint, motion, decisions, solving, broken_off, .. } = &found;
+    let Found { result, checkpoint, motion, decisions, solving, .. } = &found;
     let files = plan::write_into(folder, result, checkpoint, &scene.files)?;
     let printed = Printed {
         drape: outcome::Printed::of(result, *solving),
@@ -192,7 +192,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         motion,
     };
     let mut text = results.text(result, &text(&printed, ended, time));
-    text += broken_off.map_or("", BrokenOff::text);
+    text += errors::left_out(result, found.interrupted);
     results.print(quiet, &printed, &text, &files)?;
     Ok(exit_code(result, ended == Some(Ended::Interrupted) || found.interrupted))
 }
@@ -209,8 +209,6 @@ pub struct Found {
     decisions: usize,
     /// How long the model took that decides.
     solving: Duration,
-    /// Which drapes with errors somebody broke off.
-    broken_off: Option<BrokenOff>,
     /// Whether somebody broke off what follows the search.
     pub interrupted: bool,
 }
@@ -247,11 +245,12 @@ impl Arguments {
         let steps = planned.motion.steps();
         let mut result = ResultFile::planned(scene, scene.input.clone(), planned, stage)?;
         let mut interrupted = model::show_also(&mut result, &along, stage, interrupt, quiet)?;
-        let robustness = (!self.without_errors).then(|| Robustness::of_planned(scene, steps));
-        let broken_off =
-            robustness.and_then(|by| errors::judge(&mut result, &by, interrupt, quiet));
-        interrupted |= broken_off.is_some() || result.summary.interrupted();
-        Ok(Found { result, checkpoint, motion, decisions, solving, broken_off, interrupted })
+        if !self.without_errors {
+            let robustness = Robustness::of_planned(scene, steps);
+            interrupted |= !errors::judge(&mut result, &robustness, interrupt, quiet);
+        }
+        interrupted |= result.summary.interrupted();
+        Ok(Found { result, checkpoint, motion, decisions, solving, interrupted })
     }
 
     /// Puts what the options say in place of the scene's own; refuses a scene that cannot be planned.

@@ -72,7 +72,7 @@ pub struct Results {
     #[arg(long)]
     pub json: bool,
 
-    /// Print all steps, all limits and all that is known beside them too.
+    /// Print all steps and all limits, and all that is known beside them.
     #[arg(long, conflicts_with = "json")]
     verbose: bool,
 }
@@ -83,14 +83,14 @@ impl Results {
         self.output.clone().unwrap_or_else(|| self.scene.with_extension(ending))
     }
 
-    /// What is printed for people of a result, of which `found` says in two lines what was found and how long that took: one screen, behind
-    /// all the rest of it if that is asked for.
+    /// What is printed for people of a result, of which `found` says in two lines what was found and how long that took: one screen, or all
+    /// that is known if that is asked for.
     pub fn text(&self, result: &ResultFile, found: &str) -> String {
-        let screen = table::screen(result, found, ink());
-        match self.verbose {
-            true => format!("{}\n{screen}", table::details(result)),
-            false => screen,
+        if !self.verbose {
+            return table::screen(result, found, ink());
         }
+        let (heading, details) = (table::heading(result), table::details(result));
+        format!("{heading}\n{found}\n\n{details}\n{}", table::verdict(result, ink()))
     }
 
     /// Prints `object` as one line of JSON, if that is asked for; else, unless `quiet`, the text and the

@@ -1,6 +1,6 @@
 //! `plydrape simulate`: drapes the ply of a scene along its motion, and says how it went.
 
-use crate::errors::{self, BrokenOff};
+use crate::errors;
 use crate::failure::Done;
 use crate::model::{self, ModelName};
 use crate::outcome::{Printed, exit_code};
@@ -56,14 +56,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let mut interrupted = model::show_also(&mut result, &scene, dir, &interrupt, quiet)?;
 
     // cells with errors, and the files
-    let robustness = (!arguments.without_errors).then(|| Robustness::of_simulated(&scene));
-    let broken_off = robustness
-        .and_then(|robustness| errors::judge(&mut result, &robustness, &interrupt, quiet));
-    interrupted |= broken_off.is_some();
+    if !arguments.without_errors {
+        let robustness = Robustness::of_simulated(&scene);
+        interrupted |= !errors::judge(&mut result, &robustness, &interrupt, quiet);
+    }
     let files = write_into(folder, &result, &[], &scene.files)?;
 
     let mut text = results.text(&result, &table::draped(&result, took));
-    text += broken_off.map_or("", BrokenOff::text);
+    text += errors::left_out(&result, interrupted);
     results.print(quiet, &Printed::of(&result, took), &text, &files)?;
     Ok(exit_code(&result, interrupted))
 }

@@ -21,11 +21,11 @@ use crate::span::Span;
 use crate::surface::Surface;
 use plydrape::catenary::{self, EndCondition};
 use plydrape::elastica::Bending;
+use plydrape::layup::{Layup, Settings};
 use plydrape::material::MomentCurve;
 use plydrape::mold::{self as molds, Raised, Waves};
-use plydrape::ply as plies;
-use plydrape::layup::{Layup, Settings};
 use plydrape::motion::Motion;
+use plydrape::ply as plies;
 use plydrape::scene as scenes;
 use plydrape_io::result::SceneEcho;
 use plydrape_io::scene::{SceneError, SceneFile};
@@ -329,16 +329,8 @@ impl SceneState {
             release,
         } = self.scene;
         let motion = Motion { times: self.times, positions: self.positions };
-        let layup = Layup {
-            ply,
-            mold: self.mold.mold(),
-            motion,
-            target,
-            settings,
-            bodies,
-            tool,
-            release,
-        };
+        let layup =
+            Layup { ply, mold: self.mold.mold(), motion, target, settings, bodies, tool, release };
         let scene =
             scenes::Scene { title, layup, limits, plan: self.plan, errors, also: self.also };
         let refusal = |Refusal { file, text, span, message, help }: Refusal| {

@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 /// Examples
 /// --------
 /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-/// >>> result = plydrape.simulate(scene)
-/// >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
+/// >>> result = plydrape.simulate(scene, model="catenaries")
+/// >>> bool((result.surface(1).gap > 0).all())
 /// True
 #[pyclass(frozen, module = "plydrape")]
 pub struct Surface(pub surface::Surface);
@@ -32,7 +32,8 @@ impl Surface {
     /// Examples
     /// --------
     /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> grid = plydrape.simulate(scene).surface(-1, intervals=4).to_pyvista()
+    /// >>> result = plydrape.simulate(scene, model="catenaries")
+    /// >>> grid = result.surface(-1, intervals=4).to_pyvista()
     /// >>> grid.dimensions, grid.array_names
     /// ((13, 5, 1), ['gap_mm'])
     #[pyo3(signature = () -> "pyvista.StructuredGrid")]

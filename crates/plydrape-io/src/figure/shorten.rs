@@ -12,7 +12,7 @@ const SHARED: usize = 3;
 struct Shape<'a> {
     closed: bool,
     attributes: &'a str,
-    corners: Vec<[i32; 2]>,
+    corners: Vec<[i64; 2]>,
 }
 
 impl<'a> Shape<'a> {
@@ -39,7 +39,7 @@ impl<'a> Shape<'a> {
         for (n, corner) in self.corners.iter().enumerate() {
             let [x, y] = [0, 1].map(|c| corner[c] - before[c]);
             // a minus parts two numbers as well as a space
-            let gap = |value: i32| if value < 0 { "" } else { " " };
+            let gap = |value: i64| if value < 0 { "" } else { " " };
             let first = match n {
                 0 => "",
                 1 => "l",

@@ -83,7 +83,7 @@ fn workspace(
 mod tests {
     use super::super::parse;
     use super::*;
-    use plydrape::measure::slack_of_angle;
+    use plydrape::measure::{Preset, slack_of_angle};
     use std::path::Path;
 
     const SCENE: &str = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
@@ -136,6 +136,7 @@ mod tests {
         }
         let set = limits("preset = \"drapebot\"\nposition = \"1 mm\"");
         assert_eq!(set.get(Name::Position), Some(1e-3));
-        assert_eq!(set.get(Name::FibreAngle), Some(3_f64.to_radians()));
+        let preset = Preset::DrapeBot.value(Name::FibreAngle);
+        assert_eq!((set.get(Name::FibreAngle), set.preset), (preset, Some(Preset::DrapeBot)));
     }
 }

@@ -7,8 +7,7 @@ use crate::shown;
 use plydrape::measure::Name;
 
 /// What is said of it in one line.
-const NAMES: [Name; 5] =
-    [Name::Shear, Name::Tilt, Name::GripperLoad, Name::GripperPull, Name::Strain];
+const NAMES: [Name; 4] = [Name::Shear, Name::Strain, Name::Tilt, Name::GripperLoad];
 
 /// One line; empty where it was not asked.
 pub(super) fn line(result: &ResultFile) -> String {
@@ -27,7 +26,7 @@ pub(super) fn details(result: &ResultFile) -> String {
             + "\n"
     });
     format!(
-        "{}, which judges nothing:\n{}{}",
+        "{} beside, judging nothing:\n{}{}",
         model_name(summary.model),
         steps::short(summary, steps),
         values.collect::<String>()

@@ -58,7 +58,10 @@ pub fn heading(result: &ResultFile) -> String {
     let model = match (&result.summary.sheet, result.model()) {
         (Some(report), _) => format!("a sheet of {} nodes", report.nodes),
         (None, Model::Sheet) => "a sheet".into(),
-        (None, Model::Catenaries) => format!("{} catenaries", ply.lines().catenaries()),
+        (None, Model::Catenaries) => match ply.lines().catenaries() {
+            1 => "1 catenary".into(),
+            catenaries => format!("{catenaries} catenaries"),
+        },
     };
     let size = format!("{grippers}, {steps}, {model}");
     let room = WIDTH.saturating_sub(size.chars().count() + 2);

@@ -38,7 +38,6 @@ mod sheet_shown;
 mod slack_limits;
 mod solve_status;
 mod stepwise;
-mod table_of_limits;
 mod tool;
 mod transport;
 mod verdict;

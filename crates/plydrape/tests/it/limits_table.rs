@@ -46,7 +46,7 @@ fn table() -> String {
             Some(Model::Catenaries) => "catenaries",
             None => "both",
         };
-        let (unit, usual) = (measure.unit().shown, usual(measure));
+        let (unit, usual) = (measure.unit().recorded, usual(measure));
         let _ = writeln!(text, "| {limit} | `{key}` | {unit} | {when} | {model} | {usual} |");
     }
     text

@@ -37,17 +37,21 @@ impl TryFrom<String> for Key {
     type Error = String;
 
     fn try_from(word: String) -> Result<Key, String> {
-        let mut bounded = Name::bounded().map(|(name, _)| name);
+        let bounded: Vec<Name> = Name::bounded().map(|(name, _)| name).collect();
+        let called = |name: &Name| name.measure().name();
         match word.as_str() {
             "preset" => Ok(Key::Preset),
             "workspace" => Ok(Key::Workspace),
             "grip_safety" => Ok(Key::GripSafety),
-            word => bounded.find(|name| name.measure().name() == word).map(Key::Bound).ok_or_else(|| {
-                let bounds: Vec<&str> = Name::bounded().map(|(name, _)| name.measure().name()).collect();
-                let bounds = bounds.join("`, `");
-                // in the words of serde
-                format!("unknown field `{word}`, expected one of `preset`, `{bounds}`, `workspace`, `grip_safety`")
-            }),
+            word => match bounded.iter().find(|name| called(name) == word) {
+                Some(name) => Ok(Key::Bound(*name)),
+                None => {
+                    // in the words of serde
+                    let bounds = bounded.iter().map(called).collect::<Vec<_>>().join("`, `");
+                    let known = format!("`preset`, `{bounds}`, `workspace`, `grip_safety`");
+                    Err(format!("unknown field `{word}`, expected one of {known}"))
+                }
+            },
         }
     }
 }
