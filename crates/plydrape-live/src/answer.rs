@@ -1,6 +1,6 @@
 //! The answer to a scene: the ply as it hangs, or why there is none.
 
-use plydrape::draping::record::{CatenaryState, CatenaryStep, Hold};
+use plydrape::draping::record::{CatenaryStep, Hold};
 use plydrape::layup::Model;
 use plydrape::outcome::Step;
 use plydrape::ply::{GripperId, Kind};
@@ -129,7 +129,8 @@ fn catenaries(
     curves: &[Vec<Vec<[f64; 3]>>],
 ) -> Vec<Catenary> {
     let lines = result.scene.ply.lines();
-    let catenary = |(n, (state, curves)): (usize, (&CatenaryState, &Vec<Vec<[f64; 3]>>))| {
+    let catenary = |n: usize| {
+        let (state, curves) = (&hanging.catenaries[n], &curves[n]);
         let ends = lines.ends(n).map(|gripper| step.grippers[gripper].position);
         let line = shape(state, curves, ends);
         Catenary {
@@ -143,5 +144,5 @@ fn catenaries(
             middle: stations(&line, 2)[1],
         }
     };
-    hanging.catenaries.iter().zip(curves).enumerate().map(catenary).collect()
+    (0..hanging.catenaries.len().min(curves.len())).map(catenary).collect()
 }

@@ -237,6 +237,8 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     row |= plain(summary, "", units)
     for part in ("worst", "final"):
         for key, value in summary[part].items():
+            if value is None:
+                continue
             row[f"{part}_{key}"] = value
             if BY_KEY[key].unit not in ("", "1"):
                 units[f"{part}_{key}"] = BY_KEY[key].unit

@@ -85,7 +85,8 @@ def judged(result: plydrape.Result) -> dict[str, Any]:
     wanted["catenaries.equilibria"] = report["equilibria"]
     wanted["converged"] = result.converged
     for part in ("worst", "final"):
-        wanted |= {f"{part}_{key}": value for key, value in summary[part].items()}
+        measured = {key: value for key, value in summary[part].items() if value is not None}
+        wanted |= {f"{part}_{key}": value for key, value in measured.items()}
     for limit in summary["limits"]:
         name = limit["name"]
         wanted |= {f"value_{name}": limit["value"], f"limit_{name}": limit["limit"]}

@@ -151,7 +151,7 @@ mod tests {
             assert!(rows.len() <= ROWS + told && rows.len() >= steps.min(ROWS - 1), "{text}");
             for step in [1, steps].into_iter().chain(result.summary.first_contact_step()) {
                 let begins = |row: &&str| row.split_whitespace().next() == Some(&step.to_string());
-                assert!(rows.iter().any(|row| begins(&row)), "step {step} in\n{text}");
+                assert!(rows.iter().any(begins), "step {step} in\n{text}");
             }
         }
     }
