@@ -1,11 +1,11 @@
-"""From a mold to a planned motion: 3 × 3 grippers lay a prepreg on a dome.
+"""From a mold to a planned motion: 2 × 2 grippers lay a prepreg on a dome.
 
 The same in Rust is `crates/plydrape/examples/dome.rs`.
 """
 
 import plydrape
 
-# 314 g/m², held every 100 mm, on a dome of 1 m radius whose top is the origin
+# 314 g/m², held at the corners of 100 mm, on a dome of 1 m radius whose top is the origin
 prepreg = {
     "name": "prepreg",
     "mass": "0.3143 kg/m^2",
@@ -15,7 +15,7 @@ prepreg = {
     "shear_curve": "5 N/m",
 }
 scene = plydrape.Scene(
-    ply={"grippers": [3, 3], "cell": ["100 mm", "100 mm"], "material": prepreg},
+    ply={"grippers": [2, 2], "cell": ["100 mm", "100 mm"], "material": prepreg},
     mold={"kind": "sphere", "radius": "1 m", "position": [0, 0, "-1 m"]},
     target={"seed": "middle"},
     limits={"height": "0.5 mm"},

@@ -3,9 +3,11 @@
 //!
 //! Each is made once, on all cores. `cargo bench -p plydrape-io --bench plan -- dome` makes those whose name holds a text.
 
+use plydrape::layup::Model;
+use plydrape::measure::Name;
+use plydrape::outcome::{DrapeWatch, Summary, drape};
 use plydrape::planner;
 use plydrape::scene::Scene;
-use plydrape::sheet::{self, Tuning};
 use plydrape_io::{scene, table};
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -99,25 +101,28 @@ fn timed<T>(make: impl FnOnce() -> T) -> (T, f64) {
 
 fn row(name: &str, scene: &Scene) {
     let mut scene = scene.clone();
-    scene.layup.settings.model = plydrape::scene::Model::Sheet;
-    let along = || ControlFlow::Continue(());
-    let (straight, straight_time) =
-        timed(|| sheet::drape(&scene, Tuning::default(), &|| false, |_| along()));
+    scene.layup.settings.model = Model::Sheet;
+    let see = &mut |_: usize, _: Option<&_>| ControlFlow::Continue(());
+    let watch = &mut DrapeWatch { stop: &|| false, see };
+    let (straight, straight_time) = timed(|| drape(&scene, Model::Sheet, watch));
     let straight = straight.expect("a sheet").summary;
-    let (planned, time) = timed(|| planner::plan(&scene, None, &mut |_| along()));
+    let go = &mut |_: &planner::Progress| ControlFlow::Continue(());
+    let (planned, time) = timed(|| planner::plan(&scene, None, go));
     let planned = planned.expect("mold and target");
-    let summary = &planned.sheet.expect("the sheet decides").drape.summary;
-    let mm = |value: Option<f64>| format!("{:.2} mm", value.unwrap_or(f64::NAN));
+    let summary = &planned.outcome.drape.summary;
+    let end = |summary: &Summary, name: Name| {
+        format!("{:.2} mm", summary.last.value(name).unwrap_or(f64::NAN))
+    };
     let verdict = match table::limiting(&summary.limits) {
         None => "yes".into(),
         Some(worst) => format!("no: {} {:.3} {}", worst.name.title(), worst.value, worst.unit),
     };
     println!(
         "| {name} | {} | {} | {straight_time:.2} s | {} | {} | {} | {verdict} | {time:.1} s |",
-        summary.nodes,
-        mm(straight.height_max_mm),
-        mm(summary.height_max_mm),
-        mm(summary.position_max_mm),
+        summary.sheet.as_ref().map_or(0, |report| report.nodes),
+        end(&straight, Name::Height),
+        end(summary, Name::Height),
+        end(summary, Name::Position),
         planned.record.evaluations,
     );
 }

@@ -45,7 +45,7 @@ fn the_page_starts_with_the_first_step_of_the_papers_example() {
 /// The mold comes along only if it is asked for, because it takes longer than the ply.
 #[test]
 fn the_mold_is_drawn_only_if_asked_for() {
-    let mold = |mold| json(&answer(START, mold))["page"]["geometry"]["mold"].clone();
+    let mold = |mold| json(&answer(START, mold))["page"]["mold"].clone();
     assert!(mold(Mold::Known).is_null());
     assert!(!mold(Mold::Drawn)["triangles"].as_array().unwrap().is_empty());
 }

@@ -81,7 +81,9 @@ pub fn simulate(
     let scene = for_models(scene.get(), model, also)?;
     let steps = scene.layup.motion.positions.len();
     let result = run(py, progress, move |watch| {
-        let told = |done, stage| drop(watch.tell(done, steps, stage));
+        let told = |done, stage| {
+            let _ = watch.tell(done, steps, stage);
+        };
         let mut result = draped(&scene, watch, &told)?;
         if !without_errors {
             judge_errors(&mut result, &Robustness::of_simulated(&scene), watch);
@@ -265,7 +267,9 @@ fn judged(
     let along = planner::along(scene, &motion);
     let (dir, steps) = (std::env::temp_dir(), along.layup.motion.positions.len());
     let mut result = ResultFile::planned(scene, scene.input.clone(), planned, &dir)?;
-    let told = |done, stage| drop(watch.tell(done, steps, stage));
+    let told = |done, stage| {
+        let _ = watch.tell(done, steps, stage);
+    };
     show_also(&mut result, &along, watch, &told)?;
     if !without_errors {
         judge_errors(&mut result, &Robustness::of_planned(scene, motion.steps()), watch);

@@ -1,4 +1,4 @@
-//! From a mold to a planned motion: 3 × 3 grippers lay a prepreg on a dome.
+//! From a mold to a planned motion: 2 × 2 grippers lay a prepreg on a dome.
 //!
 //! `cargo run --release --example dome`; the same in Python is `examples/first_plan.py`.
 
@@ -10,9 +10,9 @@ use std::error::Error;
 use std::ops::ControlFlow;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // 314 g/m², held every 100 mm, on a dome of 1 m radius
+    // 314 g/m², held at the corners of 100 mm, on a dome of 1 m radius
     let prepreg = Material::woven("prepreg", 0.3143, 9e-5, 1e6, 5.0);
-    let ply = Ply::of_array(Grid { nu: 3, nv: 3 }, [0.1, 0.1], prepreg);
+    let ply = Ply::of_array(Grid { nu: 2, nv: 2 }, [0.1, 0.1], prepreg);
     let pose = Pose::upright([0.0, 0.0, -1.0]);
     let dome = Mold::Sphere(Sphere { pose, radius: 1.0, face: Face::Outside });
     let mut scene = Scene::above(ply, dome, [0.0, 0.0])?;

@@ -132,8 +132,8 @@ def of_its_model(result: plydrape.Result, by_name: dict[str, plydrape.Measure]) 
     """What one model measures is in the order of tables, and its limits are the worst of that."""
     stepwise = [measure.key for measure in by_name.values() if measure.scope != "whole"]
     assert list(result.measures) == [key for key in stepwise if key in result.measures]
-    worst = {key for key, value in result.summary["worst"].items() if value is not None}
-    assert worst == {*result.measures}
+    measured = {key for key, value in result.summary["worst"].items() if value is not None}
+    assert measured == {*result.measures}
     for name, limit in result.limits.items():
         measure = by_name[name]
         values = result.measures[measure.key]

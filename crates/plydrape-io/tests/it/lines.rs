@@ -133,7 +133,7 @@ fn contact_and_free_lengths_add_up_to_the_set_lengths() {
         assert_eq!(drape.steps.len(), 6);
         let last = drape.steps.last().unwrap();
         assert!(lines(last).iter().filter(|line| line.contact.is_some()).count() > 10);
-        for line in drape.steps.iter().flat_map(|step| lines(step)) {
+        for line in drape.steps.iter().flat_map(lines) {
             let lying = line.contact.as_ref().map_or(0.0, |contact| contact.length());
             let free: f64 = line.spans.iter().map(|span| span.length).sum();
             assert!((lying + free - line.length).abs() < 1e-9, "{line:?}");

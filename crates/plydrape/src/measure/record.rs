@@ -89,6 +89,8 @@ impl Numbers {
 
 impl<T> FromIterator<(Name, T)> for ByName<T> {
     fn from_iter<I: IntoIterator<Item = (Name, T)>>(values: I) -> Self {
-        ByName(values.into_iter().collect())
+        let mut values: Vec<(Name, T)> = values.into_iter().collect();
+        values.sort_by_key(|(name, _)| *name);
+        ByName(values)
     }
 }

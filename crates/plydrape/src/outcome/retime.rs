@@ -9,28 +9,28 @@ use crate::sheet::event::last_release;
 use crate::state::{GripperState, PlyState};
 
 impl Drape {
-    /// Takes other times of the steps for a motion along the same places. `layup` has the motion in these times; `retimed` is the new
-    /// time (s) of an earlier one in a step of the drape.
+    /// Takes other times for a motion along the same places. `layup` has the motion in these times; `step_time` gives that of a step,
+    /// `event_time` that of an event, from the times (s) before.
     pub fn retime(
         &mut self,
         layup: &Layup,
         limits: &Limits,
-        times: &[f64],
-        retimed: impl Fn(usize, f64) -> f64,
+        step_time: impl Fn(usize, f64) -> f64,
+        event_time: impl Fn(f64) -> f64,
     ) {
         for step in &mut self.steps {
-            step.time = times[(step.step - 1).min(times.len() - 1)];
+            step.time = step_time(step.step, step.time);
         }
         if let Some(sheet) = &mut self.sheet {
             for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
-                state.time = retimed(state.step, state.time);
+                state.time = step_time(state.step, state.time);
             }
             for event in &mut sheet.drape.events {
-                event.time = retimed(1, event.time);
+                event.time = event_time(event.time);
             }
         }
         for event in &mut self.summary.events {
-            event.time = retimed(1, event.time);
+            event.time = event_time(event.time);
         }
         self.summary.measure_time(layup, limits, &mut self.steps);
     }

@@ -106,13 +106,14 @@ impl Decision {
         let times = self.motion.times();
         let (end, now) = (before.duration(), self.motion.duration());
         let followed = evaluation::along_motion(&scene.layup, self.motion.steps());
-        let retimed = |step: usize, time: f64| match time < end {
+        // how long pads press after the motion is the scene's
+        let after = |time: f64| (time - end).max(0.0);
+        let step_time = |step: usize, time: f64| times[step - 1] + after(time);
+        let event_time = |time: f64| match time < end {
             true => self.motion.same_place(&before, time),
-            false if step < times.len() => times[step - 1],
-            // how long pads press after the motion is the scene's
-            false => now + (time - end),
+            false => now + after(time),
         };
-        self.decided.drape.retime(&followed, &scene.limits, times, retimed);
+        self.decided.drape.retime(&followed, &scene.limits, step_time, event_time);
         self.decided.attitudes = Attitudes::of(&self.decided.drape.steps)?;
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! What the engine does, as one program.
 
+mod examples;
 mod folders;
 mod limits_table;
 mod mold;
