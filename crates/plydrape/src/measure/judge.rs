@@ -128,7 +128,6 @@ pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
 
 fn reported(value: impl Fn(Name) -> Option<f64>) -> Numbers {
     let names = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
-    // clearances have no meaning in scenes without bodies, whose files say nothing of them
-    let shown = |(name, value): &(Name, Option<f64>)| value.is_some() || *name != Name::Clearance;
-    names.map(|name| (*name, value(*name))).filter(shown).collect()
+    // what the model does not measure is missing
+    names.filter_map(|name| Some((*name, Some(value(*name)?)))).collect()
 }
