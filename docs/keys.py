@@ -260,7 +260,9 @@ def kind(schema: Json, option: Json) -> tuple[str, str]:
 
 def bounds(key: Json) -> str:
     """The range of a number that the schema gives: > 0, < 90 deg."""
-    number = next((option for option in key.get("anyOf", []) if option.get("type") == "number"), {})
+    number: Json = next(
+        (option for option in key.get("anyOf", []) if option.get("type") == "number"), {}
+    )
     least, most = number.get("minimum"), number.get("maximum")
     if (least, most) == (0, 1):
         return "0 to 1"
