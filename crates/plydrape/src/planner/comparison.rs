@@ -101,7 +101,7 @@ impl ComparedDrape {
     #[must_use]
     pub fn limits(&self) -> Vec<&Verdict> {
         let mut limits: Vec<&Verdict> = Vec::new();
-        for verdict in self.judged.limits.iter().chain(&self.drape.summary.limits) {
+        for verdict in self.drape.summary.limits.iter().chain(&self.judged.limits) {
             match limits.iter_mut().find(|limit| limit.name == verdict.name) {
                 Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
                 Some(_) => {}
