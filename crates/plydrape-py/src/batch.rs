@@ -2,11 +2,12 @@
 
 use crate::arrays::{Array, Numbers};
 use crate::drape::{draped, judge_by};
+use crate::equilibrium::shear_angles;
 use crate::error;
 use crate::model::for_models;
 use crate::result::Result;
 use crate::scene::Scene;
-use crate::solver::{Solver, shear_angles};
+use crate::solver::Solver;
 use crate::work::run;
 use plydrape::equilibrium::Status;
 use plydrape::outcome::Robustness;
@@ -95,7 +96,7 @@ pub fn simulate_all(
 pub struct Found {
     pub converged: bool,
     pub iterations: usize,
-    #[serde(with = "crate::pickle::or_null")]
+    #[serde(with = "crate::json::or_null")]
     pub forces: Vec<f64>,
     pub slopes: Vec<[f64; 2]>,
     pub shear: Vec<f64>,

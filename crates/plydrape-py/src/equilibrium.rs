@@ -3,10 +3,11 @@
 use crate::arrays::{Array, or_nan};
 use crate::error;
 use crate::jacobian::Jacobian;
-use crate::solver::{State, shear_angles};
-use plydrape::draping::spans::{FreeSpan, Shape};
-use plydrape::equilibrium::{Direction, EarlyEnds, Property, Status};
-use plydrape::ply;
+use crate::stations::{at_least_two, every_station};
+use plydrape::draping::spans::Shape;
+use plydrape::equilibrium::{self, Direction, EarlyEnds, Property, Status};
+use plydrape::layup::Settings;
+use plydrape::ply::{self, ContactSegment, shear};
 use plydrape_io::size;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -36,17 +37,23 @@ impl Equilibrium {
     }
 }
 
-/// Points of spans at equal parts of their runs, end to end.
-pub fn every_station(spans: &[FreeSpan], count: usize) -> impl Iterator<Item = (&FreeSpan, f64)> {
-    let last = (count - 1).max(1) as f64;
-    spans.iter().flat_map(move |span| (0..count).map(move |k| (span, k as f64 / last)))
+/// A solver with what it solves for.
+#[derive(Clone)]
+pub struct State {
+    pub solver: equilibrium::Solver,
+    pub ply: Arc<ply::Ply>,
+    pub settings: Settings,
+    pub contacts: Arc<[Option<ContactSegment>]>,
 }
 
-/// A number of stations that makes sense.
-pub fn at_least_two(count: usize) -> PyResult<usize> {
-    match count {
-        2..=100_000 => Ok(count),
-        _ => Err(PyValueError::new_err(format!("stations is {count}; 2 to 100 000 are possible"))),
+impl State {
+    pub fn new(ply: &ply::Ply, settings: &Settings) -> Self {
+        State {
+            solver: equilibrium::Solver::new(ply, settings),
+            ply: Arc::new(ply.clone()),
+            settings: *settings,
+            contacts: vec![None; ply.lines().catenaries()].into(),
+        }
     }
 }
 
@@ -247,4 +254,14 @@ impl Equilibrium {
         let grid = self.ply().grid;
         format!("<plydrape.Equilibrium of {} × {} grippers, {}>", grid.nu, grid.nv, self.status())
     }
+}
+
+/// Shear angle of each cell (rad), 0 where no diagonal is stretched.
+pub fn shear_angles(ply: &ply::Ply, solver: &equilibrium::Solver) -> Vec<f64> {
+    let lines = ply.lines();
+    let angle = |(cell, path): (&ply::LineCell, f64)| {
+        shear::angle(cell.trellis.map(|side| side * ply.length_factor), path)
+    };
+    let stretched = lines.cells().iter().zip(&solver.problem().shearing);
+    stretched.map(|(cell, s)| s.map_or(0.0, |(path, _)| angle((cell, path)))).collect()
 }

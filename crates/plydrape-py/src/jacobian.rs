@@ -1,7 +1,7 @@
 //! `plydrape.Jacobian`: the derivatives of an equilibrium as arrays.
 
 use crate::arrays::{Array, or_nan};
-use crate::equilibrium::{at_least_two, every_station};
+use crate::stations::{at_least_two, every_station};
 use plydrape::draping::spans::FreeSpan;
 use plydrape::equilibrium::{Direction, StateTangent};
 use plydrape::ply::{self, shear};

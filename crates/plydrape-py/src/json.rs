@@ -37,3 +37,18 @@ impl<'py> IntoPyObject<'py> for Json {
         py.import("json")?.call_method1("loads", (self.0,))
     }
 }
+
+/// Numbers of which some are not-a-number, which JSON does not have.
+pub mod or_null {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(numbers: &[f64], to: S) -> Result<S::Ok, S::Error> {
+        let numbers: Vec<_> = numbers.iter().map(|x| Some(*x).filter(|x| !x.is_nan())).collect();
+        numbers.serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+        let numbers = Vec::<Option<f64>>::deserialize(from)?;
+        Ok(numbers.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
+    }
+}

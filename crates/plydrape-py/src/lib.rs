@@ -27,6 +27,7 @@ mod scene;
 mod sheet;
 mod solver;
 mod span;
+mod stations;
 mod surface;
 mod table;
 mod work;

@@ -45,9 +45,9 @@ pub struct Quantities {
 /// Values with their derivatives to the positions of all grippers; nan where there is none.
 #[derive(Clone, Serialize, Deserialize)]
 struct Rows {
-    #[serde(with = "crate::pickle::or_null")]
+    #[serde(with = "crate::json::or_null")]
     values: Vec<f64>,
-    #[serde(with = "crate::pickle::or_null")]
+    #[serde(with = "crate::json::or_null")]
     gradients: Vec<f64>,
 }
 

@@ -6,6 +6,7 @@
 use crate::batch::{Equilibria, Found};
 use crate::beside::Drape;
 use crate::drape::Plan;
+use crate::equilibrium::State;
 use crate::error;
 use crate::measure::{Measure, measures};
 use crate::mold::{ClosestPoints, Mold};
@@ -16,7 +17,7 @@ use crate::result::Result;
 use crate::sample::Sample;
 use crate::scene::{Origin, Scene};
 use crate::sheet::Sheet;
-use crate::solver::{Solver, State};
+use crate::solver::Solver;
 use crate::span::Span;
 use crate::surface::Surface;
 use plydrape::catenary::{self, EndCondition};
@@ -443,19 +444,4 @@ struct SolverState {
 struct EquilibriaState<P, F> {
     ply: P,
     found: F,
-}
-
-/// Numbers of which some are not-a-number, which JSON does not have.
-pub mod or_null {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(numbers: &[f64], to: S) -> Result<S::Ok, S::Error> {
-        let numbers: Vec<_> = numbers.iter().map(|x| Some(*x).filter(|x| !x.is_nan())).collect();
-        numbers.serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
-        let numbers = Vec::<Option<f64>>::deserialize(from)?;
-        Ok(numbers.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
-    }
 }

@@ -1,7 +1,6 @@
 //! `plydrape.Ply` and `plydrape.Material`.
 
 use crate::arrays::{Array, Numbers};
-use crate::scene::text_of;
 use crate::{error, table};
 use plydrape::material::{self, Section};
 use plydrape::ply::{self, Direction};
@@ -67,7 +66,7 @@ impl Ply {
         keys.set_item("warp", warp)?;
         let mut file = Map::new();
         file.insert("ply".into(), Value::Table(table::table(&keys, "ply")?));
-        let ply = scene::parse_ply(&text_of(&file)?, &base, "ply");
+        let ply = scene::parse_ply(&table::text(&file)?, &base, "ply");
         ply.map(Ply).map_err(|refused| error::scene(&refused))
     }
 

@@ -185,7 +185,7 @@ impl Scene {
                 keys.insert(name.into(), table::value(list, name)?);
             }
         }
-        let text = text_of(&keys)?;
+        let text = table::text(&keys)?;
         let mold = given.is_some();
         let scene = py.detach(|| scene::parse_for(&text, &base, "scene", given, None, None));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
@@ -711,11 +711,6 @@ fn keywords<'py>(tables: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
 /// Steps of points as one block, `(steps, points, 3)`.
 pub fn blocks(steps: &[Vec<[f64; 3]>], count: usize) -> Array<f64> {
     Array::rows(&[steps.len(), count, 3], steps.iter().flatten().copied())
-}
-
-/// The text of tables.
-pub fn text_of(keys: &Map<String, Value>) -> PyResult<String> {
-    toml::to_string(keys).map_err(|fault| PyValueError::new_err(fault.to_string()))
 }
 
 /// Names of the materials that come with plydrape.

@@ -3,7 +3,7 @@
 //! Without contact. What a ply does on a mold is a drape: `plydrape.simulate`.
 
 use crate::arrays::Numbers;
-use crate::equilibrium::Equilibrium;
+use crate::equilibrium::{Equilibrium, State};
 use crate::error;
 use crate::ply::Ply;
 use crate::quantity::Amount;
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use plydrape::draping::spans::shape;
 use plydrape::equilibrium::{self, Status};
 use plydrape::layup::{Settings, SlopeRule};
-use plydrape::ply::{self, ContactSegment, shear};
+use plydrape::ply;
 use plydrape_io::scene::Measured;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -51,26 +51,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// True
 #[pyclass(frozen, module = "plydrape")]
 pub struct Solver(pub Mutex<State>);
-
-/// A solver with what it solves for.
-#[derive(Clone)]
-pub struct State {
-    pub solver: equilibrium::Solver,
-    pub ply: Arc<ply::Ply>,
-    pub settings: Settings,
-    pub contacts: Arc<[Option<ContactSegment>]>,
-}
-
-impl State {
-    pub fn new(ply: &ply::Ply, settings: &Settings) -> Self {
-        State {
-            solver: equilibrium::Solver::new(ply, settings),
-            ply: Arc::new(ply.clone()),
-            settings: *settings,
-            contacts: vec![None; ply.lines().catenaries()].into(),
-        }
-    }
-}
 
 impl Solver {
     pub fn state(&self) -> std::sync::MutexGuard<'_, State> {
@@ -217,14 +197,4 @@ impl Solver {
         let shape = shape(&state.ply, &state.solver, outcome, &positions, &contacts);
         Ok(Equilibrium { state: Mutex::new(state), positions, shape })
     }
-}
-
-/// Shear angle of each cell (rad), 0 where no diagonal is stretched.
-pub fn shear_angles(ply: &ply::Ply, solver: &equilibrium::Solver) -> Vec<f64> {
-    let lines = ply.lines();
-    let angle = |(cell, path): (&ply::LineCell, f64)| {
-        shear::angle(cell.trellis.map(|side| side * ply.length_factor), path)
-    };
-    let stretched = lines.cells().iter().zip(&solver.problem().shearing);
-    stretched.map(|(cell, s)| s.map_or(0.0, |(path, _)| angle((cell, path)))).collect()
 }

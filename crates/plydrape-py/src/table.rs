@@ -21,6 +21,11 @@ pub fn value(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
     value_at(value, place, DEEPEST)
 }
 
+/// The text of tables.
+pub fn text(keys: &Map<String, Value>) -> PyResult<String> {
+    toml::to_string(keys).map_err(|fault| PyValueError::new_err(fault.to_string()))
+}
+
 /// A TOML table as a dict.
 pub fn dict<'py>(py: Python<'py>, table: &Map<String, Value>) -> PyResult<Bound<'py, PyDict>> {
     let out = PyDict::new(py);

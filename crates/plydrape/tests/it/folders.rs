@@ -24,8 +24,8 @@ const CRATES: [(&str, &str); 5] = [
     ),
     (
         "plydrape-py",
-        "arrays error json quantity mold net table scene+ply model beside limits sample sheet surface result work drape measure \
-         jacobian+equilibrium+solver span outcome+pickle+batch fit",
+        "arrays error json quantity mold net table ply scene model beside limits sample sheet surface result work drape measure \
+         stations jacobian equilibrium solver span outcome batch pickle fit",
     ),
     ("plydrape-live", "answer boundary"),
 ];
