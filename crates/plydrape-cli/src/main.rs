@@ -1,7 +1,6 @@
 //! The command `plydrape`: one file per subcommand, this one only sends to them.
 
 mod argument;
-mod book;
 mod check;
 mod compare;
 mod complete;

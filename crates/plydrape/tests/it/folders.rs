@@ -19,7 +19,7 @@ const CRATES: [(&str, &str); 5] = [
     ),
     (
         "plydrape-cli",
-        "failure argument outcome results numbers watch search compare errors model plan+book check complete export new fit limits net \
+        "failure argument outcome results numbers watch search compare errors model plan check complete export new fit limits net \
          replan report schema simulate span study template",
     ),
     (

@@ -3,9 +3,10 @@
 //! The layers beneath a ply are those of the ideal drapes, which are known before anything is planned. So no plan waits for
 //! another one: as many are looked for at once as there are threads, and each comes out as it would alone.
 
+use super::arguments::Arguments;
+use super::found::Found;
 use crate::failure::{Done, Failure};
 use crate::outcome;
-use crate::plan::{Arguments, Found};
 use crate::search::{Ended, Search, SharedLines};
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;

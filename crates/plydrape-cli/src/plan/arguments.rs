@@ -1,0 +1,155 @@
+//! What `plydrape plan` is asked for.
+
+use crate::failure::Failure;
+use crate::model::ModelName;
+use crate::results::Results;
+use clap::{ValueEnum, value_parser};
+use plydrape::scene::PlanMethod;
+use plydrape_io::scene::{SceneError, SceneFile};
+use std::path::PathBuf;
+
+/// Find trajectories that lay the ply on its mold, and drape along them; verdict, files.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers \
+start where they start in `simulate`: of a motion from a file only the first step is used, and a \
+`duration` in [motion] is refused: limits.duration is what a plan keeps. What no \
+plan can keep is said first. The search ends with a plan that keeps all limits with a margin. The best \
+plan found is written even if it is not accepted. Ctrl-C or SIGTERM ends the search, finishes the best \
+plan so far and writes it; a second one ends that too. Without a terminal, how far the search is stands on \
+standard error once a minute.
+
+One model drapes and decides, that of the scene: its steps, its limits and its verdict are printed, written and returned as the exit \
+code. With --also the other model is draped along the plan too and shown beside it; it never judges.
+
+The plan is then judged with errors. With [errors] in the scene, a sample of complete drapes of cells that are off by them decides \
+too, 64 unless set there. The verdict says which errors the plan tolerates, of each gripper's position where the scene has none. \
+--time does not bound these drapes; Ctrl-C ends them, and the plan is written without what they would say.
+
+Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json, and sheet.npz \
+where the sheet was draped, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
+since, is never overwritten.
+
+A plybook, a file with [[plies]], is planned ply by ply, each on those that it lies on, several at once; see `docs/guide/plybook.md`. Each ply has a \
+folder of its own in the book's, beside book.json and a report.html over all plies. --time, --seed and the other options are for each \
+ply; the exit code is 0 if all plies are accepted.
+
+With --compare nothing is searched: the ply is draped by each of five strategies, straight (every gripper to its \
+target), all at once (formed over its place and let down flat), rolled (a line lands first), from a point (the middle lands \
+first) and stepwise. A table says which limits each one breaks, the worst first. comparison.csv (all limits) and comparison.svg \
+(how each one ends) go to the scene's name with `.compare`. The exit code is 0 if one of them is accepted, 1 if none is.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub(super) results: Results,
+
+    /// The planner, instead of the scene's.
+    #[arg(long)]
+    method: Option<Method>,
+
+    /// Seed of the search, instead of the scene's: the same seed, the same plan.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// Go on improving a plan that keeps all limits with a margin, until all drapes of [plan] evaluations are used up or
+    /// the time is over.
+    #[arg(long)]
+    improve: bool,
+
+    /// End the search after this time, e.g. 5min or 90s, with the best plan so far; the drape that decides on it may
+    /// take a little longer.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(super) time: Option<String>,
+
+    /// Drape the plan by the other model too, and show it beside; it never judges.
+    #[arg(long, value_name = "MODEL")]
+    pub(super) also: Option<ModelName>,
+
+    /// Judge the plan without errors: no sample of cells, and nothing about the errors that it tolerates.
+    #[arg(long)]
+    pub(super) without_errors: bool,
+
+    /// Drape by every named strategy instead of a search, and say side by side why the others fail.
+    #[arg(long, conflicts_with_all = ["method", "seed", "improve", "time", "earlier", "also", "without_errors"])]
+    pub(super) compare: bool,
+
+    /// Threads of the search, one per core unless given; the plan does not depend on it.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+
+    /// Go on from the plan in the folder of an earlier run.
+    #[arg(long = "continue", value_name = "DIR")]
+    pub(super) earlier: Option<PathBuf>,
+}
+
+/// The planner of a motion.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Method {
+    /// Whole trajectories, judged by complete drapes.
+    Path,
+    /// Step by step, as Krogh et al. 2018 sketch it.
+    Stepwise,
+}
+
+impl From<Method> for PlanMethod {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Path => PlanMethod::Path,
+            Method::Stepwise => PlanMethod::Stepwise,
+        }
+    }
+}
+
+impl Arguments {
+    /// Whether something is asked for that only a scene of one ply has.
+    pub(super) fn of_one_ply(&self) -> Option<&'static str> {
+        match (self.compare, &self.earlier, self.also) {
+            (true, ..) => Some("--compare"),
+            (_, Some(_), _) => Some("--continue"),
+            (.., Some(_)) => Some("--also"),
+            _ => None,
+        }
+    }
+
+    /// The scene, the folder of results and the way to print.
+    pub(super) fn results(&self) -> &Results {
+        &self.results
+    }
+
+    /// Puts what the options say in place of the scene's own; refuses a scene that cannot be planned.
+    pub(super) fn apply(&self, scene: &mut SceneFile) -> Result<(), Failure> {
+        let file = &self.results.scene;
+        let refused = |message: &str, help: &str| {
+            Failure::from(SceneError {
+                file: file.display().to_string(),
+                text: "".into(),
+                span: None,
+                message: format!("`{}` {message}", file.display()),
+                help: help.into(),
+                unread: None,
+            })
+        };
+        if scene.layup.mold.is_none() {
+            return Err(refused(
+                "has no [mold] to lay the ply on",
+                "add [mold] with kind = \"plane\", or another one; a ply that just hangs needs no plan",
+            ));
+        }
+        if scene.layup.target.is_none() {
+            return Err(refused(
+                "has no [target]: a plan needs to know where the ply shall end",
+                "add [target] with `origin`, `direction`, `shear` and `seed`, or empty, or with `positions`",
+            ));
+        }
+        if let Some(refusal) = scene.plan_refusal.take() {
+            return Err(Failure::from(*refusal));
+        }
+        if let Some(method) = self.method {
+            scene.plan.method = method.into();
+        }
+        if let Some(seed) = self.seed {
+            scene.plan.seed = seed;
+        }
+        scene.plan.improve |= self.improve;
+        Ok(())
+    }
+}

@@ -1,0 +1,78 @@
+//! What is found for one ply: the result of its plan, as it is judged.
+
+use super::arguments::Arguments;
+use crate::failure::Failure;
+use crate::watch::Interrupt;
+use crate::{errors, model};
+use plydrape::outcome::Robustness;
+use plydrape::planner::{self, Checkpoint, LimitedBy, Planned};
+use plydrape_io::ResultFile;
+use plydrape_io::scene::SceneFile;
+use serde::Serialize;
+use std::path::Path;
+use std::time::Duration;
+
+/// The motion in a few numbers; largest values of any gripper.
+#[derive(Serialize)]
+pub(super) struct Motion {
+    pub(super) duration_s: f64,
+    pub(super) max_speed: f64,
+    pub(super) max_acceleration: f64,
+    pub(super) max_jerk: f64,
+    limited_by: Vec<LimitedBy>,
+}
+
+impl Motion {
+    fn of(planned: &Planned) -> Self {
+        let peaks = planned.motion.peaks();
+        Motion {
+            duration_s: planned.motion.duration(),
+            max_speed: peaks.speed.value,
+            max_acceleration: peaks.acceleration.value,
+            max_jerk: peaks.jerk.value,
+            limited_by: planned.record.limited_by.clone(),
+        }
+    }
+}
+
+/// A plan and its result, judged by the model that decides and with errors.
+pub(super) struct Found {
+    /// What is written.
+    pub(super) result: ResultFile,
+    /// From where another search goes on.
+    pub(super) checkpoint: Checkpoint,
+    /// The motion in a few numbers.
+    pub(super) motion: Motion,
+    /// Drapes that decided on a plan.
+    pub(super) decisions: usize,
+    /// How long the model took that decides.
+    pub(super) solving: Duration,
+    /// Whether somebody broke off what follows the search.
+    pub(super) interrupted: bool,
+}
+
+impl Arguments {
+    /// What becomes of a planned motion: its result, with the sheet's states in a stage, with the other model beside if that is asked for, and
+    /// judged with errors unless the options say otherwise.
+    pub(super) fn judged(
+        &self,
+        scene: &SceneFile,
+        planned: Planned,
+        stage: &Path,
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<Found, Failure> {
+        let (motion, checkpoint) = (Motion::of(&planned), planned.checkpoint.clone());
+        let (decisions, solving) = (planned.decisions, planned.outcome.drape.solving);
+        let along = planner::along(scene, &planned.motion);
+        let steps = planned.motion.steps();
+        let mut result = ResultFile::planned(scene, scene.input.clone(), planned, stage)?;
+        let mut interrupted = model::show_also(&mut result, &along, stage, interrupt, quiet)?;
+        if !self.without_errors {
+            let robustness = Robustness::of_planned(scene, steps);
+            interrupted |= !errors::judge(&mut result, &robustness, interrupt, quiet);
+        }
+        interrupted |= result.summary.interrupted();
+        Ok(Found { result, checkpoint, motion, decisions, solving, interrupted })
+    }
+}
