@@ -42,6 +42,7 @@ pub mod scene;
 pub mod sheet;
 pub mod shown;
 pub mod size;
+pub mod strategy;
 pub mod strength;
 pub mod surface;
 pub mod table;

@@ -5,7 +5,6 @@
 //! model says if it was asked. Both speak of the model that decides. Colors ([`Ink`]) mark how close a limit is.
 
 mod beside;
-mod book;
 mod comparison;
 mod errors;
 mod ink;
@@ -17,7 +16,6 @@ mod slack;
 mod steps;
 mod tool;
 
-pub use book::book;
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
 pub(crate) use errors::{share, stands_in_words};
@@ -142,7 +140,7 @@ fn significant(value: f64) -> String {
 }
 
 /// Columns aligned, two spaces between; numbers to the right, the columns of text to the left.
-fn aligned(rows: &[Vec<String>], texts: &[usize]) -> String {
+pub(crate) fn aligned(rows: &[Vec<String>], texts: &[usize]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let cells = |column: usize| rows.iter().map(move |r| r[column].chars().count());
     let widths: Vec<usize> = (0..columns).map(|c| cells(c).max().unwrap_or(0)).collect();

@@ -180,7 +180,7 @@ fn text(plies: &[PlyRecord], interrupted: bool, time_s: f64) -> String {
         true => format!("all {accepted} plies accepted"),
         false => format!("{accepted} of {} plies accepted", plies.len()),
     };
-    format!("{}\n{verdict}, planned in {time_s:.1} s{ended}\n", table::book(plies))
+    format!("{}\n{verdict}, planned in {time_s:.1} s{ended}\n", book::table(plies))
 }
 
 /// Who looks on: someone at a terminal sees a bar, others a plain line a minute.

@@ -5,9 +5,13 @@
 
 mod drawing;
 mod report;
+mod table;
+
+pub use table::table;
 
 use crate::scene::{Book, BookPly};
-use crate::{Content, Folder, OutputError, PROGRAM, ResultFile, Staged, json, table};
+use crate::table::{closest, limiting, measure_text};
+use crate::{Content, Folder, OutputError, PROGRAM, ResultFile, Staged, json};
 use plydrape::measure::Verdict;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -49,7 +53,7 @@ impl PlyRecord {
     pub fn of(book: &Book, index: usize, result: &ResultFile) -> Self {
         let ply: &BookPly = &book.plies[index];
         let limits = &result.summary.limits;
-        let worst = table::limiting(limits).or_else(|| table::closest(limits)).cloned();
+        let worst = limiting(limits).or_else(|| closest(limits)).cloned();
         PlyRecord {
             name: ply.name.clone(),
             folder: ply.folder(index),
@@ -67,7 +71,7 @@ impl PlyRecord {
     /// Its worst limit as text.
     #[must_use]
     pub fn worst_text(&self) -> String {
-        self.worst.as_ref().map_or_else(|| "–".into(), table::measure_text)
+        self.worst.as_ref().map_or_else(|| "–".into(), measure_text)
     }
 
     /// What it lies on, as text: the numbers of plies, or the mold.

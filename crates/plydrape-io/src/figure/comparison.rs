@@ -10,7 +10,7 @@ use super::panel::Stage;
 use super::projection::{Point, View};
 use super::sheet::SheetPicture;
 use crate::OutputError;
-use crate::comparison::Row;
+use crate::strategy::Row;
 use crate::table;
 use plydrape::outcome::Step;
 

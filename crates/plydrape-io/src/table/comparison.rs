@@ -1,8 +1,8 @@
 //! The strategies of a comparison as plain text.
 
 use super::{WIDTH, aligned, fixed, verdict_text};
-use crate::comparison::Row;
 use crate::shown;
+use crate::strategy::Row;
 use plydrape::measure::Name;
 use plydrape::planner::comparison::StrategyName;
 

@@ -13,8 +13,8 @@ const CRATES: [(&str, &str); 5] = [
     ),
     (
         "plydrape-io",
-        "error folder json finite formula input size shown sheet+file_kind+result mesh outline scene csv surface \
-         figure+comparison+table+book export fit mold_patch inp loads manifest pattern vtk net strength page plan program replan ros2 \
+        "error folder json finite formula input size shown sheet+file_kind+result mesh outline scene csv surface strategy \
+         table figure comparison book export fit mold_patch inp loads manifest pattern vtk net strength page plan program replan ros2 \
          sample",
     ),
     (

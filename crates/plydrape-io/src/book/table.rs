@@ -1,11 +1,11 @@
 //! The plies of a planned book as plain text.
 
-use super::aligned;
-use crate::book::PlyRecord;
+use super::PlyRecord;
+use crate::table::aligned;
 
 /// One row a ply, in the order in which they are laid.
 #[must_use]
-pub fn book(plies: &[PlyRecord]) -> String {
+pub fn table(plies: &[PlyRecord]) -> String {
     let titles = ["order", "ply", "lies on", "verdict", "motion s", "drapes", "worst limit"];
     let mut rows = vec![titles.map(str::to_owned).to_vec()];
     rows.extend(plies.iter().enumerate().map(|(n, ply)| {
