@@ -19,7 +19,8 @@ COMPILED = PACKAGE / "_plydrape.pyi"
 # ones of the file if None).
 PARTS: list[tuple[str, str, Path, list[str] | None]] = [
     ("Scenes, drapes and plans", "plydrape", COMPILED,
-     ["Scene", "simulate", "Result", "Drape", "Sheet", "plan", "Plan", "Sample", "measures", "Measure"]),
+     ["Scene", "simulate", "Result", "Drape", "Sheet", "plan", "Plan", "Sample", "measures",
+      "Measure"]),
     ("Ply, mold and ideal drape", "plydrape", COMPILED,
      ["Ply", "Material", "materials", "fit", "Mold", "Surface", "ClosestPoints", "Net"]),
     ("Equilibria and derivatives", "plydrape", COMPILED,

@@ -1,8 +1,9 @@
 //! How a drape came out: what `--json` prints of it, and the exit code.
 
-use plydrape::outcome::{Status, Summary};
+use plydrape::outcome::{Status, Summary, Unjudged};
 use plydrape_io::ResultFile;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -17,7 +18,7 @@ pub struct Printed<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     mean_equilibrium_us: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    also: Option<&'a Summary>,
+    also: Option<Unjudged<'a>>,
 }
 
 impl<'a> Printed<'a> {
@@ -29,7 +30,7 @@ impl<'a> Printed<'a> {
             summary,
             time_s: took.as_secs_f64(),
             mean_equilibrium_us: summary.catenaries.as_ref().map(|report| mean(report.equilibria)),
-            also: result.also.as_ref().map(|also| &also.summary),
+            also: result.also.as_ref().map(|also| Unjudged(Cow::Borrowed(&also.summary))),
         }
     }
 }

@@ -4,7 +4,7 @@
 
 use divan::{Bencher, black_box};
 use plydrape::mold::{Face, Mold, Pose, Sphere};
-use plydrape::net::{EdgeRule, Generators, Layup, Net};
+use plydrape::net::{EdgeRule, Generators, Net, Placement};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -17,9 +17,9 @@ fn sphere(radius: f64) -> Mold {
 }
 
 /// 24 × 24 nodes on the unit sphere, as published with KinDrape.
-fn hemisphere(generators: Generators, edges: EdgeRule) -> Layup {
+fn hemisphere(generators: Generators, edges: EdgeRule) -> Placement {
     let d: f64 = 0.075;
-    Layup {
+    Placement {
         nodes: [24, 24],
         mesh: [d, d],
         origin: [0.0; 2],
@@ -33,9 +33,9 @@ fn hemisphere(generators: Generators, edges: EdgeRule) -> Layup {
 }
 
 /// A ply of 0.9 m on a sphere of 0.6 m radius.
-fn fine(side: usize) -> Layup {
+fn fine(side: usize) -> Placement {
     let d = 0.9 / side as f64;
-    Layup {
+    Placement {
         nodes: [side, side],
         mesh: [d, d],
         origin: [0.0; 2],

@@ -391,7 +391,7 @@ pub(super) fn states() -> SheetKept {
 
 /// A result as the drape by the model that does not decide.
 pub(super) fn also(result: ResultFile) -> Also {
-    Also { summary: result.summary, steps: result.steps }
+    Also { summary: result.summary.unjudged(), steps: result.steps }
 }
 
 /// A sample of four cells, two of which are accepted and three needed.

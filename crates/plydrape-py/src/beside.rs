@@ -4,9 +4,10 @@ use crate::arrays::{Array, Named, or_nan};
 use crate::json::Json;
 use crate::model;
 use plydrape::measure::Name;
-use plydrape::outcome::{Gripper, Step, Summary};
+use plydrape::outcome::{Gripper, Step, Summary, Unjudged};
 use plydrape_io::ResultFile;
 use pyo3::prelude::*;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A drape by the model that does not decide, `Result.also`: grippers, loads and measures of every step, and no verdict.
@@ -65,7 +66,10 @@ impl Drape {
     /// How the drape came out: the `summary` of `also` in result.json.
     #[getter]
     fn summary(&self) -> PyResult<Json> {
-        Json::of(self.summarized())
+        match self.beside {
+            true => Json::of(&Unjudged(Cow::Borrowed(self.summarized()))),
+            false => Json::of(self.summarized()),
+        }
     }
 
     /// Time of each step (s), shape (steps,).

@@ -53,7 +53,7 @@ impl Net {
     /// Places of the nodes (m), shape (along u, along v, 3); nan where a node has no place on the mold.
     #[getter]
     fn nodes(&self) -> Array<f64> {
-        let [nu, nv] = self.0.layup.nodes;
+        let [nu, nv] = self.0.placement.nodes;
         let node = |i: usize, j: usize| self.0.nodes[j * nu + i].unwrap_or([f64::NAN; 3]);
         Array::rows(&[nu, nv, 3], (0..nu).flat_map(|i| (0..nv).map(move |j| node(i, j))))
     }
@@ -62,7 +62,7 @@ impl Net {
     /// less than half is on the ply.
     #[getter]
     fn shear_deg(&self) -> Array<f64> {
-        let [nu, nv] = self.0.layup.nodes.map(|n| n - 1);
+        let [nu, nv] = self.0.placement.nodes.map(|n| n - 1);
         let cell = |i, j| or_nan(self.0.cell_shear([i, j]).map(|s| s.angle.to_degrees()));
         Array::new(&[nu, nv], (0..nu).flat_map(|i| (0..nv).map(move |j| cell(i, j))).collect())
     }
@@ -70,7 +70,7 @@ impl Net {
     /// Whether each node is on the ply, shape (along u, along v); the net of a ply that is cut covers the box around it.
     #[getter]
     fn on_ply(&self) -> Array<bool> {
-        let ([nu, nv], coverage) = (self.0.layup.nodes, self.0.coverage());
+        let ([nu, nv], coverage) = (self.0.placement.nodes, self.0.coverage());
         let node = |i: usize, j: usize| coverage.node([i, j]);
         Array::new(
             &[nu, nv],
@@ -81,7 +81,7 @@ impl Net {
     /// Fabric between neighboring nodes along u and v (m).
     #[getter]
     fn mesh(&self) -> (f64, f64) {
-        self.0.layup.mesh.into()
+        self.0.placement.mesh.into()
     }
 
     /// Why each node of the ply without a place has none, those closest to the seed first: indices and reason.
@@ -97,7 +97,7 @@ impl Net {
     }
 
     fn __repr__(&self) -> String {
-        let [nu, nv] = self.0.layup.nodes;
+        let [nu, nv] = self.0.placement.nodes;
         format!("<plydrape.Net of {nu} × {nv} nodes>")
     }
 }

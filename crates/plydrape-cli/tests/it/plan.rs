@@ -60,7 +60,8 @@ fn all_files_go_beside_the_scene_or_to_the_folder_asked_for() {
     assert_eq!(files(&folder.path().join("flat.plan")), FILES);
     let shown = text(&output.stdout);
     let (_, wrote) = shown.split_once("flat.plan:\n  ").unwrap_or_else(|| panic!("{shown}"));
-    let mut names: Vec<&str> = wrote.split([',', ' ', '\n']).filter(|name| *name != "").collect();
+    let mut names: Vec<&str> =
+        wrote.split([',', ' ', '\n']).filter(|name| !name.is_empty()).collect();
     names.sort_unstable();
     assert_eq!(names, FILES, "{shown}");
 

@@ -43,7 +43,7 @@ pub fn svg(seeds: &Seeds, net: &Net, name: &str) -> Result<String, FigureError> 
     by_heading.sort_by(|a, b| a.0.total_cmp(&b.0));
 
     let bounds = net.ply_outline().map_or_else(
-        || [net.layup.origin, net.layup.fabric(net.layup.nodes.map(|n| n - 1))],
+        || [net.placement.origin, net.placement.fabric(net.placement.nodes.map(|n| n - 1))],
         |outline| outline.bounds(),
     );
     let size = [0, 1].map(|c| (bounds[1][c] - bounds[0][c]).max(1e-9));

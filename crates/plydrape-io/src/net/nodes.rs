@@ -15,11 +15,11 @@ use plydrape::net::Net;
 pub fn table(net: &Net) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     table.write_record(["i", "j", "u", "v", "x", "y", "z", "shear_deg", "on_ply"])?;
-    let [nu, nv] = net.layup.nodes;
+    let [nu, nv] = net.placement.nodes;
     let coverage = net.coverage();
     for id in (0..nu * nv).map(|n| [n % nu, n / nu]) {
         let mut row = vec![id[0].to_string(), id[1].to_string()];
-        row.extend(net.layup.fabric(id).map(number));
+        row.extend(net.placement.fabric(id).map(number));
         match net.node(id) {
             Some(place) => row.extend(place.map(number)),
             None => row.extend(["", "", ""].map(str::to_owned)),

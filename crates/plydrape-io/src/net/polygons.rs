@@ -15,7 +15,7 @@ type Point = [f64; 3];
 /// less than 90°; `fibre_u`, `fibre_v`, unit vectors along the two fiber directions in the cell's middle.
 #[must_use]
 pub fn net(net: &Net) -> Vec<u8> {
-    let [nu, nv] = net.layup.nodes;
+    let [nu, nv] = net.placement.nodes;
     let nodes =
         || (0..nu * nv).map(|n| [n % nu, n / nu]).filter_map(|id| Some((id, net.node(id)?)));
     let number: HashMap<[usize; 2], usize> = nodes().map(|(id, _)| id).zip(0..).collect();
@@ -23,8 +23,8 @@ pub fn net(net: &Net) -> Vec<u8> {
     // unknown beside missing nodes only
     let shear: Vec<_> = nodes().map(|(id, _)| nodal_shear(net, id)).collect();
     let at_points = vec![
-        Array::new("u", nodes().map(|(id, _)| net.layup.fabric(id)[0]).collect()),
-        Array::new("v", nodes().map(|(id, _)| net.layup.fabric(id)[1]).collect()),
+        Array::new("u", nodes().map(|(id, _)| net.placement.fabric(id)[0]).collect()),
+        Array::new("v", nodes().map(|(id, _)| net.placement.fabric(id)[1]).collect()),
         Array::whole("i", nodes().map(|(id, _)| id[0])),
         Array::whole("j", nodes().map(|(id, _)| id[1])),
         Array::new("shear_deg", shear.iter().map(|s| s.unwrap_or(0.0).to_degrees()).collect()),

@@ -121,7 +121,7 @@ impl Summary {
     /// Of a net and what is found of it, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
     pub fn of(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
-        let (layup, report) = (&net.layup, &net.report);
+        let (layup, report) = (&net.placement, &net.report);
         let boundary = findings.boundary.as_ref().map(BoundarySummary::of);
         let hair = HAIR * layup.mesh[0].min(layup.mesh[1]);
         let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies(hair));
@@ -326,8 +326,8 @@ impl Summary {
 
 impl ShearPlace {
     fn of(net: &Net, [i, j]: [usize; 2]) -> Option<Self> {
-        let low = net.layup.fabric([i, j]);
-        let [u, v] = [0, 1].map(|c| low[c] + 0.5 * net.layup.mesh[c]);
+        let low = net.placement.fabric([i, j]);
+        let [u, v] = [0, 1].map(|c| low[c] + 0.5 * net.placement.mesh[c]);
         let ring = [
             net.node([i, j])?,
             net.node([i + 1, j])?,

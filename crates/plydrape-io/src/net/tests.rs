@@ -1,6 +1,6 @@
 use super::*;
 use plydrape::mold::{Face, Pose, Sphere};
-use plydrape::net::{EdgeRule, Generators, Layup, Net};
+use plydrape::net::{EdgeRule, Generators, Net, Placement};
 
 /// A bowl's worth of fabric over a hemisphere, some of it beyond the equator.
 fn ball() -> Mold {
@@ -14,7 +14,7 @@ fn bowl() -> Mold {
 }
 
 fn draped(mold: &Mold, count: usize, mesh: f64, place: [f64; 3]) -> Net {
-    let layup = Layup {
+    let layup = Placement {
         nodes: [count, count],
         mesh: [mesh; 2],
         origin: [0.0; 2],
@@ -77,7 +77,7 @@ fn shear_at_a_node_is_the_mean_of_its_cells() {
 #[test]
 fn a_line_of_nodes_is_drawn_as_a_line() {
     let mold = ball();
-    let mut layup = nets()[0].1.layup;
+    let mut layup = nets()[0].1.placement;
     (layup.nodes, layup.seed) = ([20, 1], [10, 0]);
     let net = Net::drape(&mold, layup).unwrap();
     let svg = figure::shear_map::svg(&net, &mold, "line").unwrap();

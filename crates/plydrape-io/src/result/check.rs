@@ -163,12 +163,12 @@ fn of_cut(ply: &Ply) -> Option<String> {
 
 fn of_net(scene: &SceneEcho) -> Option<String> {
     let net = scene.target.as_ref()?.drape.as_ref()?;
-    let [nu, nv] = net.layup.nodes;
+    let [nu, nv] = net.placement.nodes;
     let nodes = nu.checked_mul(nv).filter(|_| nu > 0 && nv > 0);
     let cells = nodes.map(|_| (nu - 1) * (nv - 1));
-    let seed = (0..2).all(|n| net.layup.seed[n] < net.layup.nodes[n]);
+    let seed = (0..2).all(|n| net.placement.seed[n] < net.placement.nodes[n]);
     let missing = net.missing.iter().all(|m| m.node[0] < nu && m.node[1] < nv);
-    let mesh = net.layup.mesh.iter().all(|width| (CELLS[0]..=CELLS[1]).contains(width));
+    let mesh = net.placement.mesh.iter().all(|width| (CELLS[0]..=CELLS[1]).contains(width));
     if nodes != Some(net.nodes.len())
         || cells != Some(net.shear.len())
         || !seed
@@ -238,12 +238,10 @@ fn of_deciding(result: &ResultFile) -> Option<String> {
 
 /// What is impossible in the drape by the other model.
 fn of_also(result: &ResultFile, also: &Also) -> Option<String> {
-    let of_sample = also.summary.sample.is_some() || also.summary.stands.is_some();
     let fault = match () {
         () if also.summary.model != result.summary.model.other() => {
             Some("is of the model that decides".into())
         }
-        () if of_sample => Some("was judged with errors".into()),
         () => of_steps(&also.steps)
             .or_else(|| of_summary(&result.scene.ply, &also.summary, &also.steps)),
     };

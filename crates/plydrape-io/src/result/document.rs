@@ -9,13 +9,14 @@
 
 use super::contact::Known;
 use super::step::StepColumns;
-use super::{FORMAT, ResultFile, SceneEcho, VERSION};
+use super::{ResultFile, SceneEcho};
 use crate::finite;
 use crate::folder::Content;
+use crate::format::{FORMAT, VERSION};
 use crate::json::JsonError;
 use crate::sheet::SheetSeal;
 use plydrape::layup::Model;
-use plydrape::outcome::{Step, Summary};
+use plydrape::outcome::{Step, Summary, Unjudged};
 use plydrape::planner::PlanRecord;
 use plydrape::ply::{GripperId, Kind, Lines};
 use serde::ser::SerializeSeq;
@@ -51,7 +52,7 @@ pub(super) struct Document<'a, S, C> {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AlsoDocument<'a, S> {
-    pub summary: Cow<'a, Summary>,
+    pub summary: Unjudged<'a>,
     pub steps: S,
 }
 
@@ -153,7 +154,7 @@ impl ResultFile {
             catenaries: self.steps_of(Model::Catenaries).map(Catenaries::named),
             steps: Steps(&self.steps),
             also: self.also.as_ref().map(|also| AlsoDocument {
-                summary: Cow::Borrowed(&also.summary),
+                summary: Unjudged(Cow::Borrowed(&also.summary)),
                 steps: Steps(&also.steps),
             }),
             checksum,

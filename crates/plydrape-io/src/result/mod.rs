@@ -31,11 +31,6 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-/// Name of the format, the first key of every result file.
-pub const FORMAT: &str = "plydrape-result";
-/// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 9;
-
 /// A whole result: what the model that decides says of a scene, and what the other one says beside if it was asked.
 ///
 /// Whether it is accepted is [`Summary::accepted`] of its `summary`, and nothing else.
@@ -62,7 +57,7 @@ pub struct ResultFile {
 /// A drape by the model that does not decide.
 #[derive(Debug, Clone)]
 pub struct Also {
-    /// The outcome by that model.
+    /// The outcome by that model, which judges nothing.
     pub summary: Summary,
     /// The ply by that model, one entry a step.
     pub steps: Vec<Step>,
@@ -204,7 +199,7 @@ impl ResultFile {
         if states.is_some() {
             self.sheet_states = states;
         }
-        self.also = Some(Also { summary, steps });
+        self.also = Some(Also { summary: summary.unjudged(), steps });
     }
 
     /// The model that decides.

@@ -8,12 +8,12 @@
 use super::check::fault;
 use super::document::{AlsoDocument, Document, shown};
 use super::step::StepColumns;
-use super::{Also, FORMAT, ResultFile, VERSION};
-use crate::file_kind::{self, FileKind};
+use super::{Also, ResultFile};
+use crate::file_kind::FileKind;
+use crate::format::{FILE, FORMAT, VERSION};
 use crate::sheet::SheetKept;
-use crate::shown::{excerpt, name};
-use crate::size::{self, SizeError};
-use crate::{folder, input};
+use crate::shown::excerpt;
+use crate::{ReadError, folder, input, size};
 use plydrape::layup::Model;
 use plydrape::outcome::Step;
 use plydrape::ply::{Grid, Ply};
@@ -24,145 +24,6 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-
-/// Why a file is no result that can be used, and what to do.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadError {
-    /// The file system refused.
-    #[error("`{}` {}", path.display(), unread(source))]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The file system's answer.
-        source: std::io::Error,
-    },
-    /// It would not fit the memory that is allowed.
-    #[error("`{}`: {source}", path.display())]
-    TooLarge {
-        /// The file.
-        path: PathBuf,
-        /// What is too large.
-        source: SizeError,
-    },
-    /// The text breaks off.
-    #[error("`{}` ends in the middle, at line {line}, column {column}: it was cut short", path.display())]
-    Truncated {
-        /// The file.
-        path: PathBuf,
-        /// Line of the end, from 1.
-        line: usize,
-        /// Column of the end, from 1.
-        column: usize,
-    },
-    /// Something else, not a result that plydrape wrote.
-    #[error("`{}` is {reason}", path.display())]
-    Foreign {
-        /// The file.
-        path: PathBuf,
-        /// What it is, or how it shows that it is none.
-        reason: String,
-    },
-    /// Written in a later format.
-    #[error("`{}` is a result in version {found} of the format, written by {program}; this is {} and reads version {VERSION}", path.display(), crate::PROGRAM)]
-    Newer {
-        /// The file.
-        path: PathBuf,
-        /// Version of the format.
-        found: u64,
-        /// The program that wrote it.
-        program: String,
-    },
-    /// Written in an earlier format.
-    #[error("`{}` is a result in version {found} of the format, written by {program}; this is {} and reads version {VERSION}", path.display(), crate::PROGRAM)]
-    Older {
-        /// The file.
-        path: PathBuf,
-        /// Version of the format.
-        found: u64,
-        /// The program that wrote it.
-        program: String,
-    },
-    /// Beside files of another run: the last one was cut off while it replaced them.
-    #[error("the files of `{}` are of two runs: the last one was cut off while it wrote them", path.display())]
-    Mixed {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// Changed since it was written.
-    #[error("`{}` was changed since plydrape wrote it{}", path.display(), reason)]
-    Changed {
-        /// The file.
-        path: PathBuf,
-        /// How that shows, beginning with a colon; empty where only the check sum tells.
-        reason: String,
-    },
-}
-
-impl ReadError {
-    /// What would help where the states of a result's sheet are the file.
-    #[must_use]
-    pub fn states_remedy(&self) -> String {
-        match self {
-            ReadError::Unreadable { .. } => {
-                "put `sheet.npz` beside its result.json, or run the scene again".into()
-            }
-            _ => self.remedy(),
-        }
-    }
-
-    /// What would help.
-    #[must_use]
-    pub fn remedy(&self) -> String {
-        match self {
-            ReadError::Unreadable { path, source } => match source.kind() {
-                io::ErrorKind::NotFound => match file_kind::nearest_name(path) {
-                    Some(near) => format!("did you mean `{}`?", name(&near)),
-                    None => format!("give {GIVEN}"),
-                },
-                io::ErrorKind::IsADirectory => format!("give {GIVEN}"),
-                _ => "give the path of a result.json that you may read".into(),
-            },
-            ReadError::TooLarge { source, .. } => source.remedy().into(),
-            ReadError::Truncated { path, .. } => format!("copy it again, or {}", again(path)),
-            ReadError::Foreign { .. } => format!("give {GIVEN}"),
-            ReadError::Newer { path, .. } => format!("update plydrape, or {}", again(path)),
-            ReadError::Mixed { path } => again(&path.join(FILE)),
-            ReadError::Older { path, .. } => format!("{} with this version", again(path)),
-            ReadError::Changed { path, .. } => {
-                format!("put the file back as it was, or {}", again(path))
-            }
-        }
-    }
-}
-
-/// How a file is not read.
-fn unread(source: &io::Error) -> String {
-    match source.kind() {
-        io::ErrorKind::NotFound => "cannot be read: there is no such file".into(),
-        io::ErrorKind::IsADirectory => format!("is a folder without a {FILE}"),
-        _ => format!("cannot be read: {source}"),
-    }
-}
-
-/// The file of a result in its folder.
-const FILE: &str = "result.json";
-/// What is wanted.
-const GIVEN: &str = "the result.json of `plydrape simulate` or `plydrape plan`, or its folder";
-
-/// How to make a result anew: with its scene, where the folder's name says which one that is and how it was run.
-fn again(path: &Path) -> String {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let command = match folder.extension().and_then(|extension| extension.to_str()) {
-        Some("plan") => "plan",
-        Some("results") => "simulate",
-        _ => return "run `plydrape simulate` or `plydrape plan` again".into(),
-    };
-    let scene = folder.with_extension("toml");
-    if scene.is_file() {
-        return format!("run `plydrape {command} {}` again", name(&scene.to_string_lossy()));
-    }
-    format!("run `plydrape {command}` again with its scene")
-}
 
 /// The result file that a path means: the one in it, if it is a folder.
 #[must_use]
@@ -330,7 +191,7 @@ fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, Stri
     let (summary, catenaries) = (read.summary.into_owned(), read.catenaries.is_some());
     let steps = steps_of_model(&ply, summary.model, read.steps)?;
     let also = read.also.map(|AlsoDocument { summary, steps: columns }| {
-        let summary = summary.into_owned();
+        let summary = summary.0.into_owned();
         let steps = steps_of_model(&ply, summary.model, columns)?;
         Ok::<_, String>(Also { summary, steps })
     });

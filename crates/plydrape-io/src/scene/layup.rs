@@ -11,7 +11,7 @@ use super::located::Located;
 use super::quantity::{Angle, Length, Quantity, rounded};
 use super::usual;
 use plydrape::mold::Mold;
-use plydrape::net::{EdgeRule, Free, Generators, Layup};
+use plydrape::net::{EdgeRule, Free, Generators, Placement};
 use plydrape::ply::{Cut, Ply};
 use std::ops::Range;
 
@@ -44,7 +44,7 @@ pub(super) fn layup(
     ply: &Ply,
     mold: &Mold,
     document: &Document,
-) -> Result<Layup, SceneError> {
+) -> Result<Placement, SceneError> {
     let shear = match &keys.shear {
         Some(shear) => shear_angle(shear, document)?,
         None => 0.0,
@@ -71,7 +71,7 @@ pub(super) fn layup(
         Some(cut) => nodes_of_cut(keys, ply, cut, mold, document)?,
         None => nodes_of_cells(keys, ply, mold, document)?,
     };
-    Ok(Layup {
+    Ok(Placement {
         nodes,
         mesh,
         origin,

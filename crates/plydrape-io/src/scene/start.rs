@@ -94,7 +94,7 @@ fn rectangle(
     let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
         (Some(direction), _) => heading(direction, document)?,
         (None, Some(target)) => match target.drape.as_ref().filter(|_| ply.grid == Grid::NONE) {
-            Some(net) => net.layup.heading,
+            Some(net) => net.placement.heading,
             None => heading_of(&target.grippers, ply),
         },
         (None, None) => 0.0,

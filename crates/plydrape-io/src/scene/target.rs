@@ -8,7 +8,7 @@ use super::located::Located;
 use super::places::{Places, X, Y, Z, csv_file, point};
 use plydrape::layup::Target;
 use plydrape::mold::Mold;
-use plydrape::net::{CurveError, Free, LayupError, Missing, Net, Reason, Seeds, Wanted};
+use plydrape::net::{CurveError, Free, Missing, Net, PlacementError, Reason, Seeds, Wanted};
 use plydrape::ply::{Ply, gripper_name};
 use std::path::Path;
 use std::sync::Arc;
@@ -81,13 +81,13 @@ pub(super) fn net(
         Some(file) => Some(wanted(file, mold, mesh, document, base)?),
         None => None,
     };
-    let no_net = |error: LayupError| no_net(keys, table, &error, document);
+    let no_net = |error: PlacementError| no_net(keys, table, &error, document);
     let free = free(keys);
     let seeds = match free {
         Free { seed: false, heading: false } => None,
         _ => Some(Seeds::search(mold, layup, outline, free).map_err(no_net)?),
     };
-    let layup = seeds.as_ref().map_or(layup, |seeds| seeds.layup);
+    let layup = seeds.as_ref().map_or(layup, |seeds| seeds.placement);
     let net = Net::drape_cut(mold, layup, outline.cloned()).map_err(no_net)?;
     Ok(Laid { net, seeds, wanted })
 }
@@ -143,13 +143,13 @@ fn header(table: &Located<TargetTable>, document: &Document) -> std::ops::Range<
 fn no_net(
     keys: &TargetTable,
     table: &Located<TargetTable>,
-    error: &LayupError,
+    error: &PlacementError,
     document: &Document,
 ) -> SceneError {
     let shear = keys.shear.as_ref().map(|shear| &shear.span);
     let origin = keys.origin.as_ref().map(|origin| &origin.span);
     let (key, help) = match error {
-        LayupError::Shear { .. } => (shear, "give a smaller `shear`; a ply locks long before"),
+        PlacementError::Shear { .. } => (shear, "give a smaller `shear`; a ply locks long before"),
         _ => (origin, "give another `origin`, where the mold faces upwards"),
     };
     let place = key.cloned().unwrap_or_else(|| header(table, document));
@@ -174,7 +174,7 @@ fn at_grippers(
     // of the node that is nearest in the fabric
     let [u, v] = ply.place(first);
     let away = |missing: &&Missing| {
-        let [p, q] = net.layup.fabric(missing.node);
+        let [p, q] = net.placement.fabric(missing.node);
         (p - u).hypot(q - v)
     };
     let reason = net.missing.iter().min_by(|a, b| away(a).total_cmp(&away(b)));

@@ -1,10 +1,11 @@
 //! What the model that does not decide says, if it was asked.
 
-use super::{WIDTH, limits, model_name, steps};
+use super::{WIDTH, model_name, significant, steps, unit};
 use crate::result::{Also, ResultFile};
 use crate::sheet::ended;
 use crate::shown;
 use plydrape::measure::Name;
+use plydrape::outcome::Summary;
 
 /// What is said of it in one line.
 const NAMES: [Name; 4] = [Name::Shear, Name::Strain, Name::Tilt, Name::GripperLoad];
@@ -12,23 +13,29 @@ const NAMES: [Name; 4] = [Name::Shear, Name::Strain, Name::Tilt, Name::GripperLo
 /// One line; empty where it was not asked.
 pub(super) fn line(result: &ResultFile) -> String {
     let Some(Also { summary, .. }) = &result.also else { return String::new() };
-    let said = ended(summary).unwrap_or_else(|| limits::values(&summary.limits, &NAMES));
+    let said = ended(summary).unwrap_or_else(|| values(summary, &NAMES));
     let text = format!("{} beside, judging nothing: {said}", model_name(summary.model));
     shown::excerpt(&text, WIDTH) + "\n"
 }
 
-/// Its steps and its values beside the limits of the scene; empty where it was not asked.
+/// Its steps and its worst values; empty where it was not asked.
 pub(super) fn details(result: &ResultFile) -> String {
     let Some(Also { summary, steps }) = &result.also else { return String::new() };
-    let values = summary.limits.iter().map(|own| {
-        let value = limits::values(&summary.limits, &[own.name]);
-        shown::excerpt(&format!("  {value} in step {}, {}", own.step.unwrap_or(0), own.at), WIDTH)
-            + "\n"
-    });
+    let worst = summary.worst.iter().map(|(name, _)| format!("  {}\n", values(summary, &[name])));
     format!(
         "{} beside, judging nothing:\n{}{}",
         model_name(summary.model),
         steps::short(summary, steps),
-        values.collect::<String>()
+        worst.collect::<String>()
     )
+}
+
+/// The worst values of some measures.
+fn values(summary: &Summary, names: &[Name]) -> String {
+    let value = |name: &Name| {
+        let own = name.measure().unit();
+        let value = significant(summary.worst.value(*name)? * own.factor);
+        Some(format!("{} {value}{}", name.title(), unit(own.shown)))
+    };
+    names.iter().filter_map(value).collect::<Vec<_>>().join(", ")
 }

@@ -2,7 +2,7 @@
 
 use super::ink::{Ink, Tone};
 use super::{aligned, errors, significant};
-use plydrape::measure::{Name, Verdict};
+use plydrape::measure::Verdict;
 use plydrape::outcome::SampleVerdict;
 use std::fmt::Write;
 
@@ -88,19 +88,10 @@ fn tone(verdict: &Verdict) -> Option<Tone> {
     }
 }
 
-/// The worst values of a model that judges nothing, in one line.
-pub(super) fn values(limits: &[Verdict], names: &[Name]) -> String {
-    let known = names.iter().filter_map(|name| limits.iter().find(|own| own.name == *name));
-    let value = |own: &Verdict| {
-        format!("{} {}{}", own.name.title(), significant(own.value), super::unit(&own.unit))
-    };
-    known.map(value).collect::<Vec<_>>().join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use plydrape::measure::Worst;
+    use plydrape::measure::{Name, Worst};
 
     fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
         let at = "gripper g0_0".to_owned();

@@ -49,7 +49,7 @@ fn a_ply_has_the_shared_keys_and_its_own_in_their_place() {
     assert_eq!([a.scene.thickness, b.scene.thickness], [Some(0.5e-3), Some(0.3e-3)]);
     assert_eq!([a, b].map(|ply| ply.scene.limits.most(Name::Height)), [0.5e-3, 1e-3]);
     let heading = |ply: &scene::BookPly| {
-        ply.scene.layup.target.as_ref().unwrap().drape.as_ref().unwrap().layup.heading
+        ply.scene.layup.target.as_ref().unwrap().drape.as_ref().unwrap().placement.heading
     };
     assert_eq!([heading(a), heading(b)], [0.0, 30_f64.to_radians()]);
     assert_eq!([a.folder(0), b.folder(1)], ["01_a", "02_b"]);

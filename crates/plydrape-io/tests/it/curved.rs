@@ -5,7 +5,7 @@ use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
 use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::motion::Motion;
-use plydrape::net::{Layup, Net};
+use plydrape::net::{Net, Placement};
 use plydrape::ply::{Fibres, Grid, Kind};
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
@@ -321,7 +321,7 @@ fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
 fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it() {
     let mut scene = example("04_dome");
     let target = scene.layup.target.clone().expect("a target");
-    let layup = target.drape.as_ref().expect("an ideal drape").layup;
+    let layup = target.drape.as_ref().expect("an ideal drape").placement;
     let axis: Vec<f64> = (0..121).map(|n| -0.3 + 0.005 * f64::from(n)).collect();
     let grippers = |front: f64| -> Vec<[f64; 3]> {
         let places = axis.iter().flat_map(|y| axis.iter().map(move |x| (x, y)));
@@ -334,7 +334,7 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::HeightGrid(heights));
         let mold = Mold::Graph(Graph { pose, surface, domain: Some([[-0.3, 0.3]; 2]) });
         let place = mold.highest_point([0.0; 2]).expect("the middle");
-        let net = Net::drape(&mold, Layup { place, ..layup }).expect("a net");
+        let net = Net::drape(&mold, Placement { place, ..layup }).expect("a net");
         let divisions = (0.1 / layup.mesh[0]).round() as usize;
         let node = |n: usize| net.node([n % 4 * divisions, n / 4 * divisions]).expect("a node");
         (0..16).map(node).collect()

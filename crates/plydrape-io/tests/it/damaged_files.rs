@@ -140,7 +140,7 @@ fn a_result_with_a_cell_of_zero_is_refused() {
         spoil(&mut result);
         let text = result.text().unwrap();
         let refused = read::parse(text.as_bytes(), Path::new("result.json")).unwrap_err();
-        assert!(matches!(refused, read::ReadError::Changed { .. }), "{refused}");
+        assert!(matches!(refused, plydrape_io::ReadError::Changed { .. }), "{refused}");
     }
 }
 

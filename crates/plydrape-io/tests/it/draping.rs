@@ -8,7 +8,7 @@ use plydrape::layup::{ContactEnd, ContactSettings, SlopeRule, Stepping, Target};
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
 use plydrape::motion::Motion;
-use plydrape::net::{EdgeRule, Generators, Layup, Net};
+use plydrape::net::{EdgeRule, Generators, Net, Placement};
 use plydrape::outcome::Summary;
 use plydrape::ply::Kind;
 use plydrape::scene::Scene;
@@ -238,7 +238,7 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
         let mut scene = example("01_flat_sheared_mold");
         let (s, c) = tilt.to_radians().sin_cos();
         let plane = Mold::Plane(Plane { point: [0.0; 3], normal: [-s, 0.0, c] });
-        let layup = Layup {
+        let layup = Placement {
             nodes: [4, 2],
             mesh: [0.1; 2],
             origin: [0.0; 2],

@@ -152,7 +152,7 @@ fn the_stl_has_the_targets_of_its_formula() {
     let z = plydrape_io::formula::read("-x^2/2 + 3*x^3/5 - 9*y^2/10 + 4*x*y/5").expect("a formula");
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     let smooth = Mold::Graph(Graph { pose, surface: Surface::Formula { z }, domain: None });
-    let mut layup = net.layup;
+    let mut layup = net.placement;
     layup.place = smooth.highest_point([layup.place[0], layup.place[1]]).expect("on the mold");
     let ideal = Net::drape(&smooth, layup).expect("a net");
     let divisions = [0, 1].map(|n| (scene.layup.ply.cell[n] / layup.mesh[n]).round() as usize);
@@ -177,7 +177,7 @@ fn the_blade_mold_takes_a_whole_ply() {
     }
     let scene = example("09_blade");
     let (_, net, _) = target(&scene);
-    assert_eq!(net.layup.nodes, [61, 51]);
+    assert_eq!(net.placement.nodes, [61, 51]);
     assert!(net.missing.is_empty() && net.report.largest_edge_error < 1e-9);
     straight_paths_leave_wrinkles(&scene, 1e-12);
 }

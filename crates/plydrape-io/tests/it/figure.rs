@@ -3,7 +3,7 @@
 use plydrape::layup::Target;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface};
 use plydrape::motion::Motion;
-use plydrape::net::{EdgeRule, Generators, Layup, Net};
+use plydrape::net::{EdgeRule, Generators, Net, Placement};
 use plydrape::ply::Grid;
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
@@ -110,7 +110,7 @@ fn a_shear_map_says_what_its_net_reports() {
         ("saddle", saddle, [51, 31], 0.005, [50, 15], 10.0),
     ] {
         let down = if name == "bowl" { -0.1 } else { 0.1 };
-        let layup = Layup {
+        let layup = Placement {
             nodes,
             mesh: [mesh; 2],
             origin: [0.0; 2],

@@ -112,7 +112,7 @@ fn cells_are_divided_so_that_the_seed_is_a_node() {
     let layup = |mold: &str, target: &str| {
         let target =
             scene(mold, &format!("[target]\n{target}"), "").layup.target.expect("a target");
-        let layup = target.drape.expect("a net").layup;
+        let layup = target.drape.expect("a net").placement;
         (layup.nodes, layup.seed)
     };
     assert_eq!(layup(DOME, ""), ([31, 31], [0, 0]));
@@ -128,7 +128,7 @@ fn cells_are_divided_so_that_the_seed_is_a_node() {
 fn the_target_says_how_the_net_is_laid() {
     let target = "[target]\norigin = [0.05, 0]\ndirection = \"30 deg\"\nshear = \"-5 deg\"\ngenerators = \"least-shear\"\nedges = \"chord\"\nmesh = \"50 mm\"\nseed = \"middle\"";
     let target = scene(DOME, target, "").layup.target.expect("a target");
-    let layup = target.drape.expect("a net").layup;
+    let layup = target.drape.expect("a net").placement;
     assert_eq!((layup.generators, layup.edges), (Generators::LeastShear, EdgeRule::Chord));
     assert_eq!((layup.heading, layup.shear), (30f64.to_radians(), -5f64.to_radians()));
     assert!((layup.place[2] - (0.25_f64 - 0.0025).sqrt()).abs() < 1e-12);

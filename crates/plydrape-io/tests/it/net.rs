@@ -2,7 +2,7 @@
 
 use crate::common::distance;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
-use plydrape::net::{EdgeRule, Generators, Layup, LayupError, Net, Reason};
+use plydrape::net::{EdgeRule, Generators, Net, Placement, PlacementError, Reason};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -18,9 +18,9 @@ fn sphere(radius: f64) -> Mold {
 }
 
 /// A net of 24 × 24 nodes, mesh 0.075 m, as in the published example.
-fn published() -> Layup {
+fn published() -> Placement {
     let d: f64 = 0.075;
-    Layup {
+    Placement {
         nodes: [24, 24],
         mesh: [d, d],
         origin: [0.0; 2],
@@ -33,7 +33,7 @@ fn published() -> Layup {
     }
 }
 
-fn drape(mold: &Mold, layup: Layup) -> Net {
+fn drape(mold: &Mold, layup: Placement) -> Net {
     Net::drape(mold, layup).expect("a sensible layup")
 }
 
@@ -43,7 +43,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Nodes with their grid indices.
 fn nodes(net: &Net) -> impl Iterator<Item = ([usize; 2], [f64; 3])> + '_ {
-    let nu = net.layup.nodes[0];
+    let nu = net.placement.nodes[0];
     net.nodes.iter().enumerate().filter_map(move |(n, p)| Some(([n % nu, n / nu], (*p)?)))
 }
 
@@ -80,7 +80,7 @@ fn every_edge_has_its_length_and_every_node_lies_on_the_mold() {
             for edges in BOTH_RULES {
                 let place = mold.highest_point(start).expect("mold below");
                 let mesh = [0.05, 0.04];
-                let layup = Layup {
+                let layup = Placement {
                     generators,
                     edges,
                     place,
@@ -107,7 +107,7 @@ fn net_on_a_plane_is_affine() {
     for generators in BOTH_GENERATORS {
         for edges in BOTH_RULES {
             for (heading, shear) in [(0.0, 0.0), (2.1, 20.0_f64.to_radians()), (-0.8, -0.9)] {
-                let layup = Layup {
+                let layup = Placement {
                     nodes: [12, 9],
                     mesh: [0.03, 0.02],
                     origin: [0.0; 2],
@@ -157,7 +157,7 @@ fn net_on_a_cylinder_is_the_flat_one() {
     let mold = Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside });
     for generators in BOTH_GENERATORS {
         for (heading, shear) in [(0.9, 0.0), (1.7, 0.0), (0.3, 0.3), (-2.0, -0.2)] {
-            let layup = Layup {
+            let layup = Placement {
                 nodes: [30, 20],
                 mesh: [0.02, 0.03],
                 origin: [0.0; 2],
@@ -196,15 +196,15 @@ fn net_on_a_cylinder_is_the_flat_one() {
 fn hemisphere_net_is_its_own_mirror_image() {
     for generators in BOTH_GENERATORS {
         let d = 0.075;
-        let odd = Layup {
+        let odd = Placement {
             nodes: [23, 23],
             place: [0.0, 0.0, 1.0],
             edges: EdgeRule::Along,
             ..published()
         };
-        let even = Layup { generators: Generators::LeastShear, ..published() };
+        let even = Placement { generators: Generators::LeastShear, ..published() };
         let layup =
-            if generators == Generators::Geodesic { Layup { generators, ..odd } } else { even };
+            if generators == Generators::Geodesic { Placement { generators, ..odd } } else { even };
         let net = drape(&sphere(1.0), layup);
         let [nu, nv] = layup.nodes;
         for ([i, j], [x, y, z]) in nodes(&net) {
@@ -220,7 +220,7 @@ fn hemisphere_net_is_its_own_mirror_image() {
 fn geodesic_generators_of_a_sphere_are_great_circles() {
     let mold = sphere(0.8);
     for edges in BOTH_RULES {
-        let layup = Layup {
+        let layup = Placement {
             place: mold.highest_point([0.2, -0.3]).expect("mold below"),
             heading: 0.7,
             generators: Generators::Geodesic,
@@ -251,7 +251,7 @@ fn geodesic_generators_of_a_sphere_are_great_circles() {
 fn refined(cells: usize, generators: Generators) -> Vec<[f64; 3]> {
     let mold = sphere(0.6);
     let d = 0.4 / cells as f64;
-    let layup = Layup {
+    let layup = Placement {
         nodes: [cells + 1; 2],
         mesh: [d, d],
         origin: [0.0; 2],
@@ -304,7 +304,7 @@ fn net_moves_with_its_mold() {
     for generators in BOTH_GENERATORS {
         for edges in BOTH_RULES {
             let place = here.highest_point([0.8, 0.5]).expect("mold below");
-            let layup = Layup {
+            let layup = Placement {
                 place,
                 heading: 0.2,
                 mesh: [0.03, 0.035],
@@ -312,7 +312,7 @@ fn net_moves_with_its_mold() {
                 edges,
                 ..published()
             };
-            let turned = Layup { place: moved.place(place), heading: 1.3, ..layup };
+            let turned = Placement { place: moved.place(place), heading: 1.3, ..layup };
             let (a, b) = (drape(&here, layup), drape(&there, turned));
             assert_eq!(a.report.placed, b.report.placed);
             for (n, p) in nodes(&a) {
@@ -335,7 +335,7 @@ fn shear_on_a_torus_is_its_total_curvature() {
     });
     let misses = [20_usize, 40].map(|cells| {
         let d = 0.5 / cells as f64;
-        let layup = Layup {
+        let layup = Placement {
             nodes: [cells + 1; 2],
             mesh: [d, d],
             origin: [0.0; 2],
@@ -378,7 +378,7 @@ fn nodes_beyond_the_border_are_named() {
         domain: Some([[-0.3, 0.3], [-0.2, 0.2]]),
     });
     for generators in BOTH_GENERATORS {
-        let layup = Layup {
+        let layup = Placement {
             nodes: [21, 21],
             mesh: [0.04, 0.04],
             origin: [0.0; 2],
@@ -433,7 +433,7 @@ fn sine_gordon(cells: usize, mesh: f64) -> Vec<Vec<f64>> {
 #[test]
 fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
     for edges in BOTH_RULES {
-        let layup = Layup {
+        let layup = Placement {
             nodes: [51, 51],
             mesh: [0.06, 0.06],
             origin: [0.0; 2],
@@ -518,7 +518,7 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
         for edges in BOTH_RULES {
             let away = [20, 40, 80].map(|n| {
                 let mold = meshed_cap(radius, n);
-                let layup = Layup {
+                let layup = Placement {
                     nodes: [41, 41],
                     mesh: [0.015, 0.015],
                     origin: [0.0; 2],
@@ -536,7 +536,7 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
                 let smooth = sphere(radius);
                 let ideal = drape(
                     &smooth,
-                    Layup { place: smooth.closest_point(layup.place).point, ..layup },
+                    Placement { place: smooth.closest_point(layup.place).point, ..layup },
                 );
                 nodes(&net)
                     .map(|(n, p)| distance(p, ideal.node(n).expect("placed")))
@@ -550,7 +550,7 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
 #[test]
 fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
     let mold = meshed_cap(0.6, 40);
-    let layup = Layup {
+    let layup = Placement {
         nodes: [31, 31],
         mesh: [0.04, 0.04],
         origin: [0.0; 2],
@@ -577,7 +577,7 @@ fn a_ply_goes_on_behind_a_hole() {
     let in_hole = |i: usize, j: usize| (12..16).contains(&i) && (10..14).contains(&j);
     let mold = meshed(20, |[x, y]| [x, y, 0.25 * x], |i, j| !in_hole(i, j));
     for generators in BOTH_GENERATORS {
-        let layup = Layup {
+        let layup = Placement {
             nodes: [21, 21],
             mesh: [0.04, 0.04],
             origin: [0.0; 2],
@@ -607,23 +607,29 @@ fn a_ply_goes_on_behind_a_hole() {
 #[test]
 fn layups_that_cannot_begin_say_why() {
     let mold = sphere(1.0);
-    let refused = |layup: Layup| Net::drape(&mold, layup).expect_err("refused");
+    let refused = |layup: Placement| Net::drape(&mold, layup).expect_err("refused");
     let good = published();
-    assert!(matches!(refused(Layup { nodes: [0, 4], ..good }), LayupError::NoNodes { .. }));
-    assert!(matches!(refused(Layup { mesh: [0.1, 0.0], ..good }), LayupError::MeshWidth { .. }));
-    assert!(matches!(refused(Layup { seed: [24, 0], ..good }), LayupError::SeedNode { .. }));
-    assert!(matches!(refused(Layup { shear: 1.56, ..good }), LayupError::Shear { .. }));
-    let aside = Layup { place: [0.0, 0.0, 1.002], ..good };
+    assert!(matches!(refused(Placement { nodes: [0, 4], ..good }), PlacementError::NoNodes { .. }));
+    assert!(matches!(
+        refused(Placement { mesh: [0.1, 0.0], ..good }),
+        PlacementError::MeshWidth { .. }
+    ));
+    assert!(matches!(
+        refused(Placement { seed: [24, 0], ..good }),
+        PlacementError::SeedNode { .. }
+    ));
+    assert!(matches!(refused(Placement { shear: 1.56, ..good }), PlacementError::Shear { .. }));
+    let aside = Placement { place: [0.0, 0.0, 1.002], ..good };
     let words = refused(aside).to_string();
     assert_eq!(words, "the seed lies 2.000 mm off the mold: give a point of the mold");
-    assert_eq!(refused(Layup { place: [1.0, 0.0, 0.0], ..good }), LayupError::Upright);
+    assert_eq!(refused(Placement { place: [1.0, 0.0, 0.0], ..good }), PlacementError::Upright);
 }
 
 /// A ply of one yarn, or of one point, has places and no cells.
 #[test]
 fn a_single_line_of_nodes_is_a_net() {
     for nodes in [[7, 1], [1, 7], [1, 1]] {
-        let layup = Layup { nodes, seed: [0, 0], ..published() };
+        let layup = Placement { nodes, seed: [0, 0], ..published() };
         let net = drape(&sphere(1.0), layup);
         assert_eq!(net.report.placed, nodes[0] * nodes[1]);
         assert_eq!(net.report.largest_shear, None);

@@ -9,7 +9,7 @@ use plydrape::material::{Material, Section};
 use plydrape::measure::Name;
 use plydrape::mold::{Graph, HeightGrid, Mesh, Mold, Plane, Pose, Saddle, Surface};
 use plydrape::motion::Motion;
-use plydrape::net::{Layup, Net};
+use plydrape::net::{Net, Placement};
 use plydrape::scene::Scene;
 use std::sync::Arc;
 
@@ -28,8 +28,9 @@ pub fn scaled(scene: &Scene, s: f64) -> Scene {
     out.layup.target = scene.layup.target.as_ref().map(|target| Target {
         grippers: points(&target.grippers, s),
         drape: target.drape.as_ref().zip(mold.as_ref()).map(|(net, mold)| {
-            let Layup { mesh, place, .. } = net.layup;
-            let layup = Layup { mesh: mesh.map(|d| s * d), place: point(place, s), ..net.layup };
+            let Placement { mesh, place, .. } = net.placement;
+            let layup =
+                Placement { mesh: mesh.map(|d| s * d), place: point(place, s), ..net.placement };
             Arc::new(Net::drape(mold, layup).expect("the net of a scaled mold"))
         }),
     });

@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn fibers_are_compared_along_the_mold() {
         let mut layup = sample::layup();
-        let net = net::Layup {
+        let net = net::Placement {
             nodes: [11; 2],
             mesh: [0.01; 2],
             origin: [0.0; 2],

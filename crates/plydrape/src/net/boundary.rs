@@ -5,7 +5,7 @@
 //! it is halved down to that place. Fabric beyond the boundary of the mold lies on the tangent plane there, as the nodes do.
 
 use super::edge::EdgeRule;
-use super::layup::Layup;
+use super::placement::Placement;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use super::{Coverage, Net};
@@ -99,9 +99,11 @@ impl Net {
     /// The outline of the ply, of one that is not cut the rectangle that the net covers; none of a strip without width.
     #[must_use]
     pub fn ply_outline(&self) -> Option<Outline> {
-        let layup = &self.layup;
-        let whole =
-            || Outline::rectangle(layup.origin, layup.fabric(layup.nodes.map(|n| n - 1))).ok();
+        let placement = &self.placement;
+        let whole = || {
+            Outline::rectangle(placement.origin, placement.fabric(placement.nodes.map(|n| n - 1)))
+                .ok()
+        };
         self.outline.clone().or_else(whole)
     }
 
@@ -109,7 +111,7 @@ impl Net {
     #[must_use]
     pub fn boundary(&self, mold: &Mold) -> Option<Boundary> {
         let outline = self.ply_outline()?;
-        let mesh = self.layup.mesh[0].min(self.layup.mesh[1]);
+        let mesh = self.placement.mesh[0].min(self.placement.mesh[1]);
         let mut walk = Walk {
             net: self,
             surface: ExtendedSurface::new(mold),
@@ -124,7 +126,7 @@ impl Net {
             },
         };
         for (number, ring) in outline.rings().enumerate() {
-            walk.ring(number, &flat(ring, &self.layup));
+            walk.ring(number, &flat(ring, &self.placement));
             if number == 0 {
                 walk.found.outer_left_out = walk.found.off_mold.length + walk.found.folded.length;
             }
@@ -135,13 +137,13 @@ impl Net {
 }
 
 /// A ring in the flat, from net line to net line and from corner to corner (m).
-fn flat(ring: &[[f64; 2]], layup: &Layup) -> Vec<[f64; 2]> {
+fn flat(ring: &[[f64; 2]], placement: &Placement) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     for (n, a) in ring.iter().enumerate() {
         let b = ring[(n + 1) % ring.len()];
         let mut shares = vec![0.0];
         for axis in 0..2 {
-            let of = |x: f64| (x - layup.origin[axis]) / layup.mesh[axis];
+            let of = |x: f64| (x - placement.origin[axis]) / placement.mesh[axis];
             let (from, to) = (of(a[axis]), of(b[axis]));
             let (low, high) = (from.min(to), from.max(to));
             for line in low.ceil() as i64..=high.floor() as i64 {
@@ -154,7 +156,7 @@ fn flat(ring: &[[f64; 2]], layup: &Layup) -> Vec<[f64; 2]> {
         shares.sort_by(f64::total_cmp);
         // a corner on a net line is one point
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let apart = TUNING.same_boundary_point * layup.mesh[0].min(layup.mesh[1]) / length;
+        let apart = TUNING.same_boundary_point * placement.mesh[0].min(placement.mesh[1]) / length;
         shares.dedup_by(|next, last| *next - *last <= apart);
         shares.retain(|share| *share <= 1.0 - apart);
         points.extend(shares.iter().map(|t| [0, 1].map(|c| a[c] + t * (b[c] - a[c]))));
@@ -263,12 +265,12 @@ impl Walk<'_> {
 
     /// Area of the ply that has no place on the mold.
     fn areas(&mut self, outline: &Outline) {
-        let layup = self.net.layup;
-        let coverage = Coverage::of(&layup, Some(outline));
-        let [nu, nv] = layup.nodes;
+        let placement = self.net.placement;
+        let coverage = Coverage::of(&placement, Some(outline));
+        let [nu, nv] = placement.nodes;
         for [i, j] in (0..nv - 1).flat_map(|j| (0..nu - 1).map(move |i| [i, j])) {
             if coverage.share([i, j]) > 0.0 {
-                let (low, high) = (layup.fabric([i, j]), layup.fabric([i + 1, j + 1]));
+                let (low, high) = (placement.fabric([i, j]), placement.fabric([i + 1, j + 1]));
                 self.area(outline, low, high, 0);
             }
         }

@@ -6,8 +6,8 @@ fn level() -> Pose {
     Pose::new([0.0; 3], [0.0; 3])
 }
 
-fn layup(mold: &Mold, nodes: [usize; 2], mesh: f64, heading: f64) -> Layup {
-    Layup {
+fn placement(mold: &Mold, nodes: [usize; 2], mesh: f64, heading: f64) -> Placement {
+    Placement {
         nodes,
         mesh: [mesh; 2],
         origin: [0.0; 2],
@@ -30,17 +30,17 @@ fn plane() -> Mold {
 fn on_a_cylinder_the_boundary_is_the_outline_rolled_up() {
     let (radius, heading) = (0.25, 0.6_f64);
     let mold = Mold::Cylinder(Cylinder { pose: level(), radius, face: Face::Outside });
-    let layup = layup(&mold, [33, 25], 0.0125, heading);
+    let placement = placement(&mold, [33, 25], 0.0125, heading);
     let hole = vec![[0.15, 0.1], [0.25, 0.12], [0.21, 0.2]];
     let around = vec![[0.01, 0.02], [0.39, 0.0], [0.37, 0.3], [0.2, 0.24], [0.02, 0.29]];
     let outline = Outline::new(around, vec![hole]).unwrap();
-    let net = Net::drape_cut(&mold, layup, Some(outline.clone())).unwrap();
+    let net = Net::drape_cut(&mold, placement, Some(outline.clone())).unwrap();
     let boundary = net.boundary(&mold).unwrap();
     assert_eq!(
         boundary.lines.iter().map(|line| (line.ring, line.closed)).collect::<Vec<_>>(),
         [(0, true), (1, true)]
     );
-    let middle = layup.fabric(layup.seed);
+    let middle = placement.fabric(placement.seed);
     let rolled = |[u, v]: [f64; 2]| {
         let (sin, cos) = heading.sin_cos();
         let (a, b) = (u - middle[0], v - middle[1]);
@@ -76,13 +76,13 @@ fn on_a_cylinder_the_boundary_is_the_outline_rolled_up() {
 fn on_a_sphere_the_middles_of_the_sides_are_an_arc_away() {
     let radius = 0.5;
     let mold = Mold::Sphere(Sphere { pose: level(), radius, face: Face::Outside });
-    let layup = layup(&mold, [41, 41], 0.01, 0.3);
-    let net = Net::drape(&mold, layup).unwrap();
+    let placement = placement(&mold, [41, 41], 0.01, 0.3);
+    let net = Net::drape(&mold, placement).unwrap();
     let boundary = net.boundary(&mold).unwrap();
     for uv in [[0.4, 0.2], [0.0, 0.2], [0.2, 0.4], [0.2, 0.0]] {
         let near = |p: &&PlyPoint| (p.fabric[0] - uv[0]).hypot(p.fabric[1] - uv[1]) < 1e-9;
         let point = boundary.lines[0].points.iter().find(near).unwrap();
-        let cos = dot(point.place, layup.place) / (radius * radius);
+        let cos = dot(point.place, placement.place) / (radius * radius);
         assert!((radius * cos.acos() - 0.2).abs() < 1e-12);
     }
 }
@@ -94,7 +94,7 @@ fn what_hangs_over_a_straight_boundary_is_measured() {
     let saddle = Saddle { radii: [1e9, 1e9] };
     let domain = Some([[-1.0, 0.15], [-1.0, 1.0]]);
     let mold = Mold::Graph(Graph { pose: level(), surface: Surface::Saddle(saddle), domain });
-    let net = Net::drape(&mold, layup(&mold, [21, 21], 0.02, 0.0)).unwrap();
+    let net = Net::drape(&mold, placement(&mold, [21, 21], 0.02, 0.0)).unwrap();
     let boundary = net.boundary(&mold).unwrap();
     assert!((boundary.off_mold.length - 0.5).abs() < 1e-7, "{:?}", boundary.off_mold);
     assert!((boundary.length - 1.1).abs() < 1e-7);
@@ -118,20 +118,21 @@ fn only_what_is_on_the_ply_counts() {
         radius: 0.3,
         face: Face::Inside,
     });
-    let layup = Layup { place: [0.0; 3], ..layup(&mold, [61, 61], 0.01, 0.2) };
+    let placement = Placement { place: [0.0; 3], ..placement(&mold, [61, 61], 0.01, 0.2) };
     let round = (0..200).map(|n| {
         let (sin, cos) = (f64::from(n) * std::f64::consts::TAU / 200.0).sin_cos();
         [0.3 + 0.295 * cos, 0.3 + 0.295 * sin]
     });
     let outline = Outline::new(round.collect(), Vec::new()).unwrap();
-    let square = Net::drape(&mold, layup).unwrap();
-    let net = Net::drape_cut(&mold, layup, Some(outline.clone())).unwrap();
+    let square = Net::drape(&mold, placement).unwrap();
+    let net = Net::drape_cut(&mold, placement, Some(outline.clone())).unwrap();
     assert_eq!(net.nodes, square.nodes);
     assert!(!square.missing.is_empty() && net.missing.is_empty(), "{:?}", net.report);
     assert!(net.report.largest_shear.unwrap().0 < 0.7 * square.report.largest_shear.unwrap().0);
     for j in 0..60 {
         for i in 0..60 {
-            let share = outline.area_in(layup.fabric([i, j]), layup.fabric([i + 1, j + 1])) / 1e-4;
+            let share =
+                outline.area_in(placement.fabric([i, j]), placement.fabric([i + 1, j + 1])) / 1e-4;
             assert_eq!(net.cell_shear([i, j]).is_some(), share >= 0.5 - 1e-9, "{i} {j} {share}");
         }
     }
@@ -160,17 +161,19 @@ fn roof(step: f64) -> Mold {
 #[test]
 fn a_ply_over_a_ridge_crosses_it_by_its_width() {
     let mold = roof(0.02);
-    let over = Net::drape(&mold, layup(&mold, [21, 31], 0.01, 0.0)).unwrap();
+    let over = Net::drape(&mold, placement(&mold, [21, 31], 0.01, 0.0)).unwrap();
     let edges = over.sharp_edges(&mold).unwrap();
     assert!((edges.length - 0.3).abs() < 0.004, "{edges:?}");
     let (turn, at) = edges.sharpest.unwrap();
     assert!((turn.to_degrees() - 90.0).abs() < 1e-6 && at.place[0].abs() < 1e-12);
     assert!((at.fabric[0] - 0.1).abs() < 0.005, "{at:?}");
     let place = mold.highest_point([0.3, 0.0]).unwrap();
-    let beside = Net::drape(&mold, Layup { place, ..over.layup }).unwrap();
+    let beside = Net::drape(&mold, Placement { place, ..over.placement }).unwrap();
     assert_eq!(beside.sharp_edges(&mold).unwrap().length, 0.0);
     assert_eq!(
-        Net::drape(&plane(), layup(&plane(), [21, 31], 0.01, 0.0)).unwrap().sharp_edges(&plane()),
+        Net::drape(&plane(), placement(&plane(), [21, 31], 0.01, 0.0))
+            .unwrap()
+            .sharp_edges(&plane()),
         None
     );
 }
@@ -180,7 +183,7 @@ fn a_ply_over_a_ridge_crosses_it_by_its_width() {
 #[test]
 fn trim_of_a_flat_rectangle_is_the_distance_of_its_sides() {
     let mold = plane();
-    let net = Net::drape(&mold, layup(&mold, [41, 31], 0.01, 0.0)).unwrap();
+    let net = Net::drape(&mold, placement(&mold, [41, 31], 0.01, 0.0)).unwrap();
     let boundary = net.boundary(&mold).unwrap();
     let mut corners =
         [[-0.21, -0.15], [0.196, -0.15], [0.196, 0.16], [-0.21, 0.16]].map(|[x, y]| [x, y, 0.0]);
@@ -209,7 +212,8 @@ fn trim_around_a_cylinder_is_measured_along_it() {
     let radius = 0.2;
     let mold = Mold::Cylinder(Cylinder { pose: level(), radius, face: Face::Outside });
     // u across the axis, over the top
-    let net = Net::drape(&mold, layup(&mold, [51, 11], 0.01, std::f64::consts::FRAC_PI_2)).unwrap();
+    let net =
+        Net::drape(&mold, placement(&mold, [51, 11], 0.01, std::f64::consts::FRAC_PI_2)).unwrap();
     let boundary = net.boundary(&mold).unwrap();
     let at = |arc: f64, x: f64| {
         let (sin, cos) = (arc / radius).sin_cos();
@@ -266,8 +270,8 @@ fn a_wanted_boundary_lies_on_the_mold() {
 fn what_hangs_over_a_round_rim_is_measured() {
     let pose = Pose::new([0.0, 0.0, 0.2], [0.0; 3]);
     let mold = Mold::Sphere(Sphere { pose, radius: 0.2, face: Face::Inside });
-    let layup = Layup { place: [0.0; 3], ..layup(&mold, [31, 31], 0.018, 0.2) };
-    let net = Net::drape(&mold, layup).unwrap();
+    let placement = Placement { place: [0.0; 3], ..placement(&mold, [31, 31], 0.018, 0.2) };
+    let net = Net::drape(&mold, placement).unwrap();
     let boundary = net.boundary(&mold).unwrap();
     let (mut off, side) = (0_u32, 400);
     for j in 0..side {

@@ -1,9 +1,9 @@
 //! Placing the nodes: first those of the generators, then quadrant by quadrant outwards.
 
 use super::edge::EdgeRule;
-use super::layup::{Generators, Layup, LayupError};
 use super::meet::{Condition, meet};
 use super::missing::Reason;
+use super::placement::{Generators, Placement, PlacementError};
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use crate::geometry::vector::{along, cross, dot};
@@ -13,7 +13,7 @@ pub(super) type Node = [isize; 2];
 
 /// A net being placed.
 pub(super) struct Build<'a> {
-    pub layup: &'a Layup,
+    pub placement: &'a Placement,
     pub surface: ExtendedSurface<'a>,
     /// Node [i, j] at j·nu + i.
     pub points: Vec<Option<SurfacePoint>>,
@@ -23,13 +23,13 @@ pub(super) struct Build<'a> {
 
 impl Build<'_> {
     /// Places all nodes that can be.
-    pub fn run(&mut self) -> Result<(), LayupError> {
-        let seed = self.layup.seed.map(|n| n as isize);
-        let start = self.surface.under(self.layup.place);
-        let directions = self.layup.directions(start.normal)?;
+    pub fn run(&mut self) -> Result<(), PlacementError> {
+        let seed = self.placement.seed.map(|n| n as isize);
+        let start = self.surface.under(self.placement.place);
+        let directions = self.placement.directions(start.normal)?;
         self.put(seed, start);
-        let cells = self.layup.nodes.iter().all(|n| *n > 1);
-        match self.layup.generators {
+        let cells = self.placement.nodes.iter().all(|n| *n > 1);
+        match self.placement.generators {
             Generators::LeastShear if cells => self.least_shear(seed, directions[0]),
             _ => self.geodesics(seed, directions),
         }
@@ -41,7 +41,7 @@ impl Build<'_> {
 
     /// The node's index, if the net has it.
     pub fn index(&self, [i, j]: Node) -> Option<usize> {
-        let [nu, nv] = self.layup.nodes;
+        let [nu, nv] = self.placement.nodes;
         let [i, j] = [usize::try_from(i).ok()?, usize::try_from(j).ok()?];
         (i < nu && j < nv).then_some(j * nu + i)
     }
@@ -65,11 +65,11 @@ impl Build<'_> {
     }
 
     pub fn rule(&self) -> EdgeRule {
-        self.layup.edges
+        self.placement.edges
     }
 
     pub fn mesh(&self) -> f64 {
-        self.layup.mesh[0].min(self.layup.mesh[1])
+        self.placement.mesh[0].min(self.placement.mesh[1])
     }
 
     /// All nodes of one quadrant, row by row from the generators outwards.
@@ -95,7 +95,7 @@ impl Build<'_> {
     fn corner(&self, [i, j]: Node, [a, b]: Node) -> Option<Result<SurfacePoint, SurfacePoint>> {
         let (along_u, along_v) = (self.at([i - a, j])?, self.at([i, j - b])?);
         let inner = self.at([i - a, j - b])?;
-        let [du, dv] = self.layup.mesh;
+        let [du, dv] = self.placement.mesh;
         let conditions = [Condition::Length(&along_u, du), Condition::Length(&along_v, dv)];
         let flat = [0, 1, 2].map(|n| along_u.point[n] + along_v.point[n] - inner.point[n]);
         // the twist of the cell, extrapolated from the cells before

@@ -3,7 +3,7 @@
 //! The net of a ply that is cut covers the box around its outline. A node counts where it is on the ply, its boundary
 //! included; a cell counts where half of it or more is.
 
-use super::layup::Layup;
+use super::placement::Placement;
 use super::tuning::TUNING;
 use crate::ply::Outline;
 
@@ -20,22 +20,22 @@ pub struct Coverage {
 impl Coverage {
     /// Of a net over an outline, or over all that it covers.
     #[must_use]
-    pub fn of(layup: &Layup, outline: Option<&Outline>) -> Self {
-        let nodes = layup.nodes;
+    pub fn of(placement: &Placement, outline: Option<&Outline>) -> Self {
+        let nodes = placement.nodes;
         let Some(outline) = outline.filter(|_| nodes.iter().all(|n| *n > 1)) else {
             return Coverage { nodes, on_ply: Vec::new(), share: Vec::new() };
         };
         let [nu, nv] = nodes;
         let cells = [nu - 1, nv - 1];
-        let cut = cut_cells(layup, outline);
-        let mesh = layup.mesh[0].min(layup.mesh[1]);
-        let area = layup.mesh[0] * layup.mesh[1];
+        let cut = cut_cells(placement, outline);
+        let mesh = placement.mesh[0].min(placement.mesh[1]);
+        let area = placement.mesh[0] * placement.mesh[1];
 
         let mut share = vec![0.0; cells[0] * cells[1]];
         for j in 0..cells[1] {
             for i in 0..cells[0] {
                 let n = j * cells[0] + i;
-                let (low, high) = (layup.fabric([i, j]), layup.fabric([i + 1, j + 1]));
+                let (low, high) = (placement.fabric([i, j]), placement.fabric([i + 1, j + 1]));
                 share[n] = if cut[n] {
                     (outline.area_in(low, high) / area).min(1.0)
                 } else if i > 0 && !cut[n - 1] {
@@ -57,7 +57,7 @@ impl Coverage {
                     return share[m * cells[0] + k] > 0.5;
                 }
             }
-            outline.depth(layup.fabric([i, j])) >= -TUNING.boundary_rounding * mesh
+            outline.depth(placement.fabric([i, j])) >= -TUNING.boundary_rounding * mesh
         });
         let on_ply = on_ply.collect();
         Coverage { nodes, on_ply, share }
@@ -83,13 +83,13 @@ impl Coverage {
 }
 
 /// The cells that a line of the outline may cross or touch: those in the box around it.
-fn cut_cells(layup: &Layup, outline: &Outline) -> Vec<bool> {
-    let cells = layup.nodes.map(|n| n - 1);
+fn cut_cells(placement: &Placement, outline: &Outline) -> Vec<bool> {
+    let cells = placement.nodes.map(|n| n - 1);
     let mut cut = vec![false; cells[0] * cells[1]];
     for [a, b] in outline.lines() {
         let [first, last]: [[usize; 2]; 2] = {
             let of = |n: usize, value: f64, rounding: f64| {
-                let cell = (value - layup.origin[n]) / layup.mesh[n] + rounding;
+                let cell = (value - placement.origin[n]) / placement.mesh[n] + rounding;
                 (cell.floor().max(0.0) as usize).min(cells[n] - 1)
             };
             let low = [0, 1].map(|n| of(n, a[n].min(b[n]), -TUNING.boundary_rounding));
@@ -109,8 +109,8 @@ mod tests {
     use super::*;
     use crate::net::{EdgeRule, Generators};
 
-    fn layup(nodes: [usize; 2], mesh: f64) -> Layup {
-        Layup {
+    fn placement(nodes: [usize; 2], mesh: f64) -> Placement {
+        Placement {
             nodes,
             mesh: [mesh; 2],
             origin: [-0.02, 0.01],
@@ -129,8 +129,8 @@ mod tests {
         let hole = vec![[0.06, 0.06], [0.11, 0.06], [0.08, 0.11]];
         let outline =
             Outline::new(vec![[0.0, 0.02], [0.31, 0.05], [0.02, 0.29]], vec![hole]).unwrap();
-        let layup = layup([36, 31], 0.01);
-        let coverage = Coverage::of(&layup, Some(&outline));
+        let placement = placement([36, 31], 0.01);
+        let coverage = Coverage::of(&placement, Some(&outline));
         let mut area = 0.0;
         for j in 0..30 {
             for i in 0..35 {
@@ -141,7 +141,7 @@ mod tests {
         let mut on = 0;
         for n in 0..36 * 31 {
             let node = [n % 36, n / 36];
-            let depth = outline.depth(layup.fabric(node));
+            let depth = outline.depth(placement.fabric(node));
             assert_eq!(coverage.node(node), depth > -1e-11, "{node:?} {depth}");
             on += usize::from(depth > 0.0);
         }
@@ -151,9 +151,10 @@ mod tests {
     /// A rectangle as wide as the net: everything counts, nodes on the boundary too.
     #[test]
     fn a_net_as_large_as_its_ply_is_all_on_it() {
-        let layup = layup([4, 3], 0.1);
-        let outline = Outline::rectangle(layup.fabric([0, 0]), layup.fabric([3, 2])).unwrap();
-        let coverage = Coverage::of(&layup, Some(&outline));
+        let placement = placement([4, 3], 0.1);
+        let outline =
+            Outline::rectangle(placement.fabric([0, 0]), placement.fabric([3, 2])).unwrap();
+        let coverage = Coverage::of(&placement, Some(&outline));
         assert!((0..12).all(|n| coverage.node([n % 4, n / 4])));
         assert!((0..6).all(|n| coverage.counts([n % 3, n / 3])));
     }

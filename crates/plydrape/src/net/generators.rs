@@ -20,13 +20,13 @@ impl Build<'_> {
         sign: f64,
         u: [f64; 3],
     ) -> Result<SurfacePoint, SurfacePoint> {
-        let length = Condition::Length(seed, self.layup.mesh[0]);
-        let (sin, cos) = self.layup.heading.sin_cos();
+        let length = Condition::Length(seed, self.placement.mesh[0]);
+        let (sin, cos) = self.placement.heading.sin_cos();
         let course = match self.rule() {
             EdgeRule::Chord => Condition::Plane(seed, [-sin, cos, 0.0]),
             EdgeRule::Along => Condition::Straight(seed, cross(seed.normal, u)),
         };
-        let guess = along(seed.point, sign * self.layup.mesh[0], u);
+        let guess = along(seed.point, sign * self.placement.mesh[0], u);
         meet(&self.surface, self.rule(), [length, course], guess, self.mesh())
     }
 
@@ -54,13 +54,13 @@ impl Build<'_> {
             && let Ok(next) = self.first(&start, 1.0, u)
         {
             u = straightest(&start, &next);
-            v = self.layup.across(u, start.normal);
+            v = self.placement.across(u, start.normal);
         }
         for (step, tangent, length) in [
-            ([1, 0], u, self.layup.mesh[0]),
-            ([-1, 0], u.map(|x| -x), self.layup.mesh[0]),
-            ([0, 1], v, self.layup.mesh[1]),
-            ([0, -1], v.map(|x| -x), self.layup.mesh[1]),
+            ([1, 0], u, self.placement.mesh[0]),
+            ([-1, 0], u.map(|x| -x), self.placement.mesh[0]),
+            ([0, 1], v, self.placement.mesh[1]),
+            ([0, -1], v.map(|x| -x), self.placement.mesh[1]),
         ] {
             let (mut node, mut from, mut course) = (seed, start, tangent);
             loop {
@@ -87,8 +87,9 @@ impl Build<'_> {
     pub fn least_shear(&mut self, seed: Node, u: [f64; 3]) {
         let Some(start) = self.at(seed) else { return };
         // the seed's cell lies ahead, or behind at the net's boundary
-        let ahead =
-            [0, 1].map(|n| if self.layup.seed[n] + 1 < self.layup.nodes[n] { 1_isize } else { -1 });
+        let ahead = [0, 1].map(|n| {
+            if self.placement.seed[n] + 1 < self.placement.nodes[n] { 1_isize } else { -1 }
+        });
         let ends = [seed, [seed[0] + ahead[0], seed[1]]];
         match self.first(&start, ahead[0] as f64, u) {
             Ok(next) => self.put(ends[1], next),
@@ -139,16 +140,16 @@ impl Build<'_> {
     ) -> Result<[SurfacePoint; 2], SurfacePoint> {
         let [(first, a), (second, b)] = edge;
         let (length, width) = if step[0] != 0 {
-            (self.layup.mesh[0], self.layup.mesh[1])
+            (self.placement.mesh[0], self.placement.mesh[1])
         } else {
-            (self.layup.mesh[1], self.layup.mesh[0])
+            (self.placement.mesh[1], self.placement.mesh[0])
         };
         // the side's direction if the corner had the pre-shear itself
         let along_edge = straightest(&a, &b);
         let side = [second[0] - first[0], second[1] - first[1]];
         let left = (side[0] * step[1] - side[1] * step[0]) as f64;
         let sign = (step[0] + step[1]) as f64 * (side[0] + side[1]) as f64;
-        let (sin, cos) = (sign * self.layup.shear).sin_cos();
+        let (sin, cos) = (sign * self.placement.shear).sin_cos();
         let across = cross(a.normal, along_edge).map(|x| left * x);
         let straight = [0, 1, 2].map(|n| cos * across[n] + sin * along_edge[n]);
         let mut turn =
@@ -163,7 +164,7 @@ impl Build<'_> {
             let guess = along(near.point, 1.0, sub(b.point, a.point));
             let far = meet(&self.surface, self.rule(), conditions, guess, self.mesh())?;
             let shear = self.shear_of([(first, a), (second, b)], step, [near, far]);
-            Ok(([near, far], shear - self.layup.shear))
+            Ok(([near, far], shear - self.placement.shear))
         };
         let (mut found, mut miss) = cell(turn)?;
         // turning the side by dφ changes the shear by ±dφ

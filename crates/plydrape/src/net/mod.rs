@@ -18,10 +18,10 @@ mod build;
 mod coverage;
 mod edge;
 mod generators;
-mod layup;
 mod meet;
 mod missing;
 mod place;
+mod placement;
 mod region;
 mod report;
 mod seeds;
@@ -34,8 +34,8 @@ mod tuning;
 pub use boundary::{Boundary, Farthest, LeftOut, Line, PlyPoint};
 pub use coverage::Coverage;
 pub use edge::EdgeRule;
-pub use layup::{Generators, Layup, LayupError};
 pub use missing::{Missing, Reason};
+pub use placement::{Generators, Placement, PlacementError};
 pub use report::Report;
 pub use seeds::{Choice, Free, Seeds};
 pub use sharp_edges::SharpEdges;
@@ -52,7 +52,7 @@ use surface_point::{ExtendedSurface, SurfacePoint};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Net {
     /// The input.
-    pub layup: Layup,
+    pub placement: Placement,
     /// The outline of a ply that is cut; none where the ply is all that the net covers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub outline: Option<Outline>,
@@ -73,31 +73,35 @@ impl Net {
     /// Drapes a ply on a mold that is all that the net covers. Nodes that find no place are [`Net::missing`], not an error.
     ///
     /// # Errors
-    /// [`LayupError`] if no net can be begun.
-    pub fn drape(mold: &Mold, layup: Layup) -> Result<Self, LayupError> {
-        Net::drape_cut(mold, layup, None)
+    /// [`PlacementError`] if no net can be begun.
+    pub fn drape(mold: &Mold, placement: Placement) -> Result<Self, PlacementError> {
+        Net::drape_cut(mold, placement, None)
     }
 
     /// Drapes a ply that is cut, if it has an outline: only what is on the ply counts, see [`Coverage`].
     ///
     /// # Errors
-    /// [`LayupError`] if no net can be begun.
+    /// [`PlacementError`] if no net can be begun.
     pub fn drape_cut(
         mold: &Mold,
-        layup: Layup,
+        placement: Placement,
         outline: Option<Outline>,
-    ) -> Result<Self, LayupError> {
-        let coverage = Coverage::of(&layup, outline.as_ref());
-        let net = Net::drape_covered(mold, layup, &coverage)?;
+    ) -> Result<Self, PlacementError> {
+        let coverage = Coverage::of(&placement, outline.as_ref());
+        let net = Net::drape_covered(mold, placement, &coverage)?;
         Ok(Net { outline, ..net })
     }
 
     /// Drapes a ply of which the net's nodes and cells are known.
-    fn drape_covered(mold: &Mold, layup: Layup, coverage: &Coverage) -> Result<Self, LayupError> {
-        layup.check(mold)?;
-        let [nu, nv] = layup.nodes;
+    fn drape_covered(
+        mold: &Mold,
+        placement: Placement,
+        coverage: &Coverage,
+    ) -> Result<Self, PlacementError> {
+        placement.check(mold)?;
+        let [nu, nv] = placement.nodes;
         let mut build = Build {
-            layup: &layup,
+            placement: &placement,
             surface: ExtendedSurface::new(mold),
             points: vec![None; nu * nv],
             folds: Vec::new(),
@@ -114,7 +118,7 @@ impl Net {
                 Some(Missing { node: [n % nu, n / nu], reason, near, beyond })
             })
             .collect();
-        let [i, j] = layup.seed;
+        let [i, j] = placement.seed;
         missing.sort_by_key(|m| m.node[0].abs_diff(i) + m.node[1].abs_diff(j));
         let closest_points = build.surface.closest_points();
         let points = build.points;
@@ -129,33 +133,33 @@ impl Net {
                 let ring = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 shear.push(match ring {
                     [Some(a), Some(b), Some(c), Some(d)] if coverage.counts([i, j]) => {
-                        Some(CellShear::of([a, b, c, d], layup.edges))
+                        Some(CellShear::of([a, b, c, d], placement.edges))
                     }
                     _ => None,
                 });
             }
         }
-        let report = Report::new(&layup, coverage, &points, &shear, &missing, closest_points);
-        Ok(Net { layup, outline: None, nodes, missing, shear, report, points })
+        let report = Report::new(&placement, coverage, &points, &shear, &missing, closest_points);
+        Ok(Net { placement, outline: None, nodes, missing, shear, report, points })
     }
 
     /// Which nodes and cells are on the ply.
     #[must_use]
     pub fn coverage(&self) -> Coverage {
-        Coverage::of(&self.layup, self.outline.as_ref())
+        Coverage::of(&self.placement, self.outline.as_ref())
     }
 
     /// The node at grid indices `[i, j]` (m), if it has a place.
     #[must_use]
     pub fn node(&self, [i, j]: [usize; 2]) -> Option<[f64; 3]> {
-        let [nu, nv] = self.layup.nodes;
+        let [nu, nv] = self.placement.nodes;
         (i < nu && j < nv).then(|| self.nodes[j * nu + i])?
     }
 
     /// The place of a fabric point on the mold (m): of a node, or between nodes as [`Net::place`] has it.
     #[must_use]
     pub fn place_or_node(&self, mold: &Mold, uv: [f64; 2]) -> Option<[f64; 3]> {
-        match self.layup.node(uv) {
+        match self.placement.node(uv) {
             Some(node) => self.node(node),
             None => self.place(mold, uv),
         }
@@ -164,7 +168,7 @@ impl Net {
     /// Shear of the cell whose lowest node is `[i, j]`.
     #[must_use]
     pub fn cell_shear(&self, [i, j]: [usize; 2]) -> Option<CellShear> {
-        let [nu, nv] = self.layup.nodes;
+        let [nu, nv] = self.placement.nodes;
         (i + 1 < nu && j + 1 < nv).then(|| self.shear[j * (nu - 1) + i])?
     }
 }

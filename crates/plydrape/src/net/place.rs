@@ -38,7 +38,7 @@ impl Net {
         }
         let tangent = |d: [f64; 3]| unit(along(d, -dot(d, closest.normal), closest.normal));
         let scaled = |d: [f64; 3], width: f64| d.map(|x| x / width);
-        let [du, dv] = self.layup.mesh;
+        let [du, dv] = self.placement.mesh;
         Some([
             tangent(scaled(self.sum(&patch, dp, q), du))?,
             tangent(scaled(self.sum(&patch, p, dq), dv))?,
@@ -60,7 +60,7 @@ impl Net {
     pub(super) fn tangent_u(&self, uv: [f64; 2]) -> Option<[f64; 3]> {
         let (patch, at) = self.patch(uv)?;
         let [(_, dp), (q, _)] = [0, 1].map(|n| weights(at[n], patch.size[n]));
-        unit(self.sum(&patch, dp, q).map(|x| x / self.layup.mesh[0]))
+        unit(self.sum(&patch, dp, q).map(|x| x / self.placement.mesh[0]))
     }
 
     /// The nodes around a fabric point, and where it lies among them, in mesh widths from the lowest.
@@ -68,9 +68,9 @@ impl Net {
         let mut cell = [0_usize; 2];
         let mut at = [0.0_f64; 2];
         for n in 0..2 {
-            let last = self.layup.nodes[n] - 1;
+            let last = self.placement.nodes[n] - 1;
             // a rounding error beyond the boundary is the boundary
-            let t = (uv[n] - self.layup.origin[n]) / self.layup.mesh[n];
+            let t = (uv[n] - self.placement.origin[n]) / self.placement.mesh[n];
             if !(-TUNING.boundary_rounding..=last as f64 + TUNING.boundary_rounding).contains(&t) {
                 return None;
             }
@@ -78,9 +78,10 @@ impl Net {
             cell[n] = (at[n] as usize).min(last.saturating_sub(1));
         }
         for most in [4, 3, 2] {
-            let size = self.layup.nodes.map(|n| n.min(most));
+            let size = self.placement.nodes.map(|n| n.min(most));
             // the most central first
-            let [first, second] = [0, 1].map(|n| origins(cell[n], size[n], self.layup.nodes[n]));
+            let [first, second] =
+                [0, 1].map(|n| origins(cell[n], size[n], self.placement.nodes[n]));
             let mut pairs: Vec<(usize, [usize; 2])> = Vec::with_capacity(16);
             for (p, i) in &first {
                 for (q, j) in &second {
@@ -89,7 +90,7 @@ impl Net {
             }
             pairs.sort_by_key(|(off, _)| *off);
             let whole = |from: &[usize; 2]| {
-                let [nu, _] = self.layup.nodes;
+                let [nu, _] = self.placement.nodes;
                 (0..size[1]).all(|q| {
                     (0..size[0]).all(|p| self.points[(from[1] + q) * nu + from[0] + p].is_some())
                 })
@@ -104,7 +105,7 @@ impl Net {
 
     /// The nodes of a patch, summed with weights along u and v (m).
     fn sum(&self, patch: &Patch, p: [f64; 4], q: [f64; 4]) -> [f64; 3] {
-        let ([i, j], [nu, _]) = (patch.from, self.layup.nodes);
+        let ([i, j], [nu, _]) = (patch.from, self.placement.nodes);
         let mut sum = [0.0; 3];
         for n in 0..patch.size[1] {
             for m in 0..patch.size[0] {

@@ -1,8 +1,8 @@
 //! A net in a few numbers.
 
 use super::coverage::Coverage;
-use super::layup::Layup;
 use super::missing::{Missing, Reason};
+use super::placement::Placement;
 use super::shear::CellShear;
 use super::surface_point::SurfacePoint;
 
@@ -20,7 +20,7 @@ pub struct Report {
     pub unreached: usize,
     /// Of each reason that occurs, the missing node closest to the seed.
     pub first: Vec<Missing>,
-    /// Largest error of an edge between placed nodes, measured by the layup's rule (m).
+    /// Largest error of an edge between placed nodes, measured by the placement's rule (m).
     pub largest_edge_error: f64,
     /// Largest magnitude of a cell's shear (rad) and its cell; none without whole cells.
     pub largest_shear: Option<(f64, [usize; 2])>,
@@ -32,14 +32,14 @@ pub struct Report {
 
 impl Report {
     pub(super) fn new(
-        layup: &Layup,
+        placement: &Placement,
         coverage: &Coverage,
         points: &[Option<SurfacePoint>],
         shear: &[Option<CellShear>],
         missing: &[Missing],
         closest_points: usize,
     ) -> Self {
-        let [nu, nv] = layup.nodes;
+        let [nu, nv] = placement.nodes;
         let count = |reason: Reason| missing.iter().filter(|m| m.reason == reason).count();
         let first = [Reason::OffMold, Reason::Folded, Reason::Unreached]
             .iter()
@@ -50,14 +50,14 @@ impl Report {
             if i < nu && j < nv { points[j * nu + i].filter(|s| s.beyond == 0.0) } else { None }
         };
         let error = |a: Option<SurfacePoint>, b: Option<SurfacePoint>, width: f64| match (a, b) {
-            (Some(a), Some(b)) => (layup.edges.length(&a, &b) - width).abs(),
+            (Some(a), Some(b)) => (placement.edges.length(&a, &b) - width).abs(),
             _ => 0.0,
         };
         let mut largest_edge_error = 0.0_f64;
         for j in 0..nv {
             for i in 0..nu {
-                let along_u = error(at(i, j), at(i + 1, j), layup.mesh[0]);
-                let along_v = error(at(i, j), at(i, j + 1), layup.mesh[1]);
+                let along_u = error(at(i, j), at(i + 1, j), placement.mesh[0]);
+                let along_v = error(at(i, j), at(i, j + 1), placement.mesh[1]);
                 largest_edge_error = largest_edge_error.max(along_u).max(along_v);
             }
         }

@@ -8,7 +8,7 @@
 use super::boundary::PlyPoint;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
-use super::{Coverage, Layup, LayupError, Net};
+use super::{Coverage, Net, Placement, PlacementError};
 use crate::geometry::vector::{along, cross, distance, dot, norm, sub, unit};
 use crate::mold::Mold;
 use crate::ply::Outline;
@@ -55,7 +55,7 @@ pub struct Seeds {
     /// The one that is taken.
     pub chosen: usize,
     /// The net of the scene with it.
-    pub layup: Layup,
+    pub placement: Placement,
     /// Mesh widths of the net that all choices were compared with (m).
     pub mesh: [f64; 2],
 }
@@ -63,25 +63,27 @@ pub struct Seeds {
 impl Seeds {
     /// Searches for the seed and the heading with the least largest shear on the ply.
     ///
-    /// `layup` says where the held fabric point, its seed, is to lie, with which heading; `outline` is that of a ply that is
-    /// cut. Where no choice keeps the held point in place, the layup itself is taken.
+    /// `placement` says where the held fabric point, its seed, is to lie, with which heading; `outline` is that of a ply that is
+    /// cut. Where no choice keeps the held point in place, the placement itself is taken.
     ///
     /// # Errors
-    /// [`LayupError`] if no net can be begun at the held point.
+    /// [`PlacementError`] if no net can be begun at the held point.
     pub fn search(
         mold: &Mold,
-        layup: Layup,
+        placement: Placement,
         outline: Option<&Outline>,
         free: Free,
-    ) -> Result<Self, LayupError> {
-        layup.check(mold)?;
-        let whole =
-            || Outline::rectangle(layup.origin, layup.fabric(layup.nodes.map(|n| n - 1))).ok();
+    ) -> Result<Self, PlacementError> {
+        placement.check(mold)?;
+        let whole = || {
+            Outline::rectangle(placement.origin, placement.fabric(placement.nodes.map(|n| n - 1)))
+                .ok()
+        };
         let outline = outline.cloned().or_else(whole);
-        let coarse = Search::new(mold, layup, outline.as_ref(), coarse_step(&layup));
+        let coarse = Search::new(mold, placement, outline.as_ref(), coarse_step(&placement));
         let mut choices: Vec<Choice> = Vec::new();
 
-        let mut heading = layup.heading;
+        let mut heading = placement.heading;
         if free.heading {
             heading = coarse.best_heading(&mut choices);
         }
@@ -94,7 +96,7 @@ impl Seeds {
         }
 
         // the best few and the held point itself, with the net of the scene
-        let fine = Search::new(mold, layup, outline.as_ref(), 1);
+        let fine = Search::new(mold, placement, outline.as_ref(), 1);
         let mut order: Vec<usize> = Vec::new();
         let mut left: Vec<usize> = (0..choices.len()).collect();
         while order.len() < TUNING.finalists
@@ -126,11 +128,11 @@ impl Seeds {
             fine.best(&choices, &order, |choice| choice.largest_shear_fine).unwrap_or(held);
         let Choice { seed, at, heading, .. } = choices[chosen];
         let taken = if choices[chosen].off.is_some() {
-            Layup { seed, place: at.place, heading, ..layup }
+            Placement { seed, place: at.place, heading, ..placement }
         } else {
-            layup
+            placement
         };
-        Ok(Seeds { choices, chosen, layup: taken, mesh: coarse.held.mesh })
+        Ok(Seeds { choices, chosen, placement: taken, mesh: coarse.held.mesh })
     }
 }
 
@@ -139,8 +141,8 @@ fn is_same(a: &Choice, b: &Choice) -> bool {
 }
 
 /// How many meshes of the scene are one of the net that choices are compared with.
-fn coarse_step(layup: &Layup) -> usize {
-    let nodes = (layup.nodes[0] * layup.nodes[1]) as f64;
+fn coarse_step(placement: &Placement) -> usize {
+    let nodes = (placement.nodes[0] * placement.nodes[1]) as f64;
     (nodes / TUNING.search_nodes as f64).sqrt().ceil().max(1.0) as usize
 }
 
@@ -148,7 +150,7 @@ fn coarse_step(layup: &Layup) -> usize {
 struct Search<'a> {
     mold: &'a Mold,
     /// With the held point as its seed.
-    held: Layup,
+    held: Placement,
     coverage: Coverage,
     /// Meshes of the scene's net in one of this net, and the node of that net at this net's first.
     step: usize,
@@ -179,20 +181,20 @@ impl Frame {
 }
 
 impl<'a> Search<'a> {
-    fn new(mold: &'a Mold, layup: Layup, outline: Option<&Outline>, step: usize) -> Self {
+    fn new(mold: &'a Mold, placement: Placement, outline: Option<&Outline>, step: usize) -> Self {
         // so many coarse meshes that they cover the net, from the held point outwards
-        let before = layup.seed.map(|n| n.div_ceil(step));
-        let after = [0, 1].map(|n| (layup.nodes[n] - 1 - layup.seed[n]).div_ceil(step));
-        let mesh = layup.mesh.map(|d| d * step as f64);
-        let [u, v] = layup.fabric(layup.seed);
-        let held = Layup {
+        let before = placement.seed.map(|n| n.div_ceil(step));
+        let after = [0, 1].map(|n| (placement.nodes[n] - 1 - placement.seed[n]).div_ceil(step));
+        let mesh = placement.mesh.map(|d| d * step as f64);
+        let [u, v] = placement.fabric(placement.seed);
+        let held = Placement {
             nodes: [0, 1].map(|n| before[n] + after[n] + 1),
             mesh,
             origin: [u - before[0] as f64 * mesh[0], v - before[1] as f64 * mesh[1]],
             seed: before,
-            ..layup
+            ..placement
         };
-        let first = [0, 1].map(|n| layup.seed[n] as isize - (before[n] * step) as isize);
+        let first = [0, 1].map(|n| placement.seed[n] as isize - (before[n] * step) as isize);
         let in_place = if step > 1 { TUNING.about_in_place } else { TUNING.in_place };
         Search { mold, held, coverage: Coverage::of(&held, outline), step, first, in_place }
     }
@@ -204,7 +206,7 @@ impl<'a> Search<'a> {
 
     /// The net from the held point itself.
     fn reference(&self, held_heading: f64) -> Option<Net> {
-        let held = Layup { heading: held_heading, ..self.held };
+        let held = Placement { heading: held_heading, ..self.held };
         Net::drape_covered(self.mold, held, &self.coverage).ok()
     }
 
@@ -215,7 +217,7 @@ impl<'a> Search<'a> {
 
     /// The same from the net of the held point.
     fn choice_from(&self, reference: Option<&Net>, seed: [usize; 2], held_heading: f64) -> Choice {
-        let held = Layup { heading: held_heading, ..self.held };
+        let held = Placement { heading: held_heading, ..self.held };
         let at = PlyPoint { fabric: held.fabric(seed), place: held.place };
         let none = Choice {
             seed,
@@ -231,8 +233,8 @@ impl<'a> Search<'a> {
             return none;
         };
         Choice {
-            at: PlyPoint { place: net.layup.place, ..at },
-            heading: net.layup.heading,
+            at: PlyPoint { place: net.placement.place, ..at },
+            heading: net.placement.heading,
             largest_shear: net.report.largest_shear.map(|(largest, _)| largest),
             missing: net.missing.len(),
             off: Some(off),
@@ -242,8 +244,8 @@ impl<'a> Search<'a> {
 
     /// The net from a seed that puts the held point in its place, and how far it is from there.
     fn draped(&self, reference: &Net, seed: [usize; 2]) -> Option<(Net, (f64, f64))> {
-        let held = reference.layup;
-        let drape = |layup| Net::drape_covered(self.mold, layup, &self.coverage).ok();
+        let held = reference.placement;
+        let drape = |placement| Net::drape_covered(self.mold, placement, &self.coverage).ok();
         let surface = ExtendedSurface::new(self.mold);
         if seed == held.seed {
             return Some((reference.clone(), (0.0, 0.0)));
@@ -262,8 +264,8 @@ impl<'a> Search<'a> {
                 break;
             }
             let [x, y, _] = start.axes[0];
-            let layup = Layup { seed, place: place.point, heading: y.atan2(x), ..held };
-            let Some(net) = drape(layup) else { break };
+            let placement = Placement { seed, place: place.point, heading: y.atan2(x), ..held };
+            let Some(net) = drape(placement) else { break };
             let Some(found) = net.frame(&surface, held.fabric(held.seed)) else { break };
             let off = distance(found.place, wanted.place);
             let [u, w] = [found.axes[0], wanted.axes[0]];
@@ -414,8 +416,8 @@ mod tests {
     }
 
     /// 41 × 41 nodes of 10 mm, the middle held on top of a mold or beside it.
-    fn layup(mold: &Mold, at: [f64; 2], heading: f64) -> Layup {
-        Layup {
+    fn placement(mold: &Mold, at: [f64; 2], heading: f64) -> Placement {
+        Placement {
             nodes: [41; 2],
             mesh: [0.01; 2],
             origin: [0.0; 2],
@@ -433,9 +435,9 @@ mod tests {
     #[test]
     fn a_square_on_a_sphere_is_best_laid_from_its_middle() {
         let mold = sphere(0.6);
-        let layup = layup(&mold, [0.1, -0.05], 0.4);
-        let seeds = Seeds::search(&mold, layup, None, SEED).unwrap();
-        assert_eq!(seeds.layup, layup);
+        let placement = placement(&mold, [0.1, -0.05], 0.4);
+        let seeds = Seeds::search(&mold, placement, None, SEED).unwrap();
+        assert_eq!(seeds.placement, placement);
         let cost = |choice: &Choice| choice.largest_shear.unwrap();
         let middle = cost(&seeds.choices[seeds.chosen]);
         assert!(seeds.choices.len() > 40);
@@ -447,18 +449,18 @@ mod tests {
     #[test]
     fn an_ell_is_best_laid_from_between_its_arms_and_lies_where_it_is_asked() {
         let mold = sphere(0.6);
-        let layup = layup(&mold, [0.1, -0.05], 0.4);
+        let placement = placement(&mold, [0.1, -0.05], 0.4);
         let ell = vec![[0.0, 0.0], [0.4, 0.0], [0.4, 0.16], [0.16, 0.16], [0.16, 0.4], [0.0, 0.4]];
         let outline = Outline::new(ell, Vec::new()).unwrap();
-        let seeds = Seeds::search(&mold, layup, Some(&outline), SEED).unwrap();
-        let drape = |layup| Net::drape_cut(&mold, layup, Some(outline.clone())).unwrap();
-        let (best, middle) = (drape(seeds.layup), drape(layup));
+        let seeds = Seeds::search(&mold, placement, Some(&outline), SEED).unwrap();
+        let drape = |placement| Net::drape_cut(&mold, placement, Some(outline.clone())).unwrap();
+        let (best, middle) = (drape(seeds.placement), drape(placement));
         let largest = |net: &Net| net.report.largest_shear.unwrap().0.to_degrees();
         assert!(largest(&best) < 0.9 * largest(&middle), "{} {}", largest(&best), largest(&middle));
-        assert!(outline.contains(best.layup.fabric(best.layup.seed)));
+        assert!(outline.contains(best.placement.fabric(best.placement.seed)));
         // the middle of the box, and u there
         let at = best.node([20, 20]).unwrap();
-        assert!(distance(at, layup.place) < 1e-6 * 0.01, "{}", distance(at, layup.place));
+        assert!(distance(at, placement.place) < 1e-6 * 0.01, "{}", distance(at, placement.place));
         let u = best.fibres(&mold, [0.2, 0.2]).unwrap()[0];
         assert!((u[1].atan2(u[0]) - 0.4).abs() < 1e-5);
         // what was chosen costs what the map says
@@ -475,13 +477,14 @@ mod tests {
         let mold = Mold::Graph(Graph { pose, surface: Surface::Saddle(saddle), domain: None });
         let free = Free { seed: false, heading: true };
         let found = [0.1, 1.3].map(|heading| {
-            let seeds = Seeds::search(&mold, layup(&mold, [0.0; 2], heading), None, free).unwrap();
-            (seeds.layup.heading, seeds.choices[seeds.chosen].largest_shear_fine.unwrap())
+            let seeds =
+                Seeds::search(&mold, placement(&mold, [0.0; 2], heading), None, free).unwrap();
+            (seeds.placement.heading, seeds.choices[seeds.chosen].largest_shear_fine.unwrap())
         });
         assert_eq!(found[0], found[1]);
         for degrees in 0..45 {
-            let layup = layup(&mold, [0.0; 2], f64::from(2 * degrees).to_radians());
-            let (shear, _) = Net::drape(&mold, layup).unwrap().report.largest_shear.unwrap();
+            let placement = placement(&mold, [0.0; 2], f64::from(2 * degrees).to_radians());
+            let (shear, _) = Net::drape(&mold, placement).unwrap().report.largest_shear.unwrap();
             assert!(shear > found[0].1 - 0.2_f64.to_radians(), "{degrees} {shear}");
         }
     }
@@ -490,25 +493,25 @@ mod tests {
     #[test]
     fn on_a_plane_nothing_is_moved() {
         let mold = Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
-        let layup = layup(&mold, [0.1, 0.2], 0.7);
+        let placement = placement(&mold, [0.1, 0.2], 0.7);
         let all = Free { seed: true, heading: true };
-        let seeds = Seeds::search(&mold, layup, None, all).unwrap();
-        assert_eq!(seeds.layup.seed, [20, 20]);
-        assert!(seeds.layup.heading.abs() < 1e-12, "{}", seeds.layup.heading);
-        assert_eq!(Seeds::search(&mold, layup, None, SEED).unwrap().layup, layup);
+        let seeds = Seeds::search(&mold, placement, None, all).unwrap();
+        assert_eq!(seeds.placement.seed, [20, 20]);
+        assert!(seeds.placement.heading.abs() < 1e-12, "{}", seeds.placement.heading);
+        assert_eq!(Seeds::search(&mold, placement, None, SEED).unwrap().placement, placement);
     }
 
     /// One thread or two: the same choices to the last bit.
     #[test]
     fn the_number_of_threads_changes_nothing() {
         let mold = sphere(0.5);
-        let layup = layup(&mold, [0.05, 0.1], 0.2);
+        let placement = placement(&mold, [0.05, 0.1], 0.2);
         let ell = vec![[0.0, 0.0], [0.4, 0.0], [0.4, 0.1], [0.1, 0.2], [0.0, 0.4]];
         let outline = Outline::new(ell, Vec::new()).unwrap();
         let all = Free { seed: true, heading: true };
         let of = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| Seeds::search(&mold, layup, Some(&outline), all).unwrap())
+            pool.install(|| Seeds::search(&mold, placement, Some(&outline), all).unwrap())
         };
         assert_eq!(of(1), of(2));
     }

@@ -28,7 +28,7 @@ impl Net {
     pub fn sharp_edges(&self, mold: &Mold) -> Option<SharpEdges> {
         let Mold::Mesh(mesh) = mold else { return None };
         let outline = self.ply_outline()?;
-        let width = self.layup.mesh[0].max(self.layup.mesh[1]);
+        let width = self.placement.mesh[0].max(self.placement.mesh[1]);
         let cells = Cells::of(self, 2.0 * width);
         let mut found = SharpEdges { length: 0.0, sharpest: None };
         for edge in mesh.sharp_edges(TUNING.sharp) {
@@ -55,8 +55,8 @@ impl Net {
     /// Whether a fabric point (m) is where the net ends: places beside the net are closest to such points.
     fn is_at_its_end(&self, uv: [f64; 2]) -> bool {
         (0..2).any(|n| {
-            let share = (uv[n] - self.layup.origin[n]) / self.layup.mesh[n];
-            let last = (self.layup.nodes[n] - 1) as f64;
+            let share = (uv[n] - self.placement.origin[n]) / self.placement.mesh[n];
+            let last = (self.placement.nodes[n] - 1) as f64;
             share < TUNING.boundary_rounding || share > last - TUNING.boundary_rounding
         })
     }
@@ -70,7 +70,7 @@ struct Cells {
 
 impl Cells {
     fn of(net: &Net, side: f64) -> Self {
-        let [nu, nv] = net.layup.nodes;
+        let [nu, nv] = net.placement.nodes;
         let mut by_cube: HashMap<[i64; 3], Vec<[usize; 2]>> = HashMap::new();
         for j in 0..nv - 1 {
             for i in 0..nu - 1 {
@@ -110,8 +110,8 @@ impl Cells {
                             let [p, q, r] = [p, q, r].map(|corner: [usize; 2]| corner[n] as f64);
                             cell[n] as f64 + p + s * (q - p) + t * (r - p)
                         };
-                        let [du, dv] = net.layup.mesh;
-                        let [u, v] = net.layup.origin;
+                        let [du, dv] = net.placement.mesh;
+                        let [u, v] = net.placement.origin;
                         best = Some((away, [u + of(0) * du, v + of(1) * dv]));
                     }
                 }

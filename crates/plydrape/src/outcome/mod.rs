@@ -27,6 +27,8 @@ pub use error::ModelError;
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
 pub use step::{Gripper, Step};
+#[cfg(feature = "serde")]
+pub use summary::Unjudged;
 pub use summary::{CatenaryReport, Status, Summary};
 
 use crate::layup::Model;
@@ -85,7 +87,8 @@ pub fn also(
     if !scene.also || decided.interrupted() {
         return Ok(None);
     }
-    keeping_states(scene, scene.layup.settings.model.other(), &|| false, progress).map(Some)
+    let drape = keeping_states(scene, scene.layup.settings.model.other(), &|| false, progress)?;
+    Ok(Some(Drape { summary: drape.summary.unjudged(), ..drape }))
 }
 
 /// A drape by a model, with the states of the sheet that the scene keeps.

@@ -55,7 +55,8 @@ pub struct Summary {
     /// Root mean square of the distance of landed points from their ideal places over their area (mm); `None` where those are not known.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub position_rms_mm: Option<f64>,
-    /// Every limit, judged.
+    /// Every limit, judged; nothing of the model that does not decide.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub limits: Vec<Verdict>,
     /// When pads grip, press and let go, in the order of time; nothing where they hold to the end.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
@@ -105,6 +106,12 @@ impl Summary {
     #[must_use]
     pub fn accepted_without_errors(&self) -> bool {
         self.status == Status::Converged && self.limits.iter().all(|verdict| verdict.ok)
+    }
+
+    /// Without what judges the drape: that of the model that does not decide.
+    #[must_use]
+    pub fn unjudged(self) -> Self {
+        Summary { limits: Vec::new(), sample: None, stands: None, tool: None, ..self }
     }
 
     /// Whether somebody broke the drape off.
@@ -166,10 +173,37 @@ impl Summary {
     }
 }
 
+/// The outcome of the model that does not decide, as it is written: without `accepted`, limits and sample.
+#[cfg(feature = "serde")]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(transparent)]
+pub struct Unjudged<'a>(#[serde(with = "serial::unjudged")] pub std::borrow::Cow<'a, Summary>);
+
 #[cfg(feature = "serde")]
 mod serial {
     use super::Summary;
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    /// Without `accepted`.
+    pub(super) mod unjudged {
+        use super::Summary;
+        use serde::{Deserializer, Serializer, de::Error};
+        use std::borrow::Cow;
+
+        pub fn serialize<S: Serializer>(summary: &Cow<Summary>, to: S) -> Result<S::Ok, S::Error> {
+            Summary::serialize(summary, to)
+        }
+
+        pub fn deserialize<'de, 'a, D: Deserializer<'de>>(
+            from: D,
+        ) -> Result<Cow<'a, Summary>, D::Error> {
+            let summary = Summary::deserialize(from)?;
+            match summary == summary.clone().unjudged() {
+                true => Ok(Cow::Owned(summary)),
+                false => Err(D::Error::custom("the drape beside is judged")),
+            }
+        }
+    }
 
     /// With `accepted` in front, which follows from the rest.
     impl Serialize for Summary {

@@ -149,9 +149,9 @@ fn missing_nodes(scene: &Scene, target: &Target) -> Option<Verdict> {
     let outline = scene.layup.ply.cut.as_ref().map(|cut| &cut.outline);
     // what is beyond the grippers may hang beside the mold
     let between_grippers = |missing: &&Missing| {
-        let uv = net.layup.fabric(missing.node);
+        let uv = net.placement.fabric(missing.node);
         let held = (0..2).all(|n| {
-            let rounding = 1e-9 * net.layup.mesh[n];
+            let rounding = 1e-9 * net.placement.mesh[n];
             (low[n] - rounding..=high[n] + rounding).contains(&uv[n])
         });
         held && outline.is_none_or(|outline| outline.contains(uv))

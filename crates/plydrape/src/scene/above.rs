@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::layup::{Settings, Target};
 use crate::mold::Mold;
 use crate::motion::Motion;
-use crate::net::{EdgeRule, Generators, Layup as NetLayup, LayupError, Net};
+use crate::net::{EdgeRule, Generators, Net, Placement, PlacementError};
 use crate::ply::{Grid, Ply};
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub enum AboveError {
     },
     /// The ideal drape cannot begin there.
     #[error(transparent)]
-    Layup(#[from] LayupError),
+    Placement(#[from] PlacementError),
     /// The ideal drape has no place on the mold for some grippers.
     #[error("{missing} grippers have no place on the mold: the ply reaches beyond it, or folds")]
     Missing {
@@ -51,7 +51,7 @@ impl Scene {
         // a strip has no cells across, and meshes there as long as those along
         let mesh = [mesh[0], if mesh[1] > 0.0 { mesh[1] } else { mesh[0] }];
         let count = [0, 1].map(|n| (0.5 * (high[n] - low[n]) / mesh[n]).round() as usize);
-        let net = NetLayup {
+        let net = Placement {
             nodes: count.map(|half| 2 * half + 1),
             mesh,
             origin: low,
@@ -111,7 +111,7 @@ pub fn start_above(ply: &Ply, net: &Net) -> Vec<Point> {
     };
     let nodes: Vec<Point> = net.nodes.iter().flatten().copied().collect();
     let top = nodes.iter().map(|node| node[2]).fold(f64::NEG_INFINITY, f64::max);
-    let (sin, cos) = net.layup.heading.sin_cos();
+    let (sin, cos) = net.placement.heading.sin_cos();
     let placed = |[x, y]: [f64; 2]| -> Vec<Point> {
         let position = |n: usize| {
             let [u, v] = match ply.grid {

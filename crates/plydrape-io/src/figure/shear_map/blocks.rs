@@ -23,7 +23,7 @@ pub(super) struct Blocks<'a> {
 
 impl<'a> Blocks<'a> {
     pub fn of(net: &'a Net) -> Self {
-        let cells = net.layup.nodes.map(|n| n - 1);
+        let cells = net.placement.nodes.map(|n| n - 1);
         let side = ((cells[0] * cells[1]) as f64 / BLOCKS).sqrt().ceil().max(1.0) as usize;
         let count = cells.map(|n| n.div_ceil(side));
         let mut blocks = Blocks { net, side, count, shear: Vec::new() };
@@ -44,7 +44,7 @@ impl<'a> Blocks<'a> {
 
     /// The lowest and the highest node of a block.
     fn corners(&self, block: [usize; 2]) -> [[usize; 2]; 2] {
-        let nodes = self.net.layup.nodes;
+        let nodes = self.net.placement.nodes;
         let low = block.map(|k| k * self.side);
         [low, [0, 1].map(|c| (low[c] + self.side).min(nodes[c] - 1))]
     }
@@ -78,7 +78,7 @@ impl<'a> Blocks<'a> {
     pub fn isoline(&self, level: f64) -> Vec<[[f64; 2]; 2]> {
         let middle = |block: [usize; 2]| {
             let [low, high] = self.corners(block);
-            let [low, high] = [low, high].map(|node| self.net.layup.fabric(node));
+            let [low, high] = [low, high].map(|node| self.net.placement.fabric(node));
             [0, 1].map(|c| 0.5 * (low[c] + high[c]))
         };
         let at = |[k, m]: [usize; 2]| Some((middle([k, m]), self.shear[m * self.count[0] + k]?));

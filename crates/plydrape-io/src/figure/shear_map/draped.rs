@@ -73,9 +73,9 @@ impl Draped {
             pieces.push(Piece { depth: view.depth(place), place, points, ink, form: Form::Area });
         }
         // A net without cells is a line.
-        let line = net.layup.nodes.contains(&1);
+        let line = net.placement.nodes.contains(&1);
         let (ink, width) = if line { (RED, 1.7) } else { (WEAVE, 0.7) };
-        let lift = 1.5 * blocks.side as f64 * net.layup.mesh[0].max(net.layup.mesh[1]);
+        let lift = 1.5 * blocks.side as f64 * net.placement.mesh[0].max(net.placement.mesh[1]);
         let coverage = net.coverage();
         let of_ply = |pair: &&[[usize; 2]]| pair.iter().all(|id| coverage.node(*id));
         for way in fabric_lines(net) {
@@ -105,7 +105,7 @@ impl Draped {
             let path: Vec<Px> = way.iter().map_while(|id| node(*id)).map(|p| view.at(p)).collect();
             arrow(canvas, &path, name)?;
         }
-        if let Some(seed) = node(net.layup.seed) {
+        if let Some(seed) = node(net.placement.seed) {
             dot(canvas, view.at(seed))?;
         }
         if let Some((largest, cell)) = marked(net) {
@@ -129,7 +129,7 @@ fn turned([a, b, c, d]: &[Px; 4]) -> bool {
 
 /// Some of the fabric lines along u and along v, the rims among them, by their nodes.
 fn fabric_lines(net: &Net) -> Vec<Vec<[usize; 2]>> {
-    let nodes = net.layup.nodes;
+    let nodes = net.placement.nodes;
     let mut lines = Vec::new();
     for way in 0..2 {
         let (along, across) = (nodes[way], nodes[1 - way]);

@@ -25,7 +25,7 @@ impl Flat {
 
     pub fn draw(&self, canvas: &mut Canvas, blocks: &Blocks) -> Result<(), FigureError> {
         let net = blocks.net;
-        let place = |id: [usize; 2]| net.layup.fabric(id);
+        let place = |id: [usize; 2]| net.placement.fabric(id);
         for ([low, high], ink) in blocks.tiles() {
             let ([x0, y0], [x1, y1]) = (self.at(place(low)), self.at(place(high)));
             // each reaches a hair over its neighbours, so that no seam shows
@@ -68,10 +68,10 @@ impl Flat {
             let ends = [way[0], way[way.len() - 1]];
             arrow(canvas, &ends.map(|id| self.at(place(id))), name)?;
         }
-        dot(canvas, self.at(place(net.layup.seed)))?;
+        dot(canvas, self.at(place(net.placement.seed)))?;
         if let Some((largest, cell)) = marked(net) {
             let corner = place(cell);
-            let middle = [0, 1].map(|c| corner[c] + 0.5 * net.layup.mesh[c]);
+            let middle = [0, 1].map(|c| corner[c] + 0.5 * net.placement.mesh[c]);
             mark(canvas, self.at(middle), &format!("{largest:.1}°"))?;
         }
         Ok(())

@@ -12,7 +12,7 @@ const WHITE: Ink = Ink([255; 3], 1.0);
 
 /// The fabric from the seed on, a sixth of the net along u and along v, or against it where u or v ends.
 pub(super) fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
-    let (nodes, seed) = (net.layup.nodes, net.layup.seed);
+    let (nodes, seed) = (net.placement.nodes, net.placement.seed);
     let way = |(c, name): (usize, &'static str)| {
         let wanted = (nodes[c] / 6).max(1);
         // beside the far edge the arrow leads to the seed

@@ -55,7 +55,7 @@ pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
     let blocks = Blocks::of(net);
     let whole = blocks.shear.iter().any(Option::is_some);
     let bounds = net.ply_outline().map_or_else(
-        || [net.layup.origin, net.layup.fabric(net.layup.nodes.map(|n| n - 1))],
+        || [net.placement.origin, net.placement.fabric(net.placement.nodes.map(|n| n - 1))],
         |outline| outline.bounds(),
     );
     let fabric = [0, 1].map(|c| bounds[1][c] - bounds[0][c]);
@@ -97,7 +97,7 @@ pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
 
 /// Places of the ply's nodes (m); of all nodes if none of them is on the ply.
 fn nodes(net: &Net) -> Vec<Point> {
-    let (coverage, nu) = (net.coverage(), net.layup.nodes[0]);
+    let (coverage, nu) = (net.coverage(), net.placement.nodes[0]);
     let all = || net.nodes.iter().enumerate().filter_map(|(n, place)| Some((n, (*place)?)));
     let of_ply: Vec<Point> =
         all().filter(|(n, _)| coverage.node([n % nu, n / nu])).map(|(_, place)| place).collect();
@@ -119,7 +119,7 @@ pub(crate) fn patch(net: &Net, mold: &Mold) -> Vec<Vec<Point>> {
 
 /// The key figures in one line.
 fn figures(net: &Net) -> String {
-    let ([nu, nv], [du, dv]) = (net.layup.nodes, net.layup.mesh.map(|d| d * 1e3));
+    let ([nu, nv], [du, dv]) = (net.placement.nodes, net.placement.mesh.map(|d| d * 1e3));
     let width = |d: f64| axes::label((d * 1e3).round() / 1e3);
     let mesh = if (du - dv).abs() < 1e-9 * du {
         width(du)
@@ -128,8 +128,8 @@ fn figures(net: &Net) -> String {
     };
     let mut parts = vec![format!("{nu} × {nv} nodes, mesh {mesh} mm")];
     if let Some((largest, cell)) = net.report.largest_shear {
-        let low = net.layup.fabric(cell);
-        let [u, v] = [0, 1].map(|c| (low[c] + 0.5 * net.layup.mesh[c]) * 1e3);
+        let low = net.placement.fabric(cell);
+        let [u, v] = [0, 1].map(|c| (low[c] + 0.5 * net.placement.mesh[c]) * 1e3);
         let [largest, mean] = [largest, net.report.mean_shear].map(f64::to_degrees);
         if marked(net).is_some() {
             parts.push(format!("largest shear {largest:.1}° at u = {u:.0} mm, v = {v:.0} mm"));

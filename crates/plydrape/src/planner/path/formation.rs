@@ -11,7 +11,7 @@ use super::tuning::TUNING;
 use crate::geometry::Point;
 use crate::geometry::vector::{along, dot, sub};
 use crate::mold::{FrontSurface, Graph, HeightGrid, Mold, Pose, Rise, Surface};
-use crate::net::{Layup, Net};
+use crate::net::{Net, Placement};
 use crate::planner::tuning;
 use crate::ply::Ply;
 use crate::scene::Scene;
@@ -31,7 +31,7 @@ pub struct Formation<'a> {
     /// The lines between grippers; none where the ideal drape is not known as a net.
     lines: Option<Arc<Lines>>,
     /// The net from the front's start; none where the ideal drape is not known as a net.
-    layup: Option<Layup>,
+    layup: Option<Placement>,
     ply: &'a Ply,
     targets: &'a [Point],
     strategy: Strategy,
@@ -113,7 +113,7 @@ impl<'a> Formation<'a> {
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Front(lifted));
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
         let place = mold.highest_point(self.centre)?;
-        let net = Net::drape(&mold, Layup { place, ..layup }).ok()?;
+        let net = Net::drape(&mold, Placement { place, ..layup }).ok()?;
         let place = |n: usize| net.place_or_node(&mold, self.ply.place(n));
         (0..self.ply.grippers()).map(place).collect()
     }
@@ -142,7 +142,7 @@ impl<'a> Formation<'a> {
 }
 
 /// The layup of a scene's ideal drape, begun where the front starts; none where the drape is not known.
-fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
+fn layup(scene: &Scene, strategy: &Strategy) -> Option<Placement> {
     let (mold, drape) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?.drape.as_ref()?);
     let [origin, high] = scene.layup.ply.held_bounds();
     let divisions = TUNING.front.divisions as f64;
@@ -160,7 +160,7 @@ fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
     let place = drape.place(mold, uv)?;
     let [u, v] = drape.fibres(mold, uv)?;
     let shear = dot(u, v).clamp(-1.0, 1.0).asin();
-    Some(Layup {
+    Some(Placement {
         nodes,
         mesh,
         origin,
@@ -168,7 +168,7 @@ fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
         place,
         heading: u[1].atan2(u[0]),
         shear,
-        ..drape.layup
+        ..drape.placement
     })
 }
 

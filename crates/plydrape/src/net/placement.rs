@@ -20,7 +20,7 @@ pub enum Generators {
 /// A ply to be laid on a mold as a net.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Layup {
+pub struct Placement {
     /// Nodes along u and v.
     pub nodes: [usize; 2],
     /// Mesh widths: fabric between neighboring nodes along u and v (m).
@@ -44,7 +44,7 @@ pub struct Layup {
 
 /// Why no net can be begun.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum LayupError {
+pub enum PlacementError {
     /// No nodes in one direction.
     #[error("a net of {nu} × {nv} nodes has none: both counts must be at least 1")]
     NoNodes {
@@ -102,7 +102,7 @@ fn is_zero(origin: &[f64; 2]) -> bool {
     *origin == [0.0; 2]
 }
 
-impl Layup {
+impl Placement {
     /// Fabric coordinates of a node (m).
     #[must_use]
     pub fn fabric(&self, node: [usize; 2]) -> [f64; 2] {
@@ -123,39 +123,39 @@ impl Layup {
     }
 
     /// Whether a net can be begun: sensible numbers, and a seed on the mold.
-    pub(super) fn check(&self, mold: &Mold) -> Result<(), LayupError> {
+    pub(super) fn check(&self, mold: &Mold) -> Result<(), PlacementError> {
         let ([nu, nv], [du, dv], [i, j]) = (self.nodes, self.mesh, self.seed);
         if nu == 0 || nv == 0 {
-            return Err(LayupError::NoNodes { nu, nv });
+            return Err(PlacementError::NoNodes { nu, nv });
         }
         if ![du, dv].iter().all(|d| d.is_finite() && *d > 0.0) {
-            return Err(LayupError::MeshWidth { du, dv });
+            return Err(PlacementError::MeshWidth { du, dv });
         }
         if i >= nu || j >= nv {
-            return Err(LayupError::SeedNode { i, j, nu, nv });
+            return Err(PlacementError::SeedNode { i, j, nu, nv });
         }
         if !self.heading.is_finite()
             || self.shear.is_nan()
             || self.shear.abs() > TUNING.largest_shear
         {
             let [shear_deg, heading_deg] = [self.shear, self.heading].map(f64::to_degrees);
-            return Err(LayupError::Shear { shear_deg, heading_deg });
+            return Err(PlacementError::Shear { shear_deg, heading_deg });
         }
         let closest = mold.closest_point(self.place);
         if closest.beyond
             || closest.distance.is_nan()
             || closest.distance.abs() > TUNING.seed_distance * du.min(dv)
         {
-            return Err(LayupError::SeedPlace { distance_mm: closest.distance.abs() * 1e3 });
+            return Err(PlacementError::SeedPlace { distance_mm: closest.distance.abs() * 1e3 });
         }
         Ok(())
     }
 
     /// Unit tangents of u and v at the seed, where the mold has this unit normal.
-    pub(super) fn directions(&self, normal: [f64; 3]) -> Result<[[f64; 3]; 2], LayupError> {
+    pub(super) fn directions(&self, normal: [f64; 3]) -> Result<[[f64; 3]; 2], PlacementError> {
         let (sin, cos) = self.heading.sin_cos();
         if normal[2].abs() < TUNING.upright {
-            return Err(LayupError::Upright);
+            return Err(PlacementError::Upright);
         }
         // lifted straight up into the tangent plane
         let rise = -(cos * normal[0] + sin * normal[1]) / normal[2];
