@@ -70,7 +70,7 @@ pub enum Failure {
     Drape(#[from] plydrape_io::sheet::SheetDrapeError),
     /// A result file was refused.
     #[error(transparent)]
-    Read(#[from] plydrape_io::result::read::ReadError),
+    Read(#[from] plydrape_io::ReadError),
     /// Standard output could not be written; the files are.
     #[error("standard output cannot be written: {reason}")]
     Stdout {

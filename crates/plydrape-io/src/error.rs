@@ -4,7 +4,7 @@ use super::figure::FigureError;
 use super::inp::InpError;
 use super::json::JsonError;
 use super::program::ProgramError;
-use super::read::ReadError;
+use super::read_error::ReadError;
 use super::ros2::Ros2Error;
 use super::sheet::SheetError;
 use plydrape::motion::MotionError;

@@ -1,6 +1,6 @@
 //! What a file is, by how it begins, where another one was wanted; and which file was meant by a name that is none.
 
-use crate::result::FORMAT;
+use crate::format::FORMAT;
 use std::path::Path;
 
 /// What a file can be that is taken for another one.

@@ -21,6 +21,7 @@ mod file_kind;
 mod finite;
 pub mod fit;
 pub mod folder;
+pub mod format;
 pub mod formula;
 pub mod inp;
 pub mod input;
@@ -35,6 +36,7 @@ pub mod page;
 pub mod pattern;
 pub mod plan;
 pub mod program;
+mod read_error;
 pub mod replan;
 pub mod result;
 pub mod ros2;
@@ -54,6 +56,7 @@ mod sample;
 pub use error::OutputError;
 
 pub use folder::{Content, Folder, Staged};
+pub use read_error::ReadError;
 pub use result::{ResultFile, read};
 
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! A planned result for a ply that lies elsewhere than planned: what [`plydrape::planner::replan`] needs of a result that was read, and the
 //! result of what it finds.
 
-use crate::read::ReadError;
+use crate::ReadError;
 use crate::result::ResultFile;
 use crate::sheet::{SheetError, SheetKept, SheetSpool, SheetState};
 use plydrape::layup::Layup;

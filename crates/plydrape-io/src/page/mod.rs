@@ -30,7 +30,8 @@ mod sample;
 mod sheet;
 
 use super::OutputError;
-use crate::result::{self, ResultFile};
+use crate::format::VERSION;
+use crate::result::ResultFile;
 use crate::sheet::ended;
 use crate::strength;
 use block::Block;
@@ -172,7 +173,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, OutputError> {
     Ok(Page {
         format: "plydrape-page",
         version: 3,
-        result_version: result::VERSION,
+        result_version: VERSION,
         program: &result.program,
         title: &scene.title,
         input: scene.input.as_deref(),

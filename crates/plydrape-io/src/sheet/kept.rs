@@ -1,8 +1,8 @@
 //! Where the states of a result's sheet are.
 
 use super::{NAME, SheetFile, SheetSeal, SheetStates};
+use crate::ReadError;
 use crate::folder::Content;
-use crate::read::ReadError;
 use std::fs::File;
 use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};

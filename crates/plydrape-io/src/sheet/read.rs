@@ -2,7 +2,7 @@
 
 use super::array::{ARRAYS, BEFORE, MAGIC, OF_MESH, Sizes, arrays};
 use super::{SheetMesh, SheetSeal, SheetState, check};
-use crate::read::ReadError;
+use crate::ReadError;
 use crate::{input, size};
 use std::borrow::Cow;
 use std::fs::File;

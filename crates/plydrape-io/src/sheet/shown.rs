@@ -1,7 +1,7 @@
 //! What pictures of a sheet need beside its arrays: the state of each step, the yarns around each cell, normals of pads.
 
 use super::{SheetMesh, SheetState, SheetStates};
-use crate::read::ReadError;
+use crate::ReadError;
 use plydrape::geometry::distance;
 use std::collections::HashMap;
 

@@ -1,6 +1,6 @@
 use super::*;
+use crate::ReadError;
 use crate::folder::{Content, Folder};
-use crate::read::ReadError;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// The folders of each crate, from the bottom to the top. Those joined by `+` still import each other.
+/// The folders of each crate, from the bottom to the top.
 const CRATES: [(&str, &str); 5] = [
     (
         "plydrape",
@@ -13,9 +13,9 @@ const CRATES: [(&str, &str); 5] = [
     ),
     (
         "plydrape-io",
-        "error folder json finite formula input size shown sheet+file_kind+result mesh outline scene csv surface strategy \
-         table figure comparison book export fit mold_patch inp loads manifest pattern vtk net strength page plan program replan ros2 \
-         sample",
+        "error folder json finite formula input size shown format file_kind read_error sheet result mesh outline scene csv surface \
+         strategy table figure comparison book export fit mold_patch inp loads manifest pattern vtk net strength page plan program \
+         replan ros2 sample",
     ),
     (
         "plydrape-cli",
@@ -68,10 +68,7 @@ fn imports(code: &str) -> impl Iterator<Item = &str> {
 fn a_folder_imports_those_before_it() {
     for (name, order) in CRATES {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name(name).join("src");
-        let levels = order.split_whitespace().enumerate();
-        let places: BTreeMap<&str, usize> = levels
-            .flat_map(|(place, level)| level.split('+').map(move |folder| (folder, place)))
-            .collect();
+        let places: BTreeMap<&str, usize> = order.split_whitespace().zip(0..).collect();
         let head = ["lib.rs", "main.rs"].map(|file| root.join(file));
         let head = code(head.iter().find(|path| path.exists()).unwrap());
         let statements = head.split("pub use ").skip(1).filter_map(|text| text.split(';').next());
