@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let (mold, net) = (&ideal.mold, &ideal.net);
     // once more, to measure how long it takes apart from all else that reading a scene does
     let start = Instant::now();
-    let again = Net::drape_cut(mold, net.layup, net.outline.clone());
+    let again = Net::drape_cut(mold, net.placement, net.outline.clone());
     let time_ms = start.elapsed().as_secs_f64() * 1e3;
     debug_assert_eq!(again.as_ref(), Ok(net));
 

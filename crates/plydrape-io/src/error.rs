@@ -1,12 +1,7 @@
 //! Why results could not be written, and what to do about it.
 
-use super::figure::FigureError;
-use super::inp::InpError;
 use super::json::JsonError;
-use super::program::ProgramError;
 use super::read_error::ReadError;
-use super::ros2::Ros2Error;
-use super::sheet::SheetError;
 use plydrape::motion::MotionError;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -85,24 +80,12 @@ pub enum OutputError {
     /// A motion cannot be sampled as asked for.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// The result has no ROS 2 messages.
+    /// The writer of a file cannot show the result: it has no ROS 2 messages, no program, no input deck, or a figure fails.
     #[error(transparent)]
-    Ros2(#[from] Ros2Error),
-    /// There is no program for a machine.
-    #[error(transparent)]
-    Program(#[from] ProgramError),
-    /// The figure could not be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// The states of a sheet cannot be kept.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
+    Writer(Box<dyn std::error::Error + Send + Sync>),
     /// The states of a sheet cannot be read.
     #[error(transparent)]
     States(#[from] ReadError),
-    /// The result cannot be an input deck.
-    #[error(transparent)]
-    Inp(#[from] InpError),
 }
 
 impl OutputError {

@@ -5,6 +5,7 @@
 
 use super::program::{Program, ProgramError, Robot, Template, Tolerance, template, wide};
 use super::{OutputError, csv, figure, folder, inp, pattern, ros2, vtk};
+use crate::folder::Files;
 use crate::result::ResultFile;
 use std::path::{Path, PathBuf};
 
@@ -50,9 +51,6 @@ pub struct Options {
     /// Templates of the user's own, in place of shipped ones; for robots alone.
     pub templates: Vec<Template>,
 }
-
-/// Files by plain name, with their contents.
-pub type Files = Vec<(String, Vec<u8>)>;
 
 /// The files of a format. Same result, same options, same bytes.
 ///

@@ -22,6 +22,9 @@ const STAGE: &str = ".plydrape-";
 /// The file of a stage that says whose it is.
 const OWNER: &str = "owner";
 
+/// Files by plain name, with their contents.
+pub type Files = Vec<(String, Vec<u8>)>;
+
 /// What a file will hold: bytes, or something that writes itself piece by piece.
 pub trait Content {
     /// Writes all of it.

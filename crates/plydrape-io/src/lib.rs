@@ -18,7 +18,6 @@ mod error;
 pub mod export;
 pub mod figure;
 mod file_kind;
-mod finite;
 pub mod fit;
 pub mod folder;
 pub mod format;
@@ -55,7 +54,7 @@ mod sample;
 
 pub use error::OutputError;
 
-pub use folder::{Content, Folder, Staged};
+pub use folder::{Content, Files, Folder, Staged};
 pub use read_error::ReadError;
 pub use result::{ResultFile, read};
 

@@ -54,7 +54,7 @@ fn lines(ply: &BookPly) -> Vec<String> {
     let heading = heading.map(|net| {
         format!(
             "u towards {} deg in plan, ideal drape sheared by {} deg at most",
-            degrees(net.layup.heading),
+            degrees(net.placement.heading),
             degrees(net.report.largest_shear.map_or(0.0, |(shear, _)| shear.abs())),
         )
     });

@@ -76,7 +76,7 @@ fn target(scene: &Scene) -> String {
     let Some(net) = &target.drape else {
         return "gripper positions as given".into();
     };
-    let layup = &net.layup;
+    let layup = &net.placement;
     let [x, y, z] = layup.place.map(millimetres);
     let [u, v] = layup.fabric(layup.seed).map(millimetres);
     let mut text = format!(

@@ -93,6 +93,12 @@ pub enum FigureError {
     Drawing(String),
 }
 
+impl From<FigureError> for OutputError {
+    fn from(error: FigureError) -> Self {
+        OutputError::Writer(error.into())
+    }
+}
+
 /// The steps that tell most: the first, the first with contact, the last; each once. Of a sheet, those that were kept.
 #[must_use]
 pub fn default_steps(result: &ResultFile) -> Vec<usize> {

@@ -52,6 +52,12 @@ pub enum InpError {
     NoPlace,
 }
 
+impl From<InpError> for OutputError {
+    fn from(error: InpError) -> Self {
+        OutputError::Writer(error.into())
+    }
+}
+
 /// The deck of a result. Same result, same bytes.
 ///
 /// # Errors

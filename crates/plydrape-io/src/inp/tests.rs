@@ -68,7 +68,8 @@ fn what_cannot_be_a_deck_is_refused() {
     for gripper in &mut result.steps[0].grippers {
         gripper.position[1] = 0.0;
     }
-    assert!(matches!(text(&result), Err(OutputError::Inp(InpError::NoPlace))));
+    let error = text(&result).unwrap_err();
+    assert_eq!(error.to_string(), InpError::NoPlace.to_string());
     result.steps.clear();
     let error = text(&result).unwrap_err();
     assert!(error.to_string().contains("simulate the scene again"), "{error}");

@@ -20,7 +20,8 @@ mod summary;
 pub use findings::Findings;
 pub use summary::{ShearPlace, Summary};
 
-use super::{OutputError, figure, finite, folder};
+use super::json::finite;
+use super::{OutputError, figure, folder};
 use plydrape::mold::Mold;
 use plydrape::net::Net;
 use std::path::{Path, PathBuf};

@@ -2,7 +2,7 @@
 
 use super::{Gripper, Line, Pattern, boundary, dxf, pdf};
 use crate::OutputError;
-use crate::export::Files;
+use crate::folder::Files;
 use crate::result::ResultFile;
 use plydrape::ply::{Direction, Outline, gripper_name};
 use plydrape::sheet::Fabric;

@@ -1,5 +1,7 @@
 //! Why there is no program, and what to do about it.
 
+use crate::OutputError;
+
 /// Why there is no program.
 #[derive(Debug, thiserror::Error)]
 pub enum ProgramError {
@@ -78,4 +80,10 @@ pub enum ProgramError {
         /// Why.
         reason: String,
     },
+}
+
+impl From<ProgramError> for OutputError {
+    fn from(error: ProgramError) -> Self {
+        OutputError::Writer(error.into())
+    }
 }

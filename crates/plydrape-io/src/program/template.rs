@@ -8,7 +8,7 @@ use super::context::contexts;
 use super::sampling::Track;
 use super::{Program, ProgramError, Tolerance, wide};
 use crate::OutputError;
-use crate::export::Files;
+use crate::folder::Files;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, Error, ErrorKind, UndefinedBehavior};

@@ -10,10 +10,10 @@
 use super::contact::Known;
 use super::step::StepColumns;
 use super::{ResultFile, SceneEcho};
-use crate::finite;
 use crate::folder::Content;
 use crate::format::{FORMAT, VERSION};
 use crate::json::JsonError;
+use crate::json::finite;
 use crate::sheet::SheetSeal;
 use plydrape::layup::Model;
 use plydrape::outcome::{Step, Summary, Unjudged};

@@ -1,5 +1,7 @@
 //! Why a result has no ROS 2 messages.
 
+use crate::OutputError;
+
 /// Why a result has no ROS 2 messages.
 #[derive(Debug, thiserror::Error)]
 pub enum Ros2Error {
@@ -35,4 +37,10 @@ pub enum Ros2Error {
     /// A message for a topic that the bag does not have; a fault of plydrape.
     #[error("the bag has no topic {0}; this is a fault of plydrape, please report it")]
     Topic(&'static str),
+}
+
+impl From<Ros2Error> for OutputError {
+    fn from(error: Ros2Error) -> Self {
+        OutputError::Writer(error.into())
+    }
 }

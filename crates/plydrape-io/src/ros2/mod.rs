@@ -38,9 +38,10 @@ mod vacuum;
 
 pub use error::Ros2Error;
 
+use super::OutputError;
+use super::json::finite;
 use super::loads::Loads;
-use super::{OutputError, finite};
-use crate::export::Files;
+use crate::folder::Files;
 use crate::program::{Program, Tolerance, wide};
 use crate::result::ResultFile;
 use crate::sheet::{SheetKept, SheetStates};

@@ -1,5 +1,6 @@
 //! Why the states of a sheet could not be written.
 
+use crate::OutputError;
 use std::io;
 
 /// Why the states of a sheet could not be written.
@@ -33,4 +34,10 @@ pub enum SheetError {
     /// The file system refused.
     #[error("the states of the sheet cannot be kept on the disk: {0}")]
     Io(#[from] io::Error),
+}
+
+impl From<SheetError> for OutputError {
+    fn from(error: SheetError) -> Self {
+        OutputError::Writer(error.into())
+    }
 }

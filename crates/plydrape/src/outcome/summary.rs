@@ -190,7 +190,7 @@ mod serial {
         use serde::{Deserializer, Serializer, de::Error};
         use std::borrow::Cow;
 
-        pub fn serialize<S: Serializer>(summary: &Cow<Summary>, to: S) -> Result<S::Ok, S::Error> {
+        pub fn serialize<S: Serializer>(summary: &Summary, to: S) -> Result<S::Ok, S::Error> {
             Summary::serialize(summary, to)
         }
 

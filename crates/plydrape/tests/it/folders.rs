@@ -13,9 +13,9 @@ const CRATES: [(&str, &str); 5] = [
     ),
     (
         "plydrape-io",
-        "error folder json finite formula input size shown format file_kind read_error sheet result mesh outline scene csv surface \
-         strategy table figure comparison book export fit mold_patch inp loads manifest pattern vtk net strength page plan program \
-         replan ros2 sample",
+        "json format file_kind shown size read_error error manifest folder formula input sheet result mesh outline scene strategy \
+         table book loads csv surface figure comparison mold_patch inp pattern program ros2 vtk export fit net strength page plan \
+         replan sample",
     ),
     (
         "plydrape-cli",
@@ -42,14 +42,18 @@ fn code(path: &Path) -> String {
     text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n").collect()
 }
 
-/// The code of every file in a folder, or of a file, but for tests.
-fn codes(path: &Path) -> Vec<String> {
+/// The code of every file in a folder, or of a file, but for tests; paths from the root of the crate begin with `crate`.
+fn codes(path: &Path, root: &Path) -> Vec<String> {
     let stem = path.file_stem().unwrap().to_string_lossy();
+    let folder = if stem == "mod" { path.parent() } else { Some(path) };
+    let at_root = folder.and_then(Path::parent) == Some(root);
     match path.is_dir() {
         _ if stem.ends_with("tests") => Vec::new(),
         true => {
-            fs::read_dir(path).unwrap().flat_map(|entry| codes(&entry.unwrap().path())).collect()
+            let entries = fs::read_dir(path).unwrap();
+            entries.flat_map(|entry| codes(&entry.unwrap().path(), root)).collect()
         }
+        false if at_root => vec![code(path).replace("super::", "crate::")],
         false => vec![code(path)],
     }
 }
@@ -85,7 +89,7 @@ fn a_folder_imports_those_before_it() {
             }
             let own = places.get(&*stem).unwrap_or_else(|| panic!("{name}: {stem} has no place"));
             without.remove(&*stem);
-            for code in codes(&path) {
+            for code in codes(&path, &root) {
                 for import in imports(&code) {
                     let folder = handed_on.get(import).unwrap_or(&import);
                     let before = places.get(folder).is_none_or(|place| place <= own);

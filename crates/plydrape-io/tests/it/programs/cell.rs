@@ -3,7 +3,7 @@
 use plydrape::geometry::vector::{between, distance, dot, turned};
 use plydrape::mold::Pose;
 use plydrape::ply::gripper_name;
-use plydrape_io::export::Files;
+use plydrape_io::Files;
 use plydrape_io::program::sampling::Deviation;
 use plydrape_io::program::{Axis, Event, EventKind, Frames, Pad, Program};
 

@@ -12,7 +12,7 @@ mod urscript;
 
 use cell::{Played, cell, rejected, text};
 use plydrape::mold::Pose;
-use plydrape_io::export::Files;
+use plydrape_io::Files;
 use plydrape_io::program::{Pad, Program, Robot, Template, Tolerance, template, wide};
 
 fn files(program: &Program, robot: Robot, position: f64) -> Files {

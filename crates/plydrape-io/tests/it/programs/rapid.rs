@@ -3,7 +3,7 @@
 use super::cell::{Played, Point};
 use super::tokens::{Reader, Token, lines};
 use plydrape::mold::Pose;
-use plydrape_io::export::Files;
+use plydrape_io::Files;
 use plydrape_io::program::Frames;
 use std::collections::BTreeMap;
 

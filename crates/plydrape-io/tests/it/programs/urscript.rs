@@ -4,7 +4,7 @@ use super::cell::{Played, Point};
 use super::tokens::{Line, Reader, Token, lines};
 use plydrape::geometry::vector::{norm, turned};
 use plydrape::mold::Pose;
-use plydrape_io::export::Files;
+use plydrape_io::Files;
 use plydrape_io::program::Frames;
 use std::collections::{BTreeMap, BTreeSet};
 

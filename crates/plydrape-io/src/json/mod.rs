@@ -4,7 +4,8 @@
 //! "not known". So every number is looked at before the text is made; a value that is infinite by
 //! meaning, such as the axial stiffness of an inextensible ply, is turned into `null` by its own type.
 
-use super::finite;
+pub(crate) mod finite;
+
 use serde::Serialize;
 
 /// Why a value has no JSON text.
