@@ -71,7 +71,7 @@ def numbers(folder: Path) -> dict[str, object]:
     """The outcome of a drape.
 
     Of a sheet four digits of the height and what belongs to it, and where the catenaries were
-    draped beside it whether they keep the limits; of catenaries six digits of each measure.
+    draped beside it their first contact; of catenaries six digits of each measure.
     """
     content = json.loads((folder / "result.json").read_text())
     summary = content["summary"]
@@ -90,7 +90,6 @@ def numbers(folder: Path) -> dict[str, object]:
         }
         if "also" in content:
             beside = content["also"]["summary"]
-            kept["catenaries_accepted"] = beside["accepted"]
             kept["catenaries_first_contact_step"] = beside["catenaries"]["first_contact_step"]
         return kept
     hanging = summary["catenaries"]
