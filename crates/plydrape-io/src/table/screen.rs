@@ -60,7 +60,6 @@ pub fn heading(result: &ResultFile) -> String {
         (None, Model::Sheet) => "a sheet".into(),
         (None, Model::Catenaries) => match ply.lines().catenaries() {
             1 => "1 catenary".into(),
-            1 => "1 catenary".into(),
             catenaries => format!("{catenaries} catenaries"),
         },
     };

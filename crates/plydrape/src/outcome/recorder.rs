@@ -142,8 +142,10 @@ impl Whole {
         let mean = |squares: f64, area: f64| (area > 0.0).then(|| (squares / area).sqrt() * 1e3);
         let errors = || state.points.iter().filter_map(|p| Some((p.area, p.error?)));
         let landed: f64 = errors().map(|(area, _)| area).sum();
-        let above = |limit: f64| -> f64 {
-            heights().filter(|(_, height)| *height > limit).map(|(area, _)| area).sum()
+        // an empty sum of numbers is -0
+        let above = |limit: f64| {
+            let high = heights().filter(|(_, height)| *height > limit);
+            high.fold(0.0, |sum, (area, _)| sum + area)
         };
         Whole {
             height_rms_mm: mean(heights().map(|(area, h)| area * h * h).sum(), area),
