@@ -40,14 +40,15 @@ describe("results page", { skip: missing ?? false }, () => {
     rmSync(scratch, { recursive: true, force: true });
   });
 
-  // Two pages at a time, each with its tests in order.
-  describe("of every example", { concurrency: 2 }, () => {
+  // Two pages at a time, each with its tests in order; of a kind the first, or every one for scripts/soak.
+  const every = process.env.PLYDRAPE_EVERY_REPORT !== undefined;
+  describe("of the examples", { concurrency: 2 }, () => {
     const seen = new Set();
     for (const report of reports) {
       const key = missing === null ? kind(report) : "";
       const first = !seen.has(key);
       seen.add(key);
-      describe(report.name, { concurrency: 1 }, () => shows(report, first));
+      if (first || every) describe(report.name, { concurrency: 1 }, () => shows(report, first));
     }
   });
 
