@@ -22,7 +22,7 @@ use rayon::prelude::*;
 /// A body of one gripper, or of the flange.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// Index of the body in [`super::Bodies::bodies`].
+    /// Index of the body in [`crate::bodies::Bodies::bodies`].
     pub body: usize,
     /// Index of its gripper; none on the flange.
     pub gripper: Option<usize>,
@@ -33,7 +33,7 @@ pub struct Part {
 pub enum Near {
     /// Another body.
     Part(Part),
-    /// An obstacle by its index in [`super::Bodies::obstacles`].
+    /// An obstacle by its index in [`crate::bodies::Bodies::obstacles`].
     Obstacle(usize),
     /// The mold.
     Mold,

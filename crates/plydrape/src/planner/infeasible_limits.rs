@@ -21,7 +21,7 @@ type Found = (f64, String);
 
 /// Every limit that the scene itself rules out, with value and place; none if a plan may keep them all.
 ///
-/// Its verdicts are those of [`crate::draping::record::Summary::limits`] by name and unit, all of them not
+/// Its verdicts are those of [`crate::outcome::Summary::limits`] by name and unit, all of them not
 /// ok. Three have no limit in the scene: `missing_nodes` of the ideal drape, `off_mold` of
 /// targets that the scene gives by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
 #[must_use]
