@@ -725,7 +725,7 @@ class Mold:
         most: SupportsIndex = 20000,
     ) -> pyvista.PolyData:
         """
-        Its surface as a mesh of PyVista, over a rectangle of the plan: see `plydrape.view.mold_mesh`. Needs PyVista.
+        Its surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
 
         Parameters
         ----------
@@ -1607,32 +1607,6 @@ class Result:
         >>> plydrape.simulate(scene).sample is None
         True
         """
-    def scene3d(self, /, step: SupportsIndex = ..., **options: typing.Any) -> pyvista.Plotter:
-        """
-        A scene of PyVista: see `plydrape.view`. Needs PyVista.
-
-        Parameters
-        ----------
-        step : int, optional
-            Which step.
-        **options
-            Those of `plydrape.view.scene3d`.
-
-        Returns
-        -------
-        pyvista.Plotter
-            The plotter: `.show()` opens it.
-
-        Examples
-        --------
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> import pyvista
-        >>> pyvista.OFF_SCREEN = True
-        >>> plotter = result.scene3d(-1)
-        >>> "ply" in plotter.actors
-        True
-        """
     @property
     def scene_text(self, /) -> str | None:
         """
@@ -1850,7 +1824,7 @@ class Result:
         """
     def to_pyvista(self, /, step: SupportsIndex = ...) -> pyvista.MultiBlock:
         """
-        A step as meshes of PyVista with their numbers, without colors or a window: see `plydrape.view.meshes`. Needs PyVista.
+        A step as meshes of PyVista with their numbers, in m. Needs PyVista.
 
         Parameters
         ----------
@@ -2546,7 +2520,7 @@ class Sheet:
         """
     def to_pyvista(self, /, step: SupportsIndex = ...) -> pyvista.PolyData:
         """
-        The sheet of a step as a mesh of PyVista with its numbers: see `plydrape.view.sheet_mesh`. Needs PyVista.
+        The sheet of a step as a mesh of PyVista with its numbers. Needs PyVista.
 
         Parameters
         ----------

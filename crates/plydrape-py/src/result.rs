@@ -920,38 +920,6 @@ impl Result {
         slf.py().import("plydrape.notebook")?.getattr("show")?.call1((slf, height))
     }
 
-    /// A scene of PyVista: see `plydrape.view`. Needs PyVista.
-    ///
-    /// Parameters
-    /// ----------
-    /// step : int, optional
-    ///     Which step.
-    /// **options
-    ///     Those of `plydrape.view.scene3d`.
-    ///
-    /// Returns
-    /// -------
-    /// pyvista.Plotter
-    ///     The plotter: `.show()` opens it.
-    ///
-    /// Examples
-    /// --------
-    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> result = plydrape.simulate(scene)
-    /// >>> import pyvista
-    /// >>> pyvista.OFF_SCREEN = True
-    /// >>> plotter = result.scene3d(-1)
-    /// >>> "ply" in plotter.actors
-    /// True
-    #[pyo3(signature = (step = -1, **options: "typing.Any") -> "pyvista.Plotter")]
-    fn scene3d<'py>(
-        slf: &Bound<'py, Self>,
-        step: isize,
-        options: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("scene3d")?.call((slf, step), options)
-    }
-
     /// A tidy table of numbers: one row for each thing in each step. Needs pandas.
     ///
     /// Column names end in the unit where it is not SI, as the names of the properties do.
@@ -1014,7 +982,7 @@ impl Result {
         slf.py().import("plydrape._tables")?.getattr("result_dataset")?.call1((slf,))
     }
 
-    /// A step as meshes of PyVista with their numbers, without colors or a window: see `plydrape.view.meshes`. Needs PyVista.
+    /// A step as meshes of PyVista with their numbers, in m. Needs PyVista.
     ///
     /// Parameters
     /// ----------
@@ -1044,7 +1012,7 @@ impl Result {
     /// ['height_mm', 'contact', 'landing_step', 'shear_deg']
     #[pyo3(signature = (step = -1) -> "pyvista.MultiBlock")]
     fn to_pyvista<'py>(slf: &Bound<'py, Self>, step: isize) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("meshes")?.call1((slf, step))
+        slf.py().import("plydrape._meshes")?.getattr("meshes")?.call1((slf, step))
     }
 
     fn __repr__(&self) -> String {
