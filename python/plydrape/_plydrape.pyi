@@ -1010,7 +1010,7 @@ class Plan:
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
-        Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
+        Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a
         folder, all or none, and returns their paths.
 
         Parameters
@@ -1035,7 +1035,7 @@ class Plan:
         >>> plan = plydrape.plan(scene, without_errors=True)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     sorted(path.name for path in plan.write(folder))
-        ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
+        ['motion.csv', 'plan.json', 'report.html', 'result.json', ...]
         """
 
 @final
@@ -1244,7 +1244,7 @@ class Result:
         self,
         /,
         to: typing.Literal[
-            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"
+            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"
         ],
         folder: str | PathLike[str],
         *,
@@ -1257,8 +1257,8 @@ class Result:
 
         Parameters
         ----------
-        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"}
-            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
         folder : str or path
             Where they go; other files there stay.
         even_if_rejected : bool, default False
@@ -1720,27 +1720,6 @@ class Result:
         >>> surface.size, surface.points.shape, surface.triangles.shape
         ((13, 5), (65, 3), (96, 3))
         """
-    def svg(self, /, steps: SupportsGetItem[int, SupportsIndex] | None = None) -> str:
-        """
-        The figure of chosen steps as SVG, unless given of those that figure.svg shows.
-
-        Parameters
-        ----------
-        steps : SupportsGetItem[int, int], optional
-            The steps, from 1; −1 is the last.
-
-        Returns
-        -------
-        str
-            The text of the figure.
-
-        Examples
-        --------
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> result.svg([1, 26, -1])[:4]
-        '<svg'
-        """
     @property
     def tilts_deg(self, /) -> NDArray[float64]:
         """
@@ -1880,7 +1859,7 @@ class Result:
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
-        Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
+        Writes result.json, steps.csv, trajectory.csv, report.html, of a plan motion.csv, and of a sheet
         sheet.npz, into a folder, all or none, and returns their paths.
 
         Parameters
@@ -1905,7 +1884,7 @@ class Result:
         >>> result = plydrape.simulate(scene)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     sorted(path.name for path in result.write(folder))
-        ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
+        ['report.html', 'result.json', 'steps.csv', 'trajectory.csv']
         """
 
 @final
