@@ -29,7 +29,6 @@ PARTS: list[tuple[str, str, Path, list[str] | None]] = [
     ("Many at once: `plydrape.batch`", "plydrape.batch", COMPILED,
      ["simulate_all", "equilibria", "Equilibria"]),
     ("Studies: `plydrape.study`", "plydrape.study", PACKAGE / "study" / "__init__.py", None),
-    ("Pictures in 3D: `plydrape.view`", "plydrape.view", PACKAGE / "view.py", None),
     ("Notebooks: `plydrape.notebook`", "plydrape.notebook", PACKAGE / "notebook.py", None),
     ("STEP and IGES: `plydrape.cad`", "plydrape.cad", PACKAGE / "cad.py", None),
     ("Errors", "plydrape", PACKAGE / "errors.py", None),

@@ -7,15 +7,15 @@
     examples/pictures.py --list            names the molds that have them, those that a plan solves
     examples/pictures.py --compared        names those that both models are compared on
 
-A picture is `figure.svg` as Chromium draws it, with a small palette. Beside the pictures,
-numbers.json has the outcome of both drapes. A check compares these numbers and no bytes of
-pictures, which depend on fonts and browsers. Making pictures needs Chromium and Pillow.
+A picture shows two steps as the page report.html draws them in Chromium, see viewer/pictures.mjs,
+with a small palette. Beside the pictures, numbers.json has the outcome of both drapes. A check
+compares these numbers and no bytes of pictures, which depend on fonts and browsers. Making pictures
+needs Chromium, Pillow and Matplotlib.
 
-The moving picture, draping.webp of the dome, shows the states of the sheet that both drapes kept,
-side by side. Making it needs the Python package with its extra `plot`.
+The moving picture, draping.webp of the dome, shows both drapes side by side.
 
-Where both models are compared, straight_both.png shows the catenaries on the left and the sheet on
-the right, at first contact and at the end.
+Where both models are compared, straight_both.png shows the catenaries above and the sheet below, at
+first contact and at the end.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
-    from PIL import Image
-    from plydrape import Result
+    from PIL import Image, ImageFont
 
 EXAMPLES = Path(__file__).resolve().parent
+ROOT = EXAMPLES.parent
 SOLVED = (
     "01_flat_sheared_mold",
     "04_dome",
@@ -44,11 +44,16 @@ SOLVED = (
 
 COMPARED = ("01_flat_sheared_mold", "04_dome", "06_saddle")
 
-# the mold of the moving picture; its pictures a second, how long the last one stays (s), the size
-# of each half and of the lines of text above and below, in pixels
+# the mold of the moving picture; its pictures a second, how long the last one stays (s), the width
+# of each half and the height of the lines of text above and below, in pixels
 MOVING = "04_dome"
 FRAMES, RATE, STAYS = 44, 11, 3.0
-HALF, ABOVE, BELOW = (400, 276), 58, 44
+HALF, ABOVE, BELOW = 430, 58, 40
+
+# the size of a panel on the page, what is left white around it and between the parts, the heights
+# of the title and of a line above each panel, in pixels
+PANEL, EDGE, TITLE, LINE = (480, 340), 14, 46, 30
+DARK, QUIET, GREEN, RED = "#14161A", "#4A515C", "#1A6E33", "#A11218"
 
 # relative difference of numbers that rounding explains, and the same of folds of a sheet, which
 # may go another way after it
@@ -134,6 +139,129 @@ def check(results: Path) -> int:
     return old
 
 
+class Shown(NamedTuple):
+    """A drape in a picture: its folder of results, the model, and its steps with their names."""
+
+    folder: Path
+    model: str
+    steps: dict[int, str]
+
+
+def draw(shown: list[Shown]) -> list[tuple[list[Image.Image], Image.Image]]:
+    """The panels of each drape, cut to what is drawn in any of them, and the scale of its colors.
+
+    All are drawn twice as large as the page shows them: made small, their edges are smooth.
+    """
+    from PIL import Image, ImageChops
+
+    with tempfile.TemporaryDirectory() as place:
+        orders = [
+            {
+                "report": str((one.folder / "report.html").resolve()),
+                "model": one.model,
+                "colour": {"sheet": "over_mold", "catenaries": "gap"}[one.model],
+                "size": PANEL,
+                "pixels": 2,
+                "steps": list(one.steps),
+                "folder": f"{place}/{n}",
+            }
+            for n, one in enumerate(shown)
+        ]
+        command = [str(ROOT / "scripts/viewer"), "run", "--silent", "pictures"]
+        subprocess.run(command, input=json.dumps(orders), check=True, text=True)
+
+        def read(n: int, name: str) -> Image.Image:
+            return Image.open(f"{place}/{n}/{name}.png").convert("RGB")
+
+        found = [
+            ([read(n, str(step)) for step in one.steps], read(n, "legend"))
+            for n, one in enumerate(shown)
+        ]
+    white = Image.new("RGB", found[0][0][0].size, "white")
+    boxes = [ImageChops.difference(p, white).getbbox() for panels, _ in found for p in panels]
+    drawn = [box for box in boxes if box is not None]
+    left, top = (min(box[c] for box in drawn) for c in (0, 1))
+    right, bottom = (max(box[c] for box in drawn) for c in (2, 3))
+    return [([p.crop((left, top, right, bottom)) for p in panels], bar) for panels, bar in found]
+
+
+def halved(image: Image.Image) -> Image.Image:
+    """A picture of half the size."""
+    from PIL import Image
+
+    return image.resize((image.width // 2, image.height // 2), Image.Resampling.LANCZOS)
+
+
+def font(size: int, bold: bool = False) -> ImageFont.FreeTypeFont:
+    """The font of Matplotlib."""
+    from matplotlib.font_manager import FontProperties, findfont
+    from PIL import ImageFont
+
+    weight = "bold" if bold else "normal"
+    return ImageFont.truetype(findfont(FontProperties("DejaVu Sans", weight=weight)), size)
+
+
+def compose(title: str, accepted: bool, shown: list[Shown]) -> Image.Image:
+    """A row of panels for each drape, with a line above each panel and the colors at the end."""
+    from PIL import Image, ImageDraw
+
+    rows = [([halved(panel) for panel in panels], halved(bar)) for panels, bar in draw(shown)]
+    wide, high = rows[0][0][0].size
+    scale = max(bar.width for _, bar in rows)
+    row = LINE + max(high, *(bar.height for _, bar in rows)) + EDGE
+    columns = len(rows[0][0])
+    size = (EDGE + columns * (wide + 2 * EDGE) + scale + EDGE, TITLE + len(rows) * row)
+    image = Image.new("RGB", size, "white")
+    pen = ImageDraw.Draw(image)
+    pen.text((EDGE, TITLE / 2), title, DARK, font(17, bold=True), "lm")
+    start = EDGE + pen.textlength(title, font(17, bold=True)) + 16
+    verdict, ink = ("✓ accepted", GREEN) if accepted else ("✗ not accepted", RED)
+    pen.text((start, TITLE / 2), verdict, ink, font(14, bold=True), "lm")
+    for n, ((panels, bar), one) in enumerate(zip(rows, shown, strict=True)):
+        top = TITLE + n * row
+        for k, (panel, name) in enumerate(zip(panels, one.steps.values(), strict=True)):
+            left = EDGE + k * (wide + 2 * EDGE)
+            pen.text((left, top + LINE / 2), name, DARK, font(13), "lm")
+            image.paste(panel, (left, top + LINE + (row - LINE - EDGE - high) // 2))
+        middle = top + LINE + (row - LINE - EDGE - bar.height) // 2
+        image.paste(bar, (size[0] - scale - EDGE, middle))
+    return image
+
+
+def two_steps(folder: Path, *, model: str = "sheet", fronts: bool = False) -> Shown:
+    """First contact and end of a drape; in place of the first contact, half-way on to the end."""
+    summary = json.loads((folder / "result.json").read_text())["summary"]
+    contact, last = summary[model]["first_contact_step"], summary["steps"]
+    first = (contact + last) // 2 if fronts else contact
+    what = "rolled on" if fronts else "first contact"
+    height = summary["final"]["height_mm"] if model == "sheet" else None
+    end = "" if height is None else f", up to {height:.2g} mm over the mold"
+    name = model.capitalize()
+    steps = {first: f"{name}, step {first}: {what}", last: f"{name}, step {last}: end{end}"}
+    return Shown(folder, model, steps)
+
+
+def title(folder: Path) -> tuple[str, bool]:
+    """The title of a drape, and whether it is accepted."""
+    content = json.loads((folder / "result.json").read_text())
+    return content["scene"]["title"], content["summary"]["accepted"]
+
+
+def save(image: Image.Image, picture: Path) -> None:
+    """Writes a PNG file with a small palette."""
+    from PIL import Image
+
+    # by coverage: the scale of colors keeps its steps
+    palette = image.quantize(
+        96,
+        method=Image.Quantize.MAXCOVERAGE,
+        kmeans=2,
+        dither=Image.Dither.NONE,
+    )
+    palette.save(picture, optimize=True)
+    print(f"{picture.relative_to(ROOT)}: {picture.stat().st_size / 1e3:.0f} kB")
+
+
 def raster(figure: Path) -> Image.Image:
     """Draws an SVG file."""
     from PIL import Image
@@ -160,61 +288,38 @@ def raster(figure: Path) -> Image.Image:
         return Image.open(raw).convert("RGB")
 
 
-def save(image: Image.Image, picture: Path) -> None:
-    """Writes a PNG file with a small palette."""
-    from PIL import Image
-
-    # by coverage: the scale of colors keeps its steps
-    palette = image.quantize(
-        160,
-        method=Image.Quantize.MAXCOVERAGE,
-        kmeans=2,
-        dither=Image.Dither.NONE,
-    )
-    palette.save(picture, optimize=True)
-
-
-def draw(figure: Path, picture: Path) -> None:
-    """Draws an SVG file as a PNG file."""
-    save(raster(figure), picture)
-
-
-def compare(figures: list[Path], picture: Path) -> None:
-    """Draws the last two of three panels of two figures side by side, with the models' names."""
-    from PIL import Image, ImageDraw, ImageFont
-
-    images = [raster(figure) for figure in figures]
-    width, height = images[0].size
-    # a head line of 46 points, three panels and a legend of 42
-    top = 46 + (height - 88) // 3 - 6
-    both = Image.new("RGB", (2 * width, height - top + 40), "white")
-    pen = ImageDraw.Draw(both)
-    for n, (image, name) in enumerate(zip(images, ("catenaries", "sheet"), strict=True)):
-        both.paste(image.crop((0, top, width, height)), (n * width, 40))
-        pen.text((n * width + 28, 8), name, fill="#2D323A", font=ImageFont.load_default(24))
-    size = (both.width * 3 // 4, both.height * 3 // 4)
-    save(both.resize(size, Image.Resampling.LANCZOS), picture)
-
-
 def moving(results: Path, picture: Path) -> None:
     """Draws the sheet along both motions of the mold, frame by frame."""
-    import plydrape
     from PIL import Image
 
     of = folders(results, MOVING)
-    halves = [plydrape.Result.read(of[key] / "result.json") for key in ("straight", "planned")]
-    ends = [numbers(of[key])["height_mm"] for key in ("straight", "planned")]
+    both = [of[key] for key in ("straight", "planned")]
+    lasts = [json.loads((one / "result.json").read_text())["summary"]["steps"] for one in both]
+    numbered = [
+        [1 + round(frame / (FRAMES - 1) * (last - 1)) for frame in range(FRAMES)] for last in lasts
+    ]
+    drawn = draw(
+        [
+            Shown(one, "sheet", dict.fromkeys(steps, ""))
+            for one, steps in zip(both, numbered, strict=True)
+        ]
+    )
+    ends = [numbers(one)["height_mm"] for one in both]
     heads = (
         ("straight down", f"touches too early: folds up to {ends[0]:.1f} mm high stay"),
         ("planned by plydrape", f"rolled on from the middle: {ends[1]:.1f} mm at most"),
     )
+    wide, high = drawn[0][0][0].size
+    half = (HALF, round(HALF * high / wide))
+    ground = Image.new("RGB", (2 * HALF + 3 * EDGE, ABOVE + half[1] + BELOW), "white")
+    words(ground, heads)
     frames = []
     for frame in range(FRAMES):
-        image = Image.new("RGB", (2 * HALF[0], ABOVE + HALF[1] + BELOW), "white")
-        for n, result in enumerate(halves):
-            step = 1 + round(frame / (FRAMES - 1) * (len(result.times) - 1))
-            image.paste(state(result, step), (n * HALF[0], ABOVE))
-        words(image, heads)
+        image = ground.copy()
+        for n, ((panels, _), steps) in enumerate(zip(drawn, numbered, strict=True)):
+            panel = panels[list(dict.fromkeys(steps)).index(steps[frame])]
+            small = panel.resize(half, Image.Resampling.LANCZOS)
+            image.paste(small, (EDGE + n * (HALF + EDGE), ABOVE))
         frames.append(image)
     stay = [1000 // RATE] * (FRAMES - 1) + [round(1000 * STAYS)]
     options: dict[str, Any] = {
@@ -225,51 +330,26 @@ def moving(results: Path, picture: Path) -> None:
         "minimize_size": True,
     }
     frames[0].save(picture, save_all=True, append_images=frames[1:], **options)
-    print(f"{picture.relative_to(EXAMPLES.parent)}: {picture.stat().st_size / 1e3:.0f} kB")
-
-
-def state(result: Result, step: int) -> Image.Image:
-    """One step of a sheet, as the package draws it, with a rod on each gripper."""
-    import plydrape.view
-    import pyvista
-    from PIL import Image
-
-    pyvista.OFF_SCREEN = True
-    # drawn larger than shown: edges become smooth
-    size = [2 * side for side in HALF]
-    plotter: Any = pyvista.Plotter(off_screen=True, window_size=size)
-    plydrape.view.sheet3d(result, step, forces=False, plotter=plotter)
-    plotter.remove_scalar_bar()
-    plotter.set_background("white")
-    assert result.sheet is not None
-    for pad in result.sheet.grippers[step - 1]:
-        top = (pad[0], pad[1], pad[2] + 0.03)
-        rod = pyvista.Line(pad, top).tube(radius=0.0022)
-        plotter.add_mesh(rod, color="#7c8490", lighting=False)
-    plotter.enable_parallel_projection()
-    plotter.camera_position = [(0.42, -0.78, 0.5), (0.0, 0.0, -0.006), (0.0, 0.0, 1.0)]
-    plotter.camera.parallel_scale = 0.186
-    drawn = plotter.screenshot(return_img=True)
-    plotter.close()
-    return Image.fromarray(drawn).resize(HALF, Image.Resampling.LANCZOS)
+    print(f"{picture.relative_to(ROOT)}: {picture.stat().st_size / 1e3:.0f} kB")
 
 
 def words(image: Image.Image, heads: tuple[tuple[str, str], tuple[str, str]]) -> None:
     """What each half shows, and below the scale of colors of the height."""
     from matplotlib import colormaps
-    from PIL import ImageDraw, ImageFont
+    from PIL import ImageDraw
 
     pen = ImageDraw.Draw(image)
-    large, small = ImageFont.load_default(19), ImageFont.load_default(15)
     for n, (head, says) in enumerate(heads):
-        pen.text((n * HALF[0] + 22, 8), head, fill="#14161A", font=large)
-        pen.text((n * HALF[0] + 22, 34), says, fill="#4A515C", font=small)
-    top, left, width = ABOVE + HALF[1] + 14, 318, 260
+        left = EDGE + n * (HALF + EDGE)
+        pen.text((left, 18), head, DARK, font(17, bold=True), "lm")
+        pen.text((left, 42), says, QUIET, font(13), "lm")
+    width = 260
+    left, top = (image.width - width) // 2 + 30, image.height - BELOW + 14
     for x in range(width):
         red, green, blue, _ = colormaps["viridis"](x / (width - 1), bytes=True)
         pen.line([(left + x, top), (left + x, top + 14)], fill=(int(red), int(green), int(blue)))
-    pen.text((left - 12, top - 2), "height over the mold  0.1 mm", "#2D323A", small, "ra")
-    pen.text((left + width + 12, top - 2), "10 mm and more", "#2D323A", small)
+    pen.text((left - 10, top + 7), "height over the mold  0.1 mm", DARK, font(12), "rm")
+    pen.text((left + width + 10, top + 7), "10 mm and more", DARK, font(12), "lm")
 
 
 def keep(results: Path, name: str) -> None:
@@ -282,15 +362,21 @@ def make(results: Path) -> None:
     """Makes all pictures and the numbers beside them."""
     for name in SOLVED:
         of = folders(results, name)
-        for motion in ("straight", "planned"):
-            draw(of[motion] / "figure.svg", EXAMPLES / name / f"{motion}.png")
+        for motion, what in (("straight", "straight paths"), ("planned", "planned")):
+            head, accepted = title(of[motion])
+            rows = [two_steps(of[motion], fronts=motion == "planned")]
+            save(compose(f"{head}, {what}", accepted, rows), EXAMPLES / name / f"{motion}.png")
         if name in COMPARED:
-            figures = [of[key] / "figure.svg" for key in ("straight catenaries", "straight")]
-            compare(figures, EXAMPLES / name / "straight_both.png")
+            head, accepted = title(of["straight"])
+            rows = [
+                two_steps(of["straight catenaries"], model="catenaries"),
+                two_steps(of["straight"]),
+            ]
+            both = compose(f"{head}, straight paths", accepted, rows)
+            save(both, EXAMPLES / name / "straight_both.png")
         keep(results, name)
-        print(f"examples/{name}: straight.png, planned.png, numbers.json")
     moving(results, EXAMPLES / MOVING / "draping.webp")
-    draw(results / "hemisphere_net" / "shear.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")
+    save(raster(results / "hemisphere_net" / "shear.svg"), ROOT / "docs/hemisphere_shear.png")
 
 
 def main(arguments: list[str]) -> int:

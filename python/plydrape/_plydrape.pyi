@@ -725,7 +725,7 @@ class Mold:
         most: SupportsIndex = 20000,
     ) -> pyvista.PolyData:
         """
-        Its surface as a mesh of PyVista, over a rectangle of the plan: see `plydrape.view.mold_mesh`. Needs PyVista.
+        Its surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
 
         Parameters
         ----------
@@ -1010,7 +1010,7 @@ class Plan:
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
-        Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
+        Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a
         folder, all or none, and returns their paths.
 
         Parameters
@@ -1035,7 +1035,7 @@ class Plan:
         >>> plan = plydrape.plan(scene, without_errors=True)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     sorted(path.name for path in plan.write(folder))
-        ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
+        ['motion.csv', 'plan.json', 'report.html', 'result.json', ...]
         """
 
 @final
@@ -1244,7 +1244,7 @@ class Result:
         self,
         /,
         to: typing.Literal[
-            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"
+            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"
         ],
         folder: str | PathLike[str],
         *,
@@ -1257,8 +1257,8 @@ class Result:
 
         Parameters
         ----------
-        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"}
-            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
         folder : str or path
             Where they go; other files there stay.
         even_if_rejected : bool, default False
@@ -1607,32 +1607,6 @@ class Result:
         >>> plydrape.simulate(scene).sample is None
         True
         """
-    def scene3d(self, /, step: SupportsIndex = ..., **options: typing.Any) -> pyvista.Plotter:
-        """
-        A scene of PyVista: see `plydrape.view`. Needs PyVista.
-
-        Parameters
-        ----------
-        step : int, optional
-            Which step.
-        **options
-            Those of `plydrape.view.scene3d`.
-
-        Returns
-        -------
-        pyvista.Plotter
-            The plotter: `.show()` opens it.
-
-        Examples
-        --------
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> import pyvista
-        >>> pyvista.OFF_SCREEN = True
-        >>> plotter = result.scene3d(-1)
-        >>> "ply" in plotter.actors
-        True
-        """
     @property
     def scene_text(self, /) -> str | None:
         """
@@ -1746,27 +1720,6 @@ class Result:
         >>> surface.size, surface.points.shape, surface.triangles.shape
         ((13, 5), (65, 3), (96, 3))
         """
-    def svg(self, /, steps: SupportsGetItem[int, SupportsIndex] | None = None) -> str:
-        """
-        The figure of chosen steps as SVG, unless given of those that figure.svg shows.
-
-        Parameters
-        ----------
-        steps : SupportsGetItem[int, int], optional
-            The steps, from 1; −1 is the last.
-
-        Returns
-        -------
-        str
-            The text of the figure.
-
-        Examples
-        --------
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> result.svg([1, 26, -1])[:4]
-        '<svg'
-        """
     @property
     def tilts_deg(self, /) -> NDArray[float64]:
         """
@@ -1850,7 +1803,7 @@ class Result:
         """
     def to_pyvista(self, /, step: SupportsIndex = ...) -> pyvista.MultiBlock:
         """
-        A step as meshes of PyVista with their numbers, without colors or a window: see `plydrape.view.meshes`. Needs PyVista.
+        A step as meshes of PyVista with their numbers, in m. Needs PyVista.
 
         Parameters
         ----------
@@ -1906,7 +1859,7 @@ class Result:
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
-        Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
+        Writes result.json, steps.csv, trajectory.csv, report.html, of a plan motion.csv, and of a sheet
         sheet.npz, into a folder, all or none, and returns their paths.
 
         Parameters
@@ -1931,7 +1884,7 @@ class Result:
         >>> result = plydrape.simulate(scene)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     sorted(path.name for path in result.write(folder))
-        ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
+        ['report.html', 'result.json', 'steps.csv', 'trajectory.csv']
         """
 
 @final
@@ -2546,7 +2499,7 @@ class Sheet:
         """
     def to_pyvista(self, /, step: SupportsIndex = ...) -> pyvista.PolyData:
         """
-        The sheet of a step as a mesh of PyVista with its numbers: see `plydrape.view.sheet_mesh`. Needs PyVista.
+        The sheet of a step as a mesh of PyVista with its numbers. Needs PyVista.
 
         Parameters
         ----------

@@ -52,7 +52,7 @@ class Occupied(enum.Enum):
 
 # Names that commands write.
 NAMES = (
-    *("result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html", "plan.json"),
+    *("result.json", "steps.csv", "trajectory.csv", "report.html", "plan.json"),
     "sheet.npz",
     *("net.vtp", "mold.vtp", "ply.inp", "drape.pvd", "trajectory.yaml"),
 )

@@ -27,11 +27,11 @@ CODES = (0, 1, 2, 3, 4, 130)
 # Codes with which files are written; with 4 unless the message says that none was.
 DONE = (0, 1, 3, 4, 130)
 NOTHING_WRITTEN = "no file was written"
-SIMULATED = {"result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html"}
+SIMULATED = {"result.json", "steps.csv", "trajectory.csv", "report.html"}
 WRITTEN = {
     "simulate": SIMULATED,
     "plan": SIMULATED | {"motion.csv", "plan.json"},
-    "net": {"nodes.csv", "shear.svg", "net.vtp", "mold.vtp"},
+    "net": {"nodes.csv", "net.vtp", "mold.vtp"},
     "report": {"report.html"},
     "study": {"study.parquet", "summary.json", "summary.html"},
 }

@@ -90,7 +90,7 @@ def kind(written: Callable[[], list[bytes]]) -> Kind:
             (20, ("report", NAME, "-o", "out")),
             *(
                 (6, ("export", NAME, "--to", to, "--even-if-rejected", "-o", "out"))
-                for to in ("csv", "svg", "inp", "ros2", "vtk")
+                for to in ("csv", "inp", "ros2", "vtk")
             ),
         ),
     )

@@ -8,7 +8,7 @@ use crate::watch::Interrupt;
 use plydrape::measure::Verdict;
 use plydrape::planner::comparison::{StrategyName, compare};
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape_io::comparison::{self, NAMES};
+use plydrape_io::comparison::{self, NAME};
 use plydrape_io::scene::SceneFile;
 use plydrape_io::strategy::Row;
 use plydrape_io::{Folder, table};
@@ -25,10 +25,10 @@ struct Printed<'a> {
     time_s: f64,
 }
 
-/// Drapes by all strategies, writes table and picture, and judges.
+/// Drapes by all strategies, writes the table, and judges.
 pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: bool) -> Done {
     let folder = Folder::claim(&results.folder("compare"), "plan --compare")?;
-    folder.refuse_inputs(&NAMES, &scene.files)?;
+    folder.refuse_inputs(&[NAME], &scene.files)?;
 
     let mut search = Search::of(StrategyName::ALL.len(), "strategies", None, interrupt, quiet);
     let compared = compare(scene, &mut |progress| search.watch(progress));
@@ -36,8 +36,8 @@ pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: b
     let compared = compared?;
     let interrupted = compared.interrupted;
     let best = compared.best().map(|(name, _)| name).filter(|_| !interrupted);
-    let rows = comparison::rows(scene, compared, folder.stage())?;
-    let files = comparison::write_into(folder, &scene.title, &rows, &scene.files)?;
+    let rows: Vec<Row> = compared.strategies.into_iter().map(Row::new).collect();
+    let files = comparison::write_into(folder, &rows, &scene.files)?;
 
     let found = infeasible_limits(scene);
     let mut text = format!("{}\n\n", scene.title);

@@ -50,8 +50,6 @@ pub struct Arguments {
 enum Format {
     /// Tables: steps.csv, trajectory.csv, motion_wide.csv, and motion.csv of a plan.
     Csv,
-    /// The figure: figure.svg.
-    Svg,
     /// Abaqus and CalculiX: ply.inp, shells, gripper motion and a rigid mold.
     Inp,
     /// The ply in the flat with its cups and its warp: pattern.dxf, and pattern.pdf at full size.
@@ -75,7 +73,6 @@ impl Format {
         match self {
             Format::Csv => export::Format::Csv,
             Format::Inp => export::Format::Inp,
-            Format::Svg => export::Format::Svg,
             Format::Pattern => export::Format::Pattern,
             Format::Boundary => export::Format::Boundary,
             Format::Ros2 => export::Format::Ros2,
@@ -90,7 +87,6 @@ impl Format {
         match self {
             Format::Csv => "csv",
             Format::Inp => "inp",
-            Format::Svg => "svg",
             Format::Pattern => "pattern",
             Format::Boundary => "boundary",
             Format::Ros2 => "ros2",

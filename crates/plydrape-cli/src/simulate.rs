@@ -15,7 +15,7 @@ use plydrape_io::{Folder, NAMES, ResultFile, scene, table, write_into};
 One model drapes and decides, that of the scene: its steps, its limits and its verdict are printed, written and returned as the exit \
 code. With --also the other model is draped too and shown beside it; it never judges.
 
-Writes result.json, steps.csv, trajectory.csv, figure.svg and report.html, and sheet.npz where the sheet was draped, to the scene's \
+Writes result.json, steps.csv, trajectory.csv and report.html, and sheet.npz where the sheet was draped, to the scene's \
 name with `.results`; report.html is a page for any browser. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten. Ctrl-C ends after the step under way and writes the steps done.
 

@@ -1,28 +1,14 @@
-//! The files of a comparison: `comparison.csv` with all limits of all strategies, and `comparison.svg` with how each one ends.
+//! The file of a comparison: `comparison.csv` with all limits of all strategies.
 
-use crate::sheet::SheetDrapeError;
+use crate::json::finite;
 use crate::strategy::Row;
-use crate::{Content, Folder, OutputError, ResultFile, csv, figure};
+use crate::{Content, Folder, OutputError, csv};
 use ::csv::Writer;
 use plydrape::measure::Name;
-use plydrape::planner::comparison::Comparison;
-use plydrape::scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// The names of its files.
-pub const NAMES: [&str; 2] = ["comparison.csv", "comparison.svg"];
-
-/// The rows of a comparison; the states of sheets are kept in hidden folders within `dir`.
-///
-/// # Errors
-/// As [`Row::new`].
-pub fn rows(
-    scene: &Scene,
-    comparison: Comparison,
-    dir: &Path,
-) -> Result<Vec<Row>, SheetDrapeError> {
-    comparison.strategies.into_iter().map(|compared| Row::new(scene, compared, dir)).collect()
-}
+/// The name of its file.
+pub const NAME: &str = "comparison.csv";
 
 /// One row a strategy: whether it is accepted, time, and of every limit its worst value, the limit and where it is.
 ///
@@ -67,22 +53,17 @@ pub fn table(rows: &[Row]) -> Result<String, ::csv::Error> {
     csv::text(table)
 }
 
-/// Writes table and picture into a folder, all or none, and returns their paths; files that the run has `read` are not
-/// removed.
+/// Writes the table into a folder and returns its path; files that the run has `read` are not removed.
 ///
 /// # Errors
-/// [`OutputError`] if the picture cannot be drawn, a file in the way is not plydrape's, or the disk refuses.
+/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses.
 pub fn write_into(
     folder: Folder,
-    title: &str,
     rows: &[Row],
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
-    // first of all: no number that is not finite goes on
-    rows.iter().filter_map(|row| row.result.as_ref()).try_for_each(ResultFile::check_finite)?;
+    finite::check(rows)?;
     let table = table(rows)?;
-    let picture = figure::comparison::svg(title, rows)?;
-    let [table, picture] = [&table, &picture].map(|text| text.as_bytes());
-    let files: [(&str, &dyn Content); 2] = [(NAMES[0], &table), (NAMES[1], &picture)];
-    folder.write(&files, read)
+    let table = table.as_bytes();
+    folder.write(&[(NAME, &table as &dyn Content)], read)
 }

@@ -80,7 +80,7 @@ pub enum OutputError {
     /// A motion cannot be sampled as asked for.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// The writer of a file cannot show the result: it has no ROS 2 messages, no program, no input deck, or a figure fails.
+    /// The writer of a file cannot show the result: it has no ROS 2 messages, no program or no input deck.
     #[error(transparent)]
     Writer(Box<dyn std::error::Error + Send + Sync>),
     /// The states of a sheet cannot be read.

@@ -4,7 +4,7 @@
 //! only if the caller says so, see [`Options::even_if_rejected`].
 
 use super::program::{Program, ProgramError, Robot, Template, Tolerance, template, wide};
-use super::{OutputError, csv, figure, folder, inp, pattern, ros2, vtk};
+use super::{OutputError, csv, folder, inp, pattern, ros2, vtk};
 use crate::folder::Files;
 use crate::result::ResultFile;
 use std::path::{Path, PathBuf};
@@ -14,8 +14,6 @@ use std::path::{Path, PathBuf};
 pub enum Format {
     /// Tables: `steps.csv`, `trajectory.csv`, `motion_wide.csv`, for a plan `motion.csv`.
     Csv,
-    /// The figure: `figure.svg`.
-    Svg,
     /// Abaqus and CalculiX: `ply.inp`, shells, gripper motion and a rigid mold.
     Inp,
     /// The ply in the flat, with its cups and its warp: `pattern.dxf` for a cutter, `pattern.pdf` at full size.
@@ -36,7 +34,7 @@ impl Format {
     pub fn drives(self) -> bool {
         match self {
             Format::Csv | Format::Ros2 | Format::Robot(_) => true,
-            Format::Svg | Format::Inp | Format::Pattern | Format::Boundary | Format::Vtk => false,
+            Format::Inp | Format::Pattern | Format::Boundary | Format::Vtk => false,
         }
     }
 }
@@ -83,9 +81,6 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
         }
         Format::Vtk => vtk::files(result)?,
         Format::Inp => vec![text("ply.inp", inp::text(result)?)],
-        Format::Svg => {
-            vec![text("figure.svg", figure::svg(result, &figure::default_steps(result))?)]
-        }
     })
 }
 

@@ -4,9 +4,9 @@
 //!
 //! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold and [`outline`] for its ply;
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
-//! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`], [`pattern`]: everything else is made from a result;
+//! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`page`], [`pattern`]: everything else is made from a result;
 //!    [`program`] is what a cell does over time, for the controllers of robots;
-//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`replan`] for one whose ply lies elsewhere, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
+//! 4. [`net`] does the same for an ideal drape, with pictures by [`figure`], [`plan`] for a plan, [`replan`] for one whose ply lies elsewhere, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
 //!    [`table`] prints for people, [`strength`] says what is published of fiber angles;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
@@ -63,10 +63,10 @@ use std::path::{Path, PathBuf};
 /// Name and version of this program, as it stands in what it writes.
 pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));
 
-/// Writes `result.json`, `steps.csv`, `trajectory.csv`, for a plan `motion.csv`, `figure.svg` and
-/// `report.html` into a folder, all or none.
+/// Writes `result.json`, `steps.csv`, `trajectory.csv`, for a plan `motion.csv`, and `report.html` into a folder, all or
+/// none.
 ///
-/// The figure shows [`figure::default_steps`]. Returns the paths. Same result, same bytes.
+/// Returns the paths. Same result, same bytes.
 ///
 /// # Errors
 /// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
@@ -76,11 +76,10 @@ pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, Output
 }
 
 /// The names of the files of [`write_all`], and of those that a plan has beside them.
-pub const NAMES: [&str; 8] = [
+pub const NAMES: [&str; 7] = [
     "result.json",
     "steps.csv",
     "trajectory.csv",
-    "figure.svg",
     "report.html",
     sheet::NAME,
     "motion.csv",
@@ -116,15 +115,12 @@ pub fn stage_into(
     let steps = csv::steps(result)?;
     let trajectory = csv::trajectory(result)?;
     let motion = csv::planned_motion(result)?;
-    let figure = figure::svg(result, &figure::default_steps(result))?;
     let page = page::html(result)?;
-    let [steps, trajectory, figure, page] =
-        [&steps, &trajectory, &figure, &page].map(|text| text.as_bytes());
+    let [steps, trajectory, page] = [&steps, &trajectory, &page].map(|text| text.as_bytes());
     let motion = motion.as_ref().map(|motion| motion.as_bytes());
     let mut files: Vec<(&str, &dyn Content)> =
         vec![("result.json", result), ("steps.csv", &steps), ("trajectory.csv", &trajectory)];
     files.extend(motion.as_ref().map(|motion| ("motion.csv", motion as &dyn Content)));
-    files.push(("figure.svg", &figure));
     files.push(("report.html", &page));
     files.extend(result.sheet_states.as_ref().map(|states| (sheet::NAME, states as &dyn Content)));
     files.extend(more);
@@ -135,17 +131,14 @@ pub fn stage_into(
 mod tests {
     use super::*;
 
-    /// Five files, and the same bytes again from the same result.
+    /// Four files, and the same bytes again from the same result.
     #[test]
     fn write_all_is_complete_and_repeats_itself() {
         let dir = tempfile::tempdir().unwrap();
         let result = sample::draped(4, 2, 30);
         let paths = write_all(&result, dir.path()).unwrap();
         let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
-        assert_eq!(
-            names,
-            ["result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html"]
-        );
+        assert_eq!(names, ["result.json", "steps.csv", "trajectory.csv", "report.html"]);
         let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
         let first = read();
         write_all(&result, dir.path()).unwrap();

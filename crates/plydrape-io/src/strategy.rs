@@ -1,12 +1,9 @@
 //! How one strategy of a comparison came out.
 
-use crate::ResultFile;
-use crate::sheet::{self, SheetDrapeError, ended};
+use crate::sheet::ended;
 use plydrape::measure::{Name, Verdict};
 use plydrape::planner::comparison::{Compared, StrategyName};
-use plydrape::scene::Scene;
 use serde::Serialize;
-use std::path::Path;
 
 /// One strategy of a comparison, as it is printed and written.
 #[derive(Debug, Clone, Serialize)]
@@ -27,39 +24,36 @@ pub struct Row {
     /// The limits that it breaks, the one exceeded furthest first.
     #[serde(skip)]
     pub broken: Vec<Verdict>,
-    /// Its drape.
-    #[serde(skip)]
-    pub result: Option<ResultFile>,
 }
 
 impl Row {
-    /// The row of a strategy; the states of its sheet are kept in a hidden folder within `dir`.
-    ///
-    /// # Errors
-    /// If the disk refuses.
-    pub fn new(scene: &Scene, compared: Compared, dir: &Path) -> Result<Self, SheetDrapeError> {
+    /// The row of a strategy.
+    #[must_use]
+    pub fn new(compared: Compared) -> Self {
         let strategy = compared.name;
-        let draped = match compared.drape {
-            Ok(draped) => draped,
-            Err(reason) => {
-                return Ok(Row {
+        match compared.drape {
+            Ok(draped) => {
+                let owned = |limits: Vec<&Verdict>| limits.into_iter().cloned().collect();
+                Row {
                     strategy,
-                    accepted: false,
-                    time_s: None,
-                    not_draped: true,
-                    note: Some(reason.to_string()),
-                    limits: Vec::new(),
-                    broken: Vec::new(),
-                    result: None,
-                });
+                    accepted: draped.is_accepted(),
+                    time_s: Some(draped.time),
+                    not_draped: false,
+                    note: ended(&draped.drape.summary),
+                    limits: owned(draped.limits()),
+                    broken: owned(draped.broken()),
+                }
             }
-        };
-        let owned = |limits: Vec<&Verdict>| limits.into_iter().cloned().collect();
-        let (limits, broken) = (owned(draped.limits()), owned(draped.broken()));
-        let (accepted, time_s) = (draped.is_accepted(), Some(draped.time));
-        let result = ResultFile::new(scene, None, sheet::keep(draped.drape, dir)?);
-        let (note, result) = (ended(&result.summary), Some(result));
-        Ok(Row { strategy, accepted, time_s, not_draped: false, note, limits, broken, result })
+            Err(reason) => Row {
+                strategy,
+                accepted: false,
+                time_s: None,
+                not_draped: true,
+                note: Some(reason.to_string()),
+                limits: Vec::new(),
+                broken: Vec::new(),
+            },
+        }
     }
 
     /// The verdict on one limit.

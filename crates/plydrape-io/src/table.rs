@@ -17,7 +17,6 @@ mod steps;
 mod tool;
 
 pub use comparison::comparison;
-pub(crate) use comparison::verdict as verdict_on;
 pub(crate) use errors::{share, stands_in_words};
 pub use ink::Ink;
 pub use limited_by::limited_by;

@@ -423,7 +423,7 @@ impl Plan {
         plan_file::text(&self.checkpoint).map_err(|fault| error::output(&fault.into()))
     }
 
-    /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
+    /// Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a
     /// folder, all or none, and returns their paths.
     ///
     /// Parameters
@@ -448,7 +448,7 @@ impl Plan {
     /// >>> plan = plydrape.plan(scene, without_errors=True)
     /// >>> with tempfile.TemporaryDirectory() as folder:
     /// ...     sorted(path.name for path in plan.write(folder))
-    /// ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
+    /// ['motion.csv', 'plan.json', 'report.html', 'result.json', ...]
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         let write = || plan_file::write_all(&self.result, &self.checkpoint, &folder);
         py.detach(write).map_err(|fault| error::output(&fault))

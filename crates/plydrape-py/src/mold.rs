@@ -243,7 +243,7 @@ impl Mold {
         Ok(triangles(py.detach(|| patch(&self.0, low, high, most))))
     }
 
-    /// Its surface as a mesh of PyVista, over a rectangle of the plan: see `plydrape.view.mold_mesh`. Needs PyVista.
+    /// Its surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
     ///
     /// Parameters
     /// ----------
@@ -273,7 +273,7 @@ impl Mold {
         high: &Bound<'py, PyAny>,
         most: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("mold_mesh")?.call1((slf, low, high, most))
+        slf.py().import("plydrape._meshes")?.getattr("mold_mesh")?.call1((slf, low, high, most))
     }
 
     fn __repr__(&self) -> String {

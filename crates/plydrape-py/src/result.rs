@@ -22,7 +22,7 @@ use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::program::{Robot, Template, Tolerance};
 use plydrape_io::replan::PlannedResult;
 use plydrape_io::scene::{Measured, parse_offset};
-use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
+use plydrape_io::{ResultFile, export, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -49,11 +49,6 @@ use std::sync::Arc;
 pub struct Result(pub Arc<ResultFile>);
 
 impl Result {
-    /// A step by its number, from 1; negative ones count from the end.
-    fn step(&self, step: isize) -> PyResult<&Step> {
-        find(&self.0.steps, step)
-    }
-
     /// The drape by the model that decides.
     fn drape(&self) -> Drape {
         Drape { result: Arc::clone(&self.0), beside: false }
@@ -665,7 +660,7 @@ impl Result {
         result.map(|result| Result(Arc::new(result)))
     }
 
-    /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
+    /// Writes result.json, steps.csv, trajectory.csv, report.html, of a plan motion.csv, and of a sheet
     /// sheet.npz, into a folder, all or none, and returns their paths.
     ///
     /// Parameters
@@ -690,7 +685,7 @@ impl Result {
     /// >>> result = plydrape.simulate(scene)
     /// >>> with tempfile.TemporaryDirectory() as folder:
     /// ...     sorted(path.name for path in result.write(folder))
-    /// ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
+    /// ['report.html', 'result.json', 'steps.csv', 'trajectory.csv']
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         py.detach(|| plydrape_io::write_all(&self.0, &folder))
             .map_err(|fault| error::output(&fault))
@@ -700,8 +695,8 @@ impl Result {
     ///
     /// Parameters
     /// ----------
-    /// to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"}
-    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+    /// to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
     /// folder : str or path
     ///     Where they go; other files there stay.
     /// even_if_rejected : bool, default False
@@ -733,7 +728,7 @@ impl Result {
     /// ...     sorted(path.name for path in result.export("csv", folder))
     /// ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
     #[pyo3(signature = (
-        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'svg', 'pattern', 'boundary']",
+        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'pattern', 'boundary']",
         folder, *, even_if_rejected = false, position_error: "float | str | None" = None,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
@@ -754,12 +749,11 @@ impl Result {
             "krl" => export::Format::Robot(Robot::Krl),
             "urscript" => export::Format::Robot(Robot::Urscript),
             "csv" => export::Format::Csv,
-            "svg" => export::Format::Svg,
             "pattern" => export::Format::Pattern,
             "boundary" => export::Format::Boundary,
             other => {
                 let text = format!(
-                    "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, svg, pattern and boundary are possible"
+                    "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
                 );
                 return Err(PyValueError::new_err(text));
             }
@@ -838,36 +832,6 @@ impl Result {
         Ok(path)
     }
 
-    /// The figure of chosen steps as SVG, unless given of those that figure.svg shows.
-    ///
-    /// Parameters
-    /// ----------
-    /// steps : SupportsGetItem[int, int], optional
-    ///     The steps, from 1; −1 is the last.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    ///     The text of the figure.
-    ///
-    /// Examples
-    /// --------
-    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> result = plydrape.simulate(scene)
-    /// >>> result.svg([1, 26, -1])[:4]
-    /// '<svg'
-    #[pyo3(signature = (steps = None))]
-    fn svg(&self, py: Python<'_>, steps: Option<Vec<isize>>) -> PyResult<String> {
-        let steps: Vec<usize> = match steps {
-            None => figure::default_steps(&self.0),
-            Some(steps) => steps
-                .into_iter()
-                .map(|step| self.step(step).map(|step| step.step))
-                .collect::<PyResult<_>>()?,
-        };
-        py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault))
-    }
-
     /// A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs Matplotlib.
     ///
     /// Parameters
@@ -918,38 +882,6 @@ impl Result {
     #[pyo3(signature = (*, height = 640) -> "plydrape.notebook.Page")]
     fn show<'py>(slf: &Bound<'py, Self>, height: usize) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("plydrape.notebook")?.getattr("show")?.call1((slf, height))
-    }
-
-    /// A scene of PyVista: see `plydrape.view`. Needs PyVista.
-    ///
-    /// Parameters
-    /// ----------
-    /// step : int, optional
-    ///     Which step.
-    /// **options
-    ///     Those of `plydrape.view.scene3d`.
-    ///
-    /// Returns
-    /// -------
-    /// pyvista.Plotter
-    ///     The plotter: `.show()` opens it.
-    ///
-    /// Examples
-    /// --------
-    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    /// >>> result = plydrape.simulate(scene)
-    /// >>> import pyvista
-    /// >>> pyvista.OFF_SCREEN = True
-    /// >>> plotter = result.scene3d(-1)
-    /// >>> "ply" in plotter.actors
-    /// True
-    #[pyo3(signature = (step = -1, **options: "typing.Any") -> "pyvista.Plotter")]
-    fn scene3d<'py>(
-        slf: &Bound<'py, Self>,
-        step: isize,
-        options: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("scene3d")?.call((slf, step), options)
     }
 
     /// A tidy table of numbers: one row for each thing in each step. Needs pandas.
@@ -1014,7 +946,7 @@ impl Result {
         slf.py().import("plydrape._tables")?.getattr("result_dataset")?.call1((slf,))
     }
 
-    /// A step as meshes of PyVista with their numbers, without colors or a window: see `plydrape.view.meshes`. Needs PyVista.
+    /// A step as meshes of PyVista with their numbers, in m. Needs PyVista.
     ///
     /// Parameters
     /// ----------
@@ -1044,7 +976,7 @@ impl Result {
     /// ['height_mm', 'contact', 'landing_step', 'shear_deg']
     #[pyo3(signature = (step = -1) -> "pyvista.MultiBlock")]
     fn to_pyvista<'py>(slf: &Bound<'py, Self>, step: isize) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("meshes")?.call1((slf, step))
+        slf.py().import("plydrape._meshes")?.getattr("meshes")?.call1((slf, step))
     }
 
     fn __repr__(&self) -> String {

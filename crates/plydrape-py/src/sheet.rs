@@ -252,7 +252,7 @@ impl Sheet {
         slf.py().import("plydrape._tables")?.getattr("sheet_dataset")?.call1((slf,))
     }
 
-    /// The sheet of a step as a mesh of PyVista with its numbers: see `plydrape.view.sheet_mesh`. Needs PyVista.
+    /// The sheet of a step as a mesh of PyVista with its numbers. Needs PyVista.
     ///
     /// Parameters
     /// ----------
@@ -279,7 +279,7 @@ impl Sheet {
     /// (341, ['height_mm', 'contact', 'landing_step', 'shear_deg'])
     #[pyo3(signature = (step = -1) -> "pyvista.PolyData")]
     fn to_pyvista<'py>(slf: &Bound<'py, Self>, step: isize) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("sheet_mesh")?.call1((slf, step))
+        slf.py().import("plydrape._meshes")?.getattr("sheet_mesh")?.call1((slf, step))
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

@@ -38,7 +38,7 @@ impl Surface {
     /// ((13, 5, 1), ['gap_mm'])
     #[pyo3(signature = () -> "pyvista.StructuredGrid")]
     fn to_pyvista<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("plydrape.view")?.getattr("surface_mesh")?.call1((slf,))
+        slf.py().import("plydrape._meshes")?.getattr("surface_mesh")?.call1((slf,))
     }
 
     /// Points along u and along v.

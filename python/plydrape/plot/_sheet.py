@@ -1,6 +1,6 @@
 """The sheet that the figures share: its size, its type and its colors.
 
-Colors are those of the report and of `figure.svg`. Viridis grows evenly lighter, also for
+Colors are those of the report. Viridis grows evenly lighter, also for
 color-blind eyes and in gray print; the scale with a sign is ColorBrewer's PuOr, safe for
 color-blind eyes.
 """

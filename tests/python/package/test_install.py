@@ -17,7 +17,7 @@ print(result.model, result.first_contact_step)
 Path("mold.step").write_text("ISO-10303-21;")
 for use in (
     lambda: result.plot(),
-    lambda: result.scene3d(),
+    lambda: result.to_pyvista(),
     lambda: plydrape.study.run(examples / "study" / "study.toml"),
     lambda: plydrape.cad.read("mold.step"),
 ):

@@ -26,7 +26,7 @@ The plan is then judged with errors. With [errors] in the scene, a sample of com
 too, 64 unless set there. The verdict says which errors the plan tolerates, of each gripper's position where the scene has none. \
 --time does not bound these drapes; Ctrl-C ends them, and the plan is written without what they would say.
 
-Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json, and sheet.npz \
+Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html and plan.json, and sheet.npz \
 where the sheet was draped, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten.
 
@@ -36,8 +36,8 @@ ply; the exit code is 0 if all plies are accepted.
 
 With --compare nothing is searched: the ply is draped by each of five strategies, straight (every gripper to its \
 target), all at once (formed over its place and let down flat), rolled (a line lands first), from a point (the middle lands \
-first) and stepwise. A table says which limits each one breaks, the worst first. comparison.csv (all limits) and comparison.svg \
-(how each one ends) go to the scene's name with `.compare`. The exit code is 0 if one of them is accepted, 1 if none is.")]
+first) and stepwise. A table says which limits each one breaks, the worst first. comparison.csv (all limits) goes \
+to the scene's name with `.compare`. The exit code is 0 if one of them is accepted, 1 if none is.")]
 pub struct Arguments {
     #[command(flatten)]
     pub(super) results: Results,

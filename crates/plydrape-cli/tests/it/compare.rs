@@ -53,14 +53,14 @@ fn on_the_papers_example_straight_is_refused_for_its_height_and_a_front_accepted
     assert_eq!(&limits[..simulated.len()], &simulated[..]);
 }
 
-/// The table has a row a strategy, as many cells in each as its header has, and a unit for each measure; the picture a panel.
+/// The table has a row a strategy, as many cells in each as its header has, and a unit for each measure.
 #[test]
-fn table_and_picture_have_every_strategy() {
+fn the_table_has_every_strategy() {
     let home = tempfile::tempdir().unwrap();
     let scene = coarse(home.path(), "");
     let output = run("plan", &scene, &["--compare"]);
     let (printed, folder) = (text(&output.stdout), home.path().join("flat.compare"));
-    assert_eq!(files(&folder), ["comparison.csv", "comparison.svg"]);
+    assert_eq!(files(&folder), ["comparison.csv"]);
     let csv = std::fs::read_to_string(folder.join("comparison.csv")).unwrap();
     let rows: Vec<Vec<String>> = csv.lines().map(cells).collect();
     assert_eq!(rows.len(), 1 + STRATEGIES.len(), "{csv}");
@@ -69,22 +69,17 @@ fn table_and_picture_have_every_strategy() {
     for title in ["t (s)", "height over the mold (mm)", "height over the mold limit (mm)"] {
         assert!(header.contains(title), "{title} in {header:?}");
     }
-    let svg = std::fs::read_to_string(folder.join("comparison.svg")).unwrap();
     for (row, name) in rows[1..].iter().zip(STRATEGIES) {
         assert_eq!((row[0].as_str(), row.len()), (name, rows[0].len()));
         let verdict = if row[1] == "true" { "accepted" } else { "not accepted" };
-        assert!(svg.contains(&format!("{name} — {verdict}")), "{name} in the picture");
         let line = printed.lines().find(|line| line.starts_with(name)).unwrap();
         assert!(line.ends_with(verdict), "{line}");
     }
-    assert_eq!(svg.matches("accepted\n").count(), STRATEGIES.len());
-    assert!(!svg.contains("NaN") && !svg.contains("inf"));
     assert!(printed.lines().all(|line| line.chars().count() <= 100), "{printed}");
     // a second run replaces its own files, and they are the same to the last byte
     let again = run("plan", &scene, &["--compare", "--threads", "1"]);
     assert_eq!(again.stdout, output.stdout);
     assert_eq!(std::fs::read_to_string(folder.join("comparison.csv")).unwrap(), csv);
-    assert_eq!(std::fs::read_to_string(folder.join("comparison.svg")).unwrap(), svg);
 }
 
 /// Grippers on neighboring corners of a cell are never 10 m apart: each strategy fails by that, and so would any plan.

@@ -34,7 +34,7 @@ fn every_format_is_made_from_the_result_alone() {
     let home = tempfile::tempdir().unwrap();
     let result = result(home.path(), "01_flat_sheared_mold");
     let asked = home.path().join("asked");
-    for format in ["csv", "inp", "ros2", "svg", "vtk"] {
+    for format in ["csv", "inp", "ros2", "vtk"] {
         let output = plydrape(&["export", "--to", format, "--even-if-rejected"], &result);
         succeeds(&output);
         let beside = result.with_file_name(format);
@@ -55,21 +55,16 @@ fn every_format_is_made_from_the_result_alone() {
     assert!(asked.join("steps.csv").exists() && asked.join("ply.inp").exists());
 }
 
-/// Tables, figure and page are those that the simulation wrote.
+/// Tables and page are those that the simulation wrote.
 #[test]
 fn exports_are_what_the_simulation_wrote() {
     let home = tempfile::tempdir().unwrap();
     let result = result(home.path(), "05_cylinder");
     let csv = &["export", "--to", "csv", "--even-if-rejected"][..];
-    for arguments in [csv, &["export", "--to", "svg"], &["report"]] {
+    for arguments in [csv, &["report"]] {
         succeeds(&plydrape(arguments, &result));
     }
-    for (dir, name) in [
-        ("csv", "steps.csv"),
-        ("csv", "trajectory.csv"),
-        ("svg", "figure.svg"),
-        ("", "report.html"),
-    ] {
+    for (dir, name) in [("csv", "steps.csv"), ("csv", "trajectory.csv"), ("", "report.html")] {
         let again = std::fs::read(result.parent().unwrap().join(dir).join(name)).unwrap();
         assert!(again == std::fs::read(home.path().join("run").join(name)).unwrap(), "{name}");
     }
@@ -148,7 +143,7 @@ fn a_rejected_motion_drives_no_machine_unless_asked() {
         assert!(message.contains("--even-if-rejected"), "{format}: {message}");
         assert!(!result.with_file_name(format).exists());
     }
-    for format in ["inp", "svg", "vtk", "pattern"] {
+    for format in ["inp", "vtk", "pattern"] {
         succeeds(&plydrape(&["export", "--to", format], &result));
     }
     for (format, name) in [("csv", "motion_wide.csv"), ("ros2", "trajectory.yaml")] {

@@ -30,15 +30,8 @@ steps = 12
 evaluations = 2
 ";
 
-const FILES: [&str; 7] = [
-    "figure.svg",
-    "motion.csv",
-    "plan.json",
-    "report.html",
-    "result.json",
-    "steps.csv",
-    "trajectory.csv",
-];
+const FILES: [&str; 6] =
+    ["motion.csv", "plan.json", "report.html", "result.json", "steps.csv", "trajectory.csv"];
 
 /// A scene in a folder of its own.
 fn scene(folder: &Path, text: &str) -> PathBuf {
@@ -266,7 +259,7 @@ fn help_names_every_option_and_every_file() {
     ] {
         assert!(help.contains(option), "{option} in {help}");
     }
-    for file in FILES.into_iter().chain(["sheet.npz", "comparison.csv", "comparison.svg"]) {
+    for file in FILES.into_iter().chain(["sheet.npz", "comparison.csv"]) {
         assert!(help.contains(file), "{file} in {help}");
     }
     assert!(help.contains("path") && help.contains("stepwise"), "{help}");

@@ -23,8 +23,7 @@ fn result(folder: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(folder.join("result.json")).unwrap()).unwrap()
 }
 
-const FILES: [&str; 6] =
-    ["figure.svg", "report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
+const FILES: [&str; 5] = ["report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
 
 /// The summary of the sheet has all documented keys; result.json has the same, and names the file of the states.
 #[test]

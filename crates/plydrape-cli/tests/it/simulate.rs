@@ -26,11 +26,10 @@ fn result(folder: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(folder.join("result.json")).unwrap()).unwrap()
 }
 
-const FILES: [&str; 5] =
-    ["figure.svg", "report.html", "result.json", "steps.csv", "trajectory.csv"];
+const FILES: [&str; 4] = ["report.html", "result.json", "steps.csv", "trajectory.csv"];
 /// The same where the ply is draped as a sheet.
-const FILES_OF_SHEET: [&str; 6] =
-    ["figure.svg", "report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
+const FILES_OF_SHEET: [&str; 5] =
+    ["report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
 
 #[test]
 fn exit_code_is_the_verdict() {
@@ -280,7 +279,6 @@ fn an_interrupt_leaves_complete_files_of_the_steps_done() {
     };
     assert_eq!(rows("steps.csv"), 1 + steps);
     assert_eq!(rows("trajectory.csv"), 1 + 1600 * steps);
-    assert!(read("figure.svg").trim_end().ends_with("</svg>"));
     let json = read("result.json");
     assert!(json.ends_with("}\n"));
     assert!(json.contains(&format!("\"step\":{steps},\"time\"")));

@@ -1,24 +1,22 @@
 //! The color bar: what value every color stands for.
 
-use super::FigureError;
-use super::axes::{self, plain};
-use super::canvas::{Canvas, Px};
+use super::axes::{self, LABEL, TICK};
+use super::canvas::{Canvas, Px, plain};
 use super::colour::{FRAME, viridis};
-use super::scale::Scale;
 
 /// Greatest length (picture points).
 const LENGTH: f64 = 340.0;
 /// Width (picture points).
 const WIDTH: f64 = 16.0;
 
-/// The bar from `left` on and between two heights on the sheet; its name and ends in the unit shown.
+/// The bar from `left` on and between two heights on the sheet; its name, and the values of its ends.
 pub(super) fn bar(
     canvas: &mut Canvas,
     name: &str,
-    scale: Scale,
+    [low, high]: [f64; 2],
     left: f64,
     [top, bottom]: Px,
-) -> Result<(), FigureError> {
+) {
     let length = (bottom - top).min(LENGTH);
     let top = top + (bottom - top - length) / 2.0;
     let (right, slices) = (left + WIDTH, 85);
@@ -27,12 +25,12 @@ pub(super) fn bar(
         let y = top + length * (1.0 - share);
         // Each slice reaches to the top and is covered by the next, so that no seam shows.
         let slice = [[left, y], [right, y], [right, top], [left, top]];
-        canvas.polygon(&slice, viridis((f64::from(k) + 0.5) / f64::from(slices)))?;
+        canvas.polygon(&slice, viridis((f64::from(k) + 0.5) / f64::from(slices)));
     }
-    for tick in scale.ticks(length / 42.0) {
-        let y = top + length * (1.0 - scale.share(tick));
-        canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0)?;
-        canvas.text(&axes::label(tick), [right + 8.0, y], plain(axes::TICK, -1))?;
+    for tick in axes::round(low, high, length / 42.0) {
+        let y = top + length * (1.0 - (tick - low) / (high - low));
+        canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0);
+        canvas.text(&axes::label(tick), [right + 8.0, y], plain(TICK, -1));
     }
-    canvas.text(name, [left - 4.0, top - 16.0], plain(axes::LABEL, -1))
+    canvas.text(name, [left - 4.0, top - 16.0], plain(LABEL, -1));
 }

@@ -1,19 +1,9 @@
-//! The sheet: shapes and text in picture points, through the SVG writer of `plotters`.
+//! The sheet: shapes and text in picture points, written as the elements of an SVG file.
 //!
-//! `plotters` counts in whole pixels. The sheet is therefore drawn ten times as large, and the view box
-//! of the file brings it back: coordinates are exact to a tenth of a point.
+//! Coordinates are exact to a tenth of a point.
 
-use super::FigureError;
-use super::shorten::shortened;
-use plotters::backend::DrawingBackend;
-use plotters::prelude::{IntoFont, RGBAColor, SVGBackend, ShapeStyle};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontStyle, RGBColor};
-
-/// Fine steps of the drawing in one picture point.
-const FINE: f64 = 10.0;
-/// The factor between a font size asked of `plotters` and the one it writes.
-const FONT: f64 = 1.24;
+use super::colour::DARK;
+use std::fmt::Write;
 
 /// A place on the sheet: right and down (picture points).
 pub(super) type Px = [f64; 2];
@@ -23,9 +13,11 @@ pub(super) type Px = [f64; 2];
 pub(super) struct Ink(pub [u8; 3], pub f64);
 
 impl Ink {
-    fn rgba(self) -> RGBAColor {
+    /// The attributes that paint a shape's inside or its line, `what` is `fill` or `stroke`.
+    fn attributes(self, what: &str) -> String {
         let Ink([r, g, b], cover) = self;
-        RGBColor(r, g, b).mix(cover)
+        let color = format!(" {what}=\"#{r:02x}{g:02x}{b:02x}\"");
+        if cover < 1.0 { format!("{color} {what}-opacity=\"{cover}\"") } else { color }
     }
 }
 
@@ -36,94 +28,129 @@ pub(super) struct Type {
     pub size: f64,
     /// Bold or not.
     pub bold: bool,
-    /// Colour.
+    /// Color.
     pub ink: Ink,
-    /// What of the text stands at its place: −1 its left, 0 its middle, 1 its right.
+    /// Which part of the text is at its place: −1 its left, 0 its middle, 1 its right.
     pub side: i8,
 }
 
-/// A white sheet.
-pub(super) struct Canvas<'a> {
-    backend: SVGBackend<'a>,
+/// Plain dark text of a size.
+pub(super) fn plain(size: f64, side: i8) -> Type {
+    Type { size, bold: false, ink: DARK, side }
 }
 
-impl<'a> Canvas<'a> {
-    /// An empty sheet of a size (picture points) that writes into `text`.
-    pub(super) fn new(text: &'a mut String, size: Px) -> Result<Self, FigureError> {
-        let fine = size.map(|s| (s * FINE).round() as u32);
-        let mut canvas = Canvas { backend: SVGBackend::with_string(text, (fine[0], fine[1])) };
-        let [w, h] = size;
-        canvas.polygon(&[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]], Ink([255; 3], 1.0))?;
-        Ok(canvas)
+/// Bold dark text of a size that begins at its place.
+pub(super) fn heading(size: f64) -> Type {
+    Type { size, bold: true, ink: DARK, side: -1 }
+}
+
+/// A white sheet.
+pub(super) struct Canvas {
+    text: String,
+}
+
+impl Canvas {
+    /// An empty sheet of a size (picture points).
+    pub(super) fn new([w, h]: Px) -> Self {
+        let text = format!(
+            "<svg width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" role=\"img\" font-family=\"sans-serif\" \
+             xmlns=\"http://www.w3.org/2000/svg\">\n"
+        );
+        let mut canvas = Canvas { text };
+        canvas.polygon(&[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]], Ink([255; 3], 1.0));
+        canvas
     }
 
-    /// Closes the file.
-    pub(super) fn finish(mut self) -> Result<(), FigureError> {
-        self.backend.present().map_err(fault)
+    /// The text of the file.
+    pub(super) fn finish(self) -> String {
+        self.text + "</svg>\n"
+    }
+
+    fn element(&mut self, shape: std::fmt::Arguments) {
+        // writing into a text cannot fail
+        let _ = writeln!(self.text, "{shape}");
     }
 
     /// A filled polygon.
-    pub(super) fn polygon(&mut self, corners: &[Px], ink: Ink) -> Result<(), FigureError> {
-        let path = corners.iter().map(|p| fine(*p));
-        self.backend.fill_polygon(path, &style(ink, 0.0)).map_err(fault)
+    pub(super) fn polygon(&mut self, corners: &[Px], ink: Ink) {
+        self.element(format_args!("<path{} d=\"{}z\"/>", ink.attributes("fill"), path(corners)));
     }
 
     /// A line of a width (picture points) through points.
-    pub(super) fn line(&mut self, points: &[Px], ink: Ink, width: f64) -> Result<(), FigureError> {
-        let path = points.iter().map(|p| fine(*p));
-        self.backend.draw_path(path, &style(ink, width)).map_err(fault)
+    pub(super) fn line(&mut self, points: &[Px], ink: Ink, width: f64) {
+        let (stroke, path) = (ink.attributes("stroke"), path(points));
+        self.element(format_args!(
+            "<path fill=\"none\"{stroke} stroke-width=\"{width}\" d=\"{path}\"/>"
+        ));
     }
 
     /// An open circle.
-    pub(super) fn circle(
-        &mut self,
-        center: Px,
-        radius: f64,
-        ink: Ink,
-        width: f64,
-    ) -> Result<(), FigureError> {
-        let radius = (radius * FINE).round() as u32;
-        self.backend.draw_circle(fine(center), radius, &style(ink, width), false).map_err(fault)
+    pub(super) fn circle(&mut self, [x, y]: Px, radius: f64, ink: Ink, width: f64) {
+        let stroke = ink.attributes("stroke");
+        self.element(format_args!(
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"none\"{stroke} stroke-width=\"{width}\"/>"
+        ));
     }
 
-    /// One line of text, its middle at the height of its place; control characters become spaces.
-    pub(super) fn text(&mut self, text: &str, at: Px, set: Type) -> Result<(), FigureError> {
-        let side = match set.side {
-            ..0 => HPos::Left,
-            0 => HPos::Center,
-            1.. => HPos::Right,
+    /// A filled circle.
+    pub(super) fn disc(&mut self, [x, y]: Px, radius: f64, ink: Ink) {
+        let fill = ink.attributes("fill");
+        self.element(format_args!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\"{fill}/>"));
+    }
+
+    /// One line of text, its middle at the height of its place; what XML cannot hold becomes a space.
+    pub(super) fn text(&mut self, text: &str, [x, y]: Px, set: Type) {
+        let anchor = match set.side {
+            ..0 => "start",
+            0 => "middle",
+            1.. => "end",
         };
-        let weight = if set.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let font =
-            ("sans-serif", set.size * FINE * FONT).into_font().style(weight).color(&set.ink.rgba());
-        let clean = text.replace(|c: char| c.is_control(), " ");
-        self.backend
-            .draw_text(&clean, &font.pos(Pos::new(side, VPos::Center)), fine(at))
-            .map_err(fault)
+        let (size, fill) = (set.size, set.ink.attributes("fill"));
+        let weight = if set.bold { " font-weight=\"bold\"" } else { "" };
+        let text = escaped(text);
+        self.element(format_args!(
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" dy=\"0.5ex\" text-anchor=\"{anchor}\" font-size=\"{size}\"{weight}{fill}>{text}</text>"
+        ));
     }
 }
 
-/// The file as it should be shown: a tenth of the fine size, with a role for those who cannot see it.
-pub(super) fn at_size(text: &str, size: Px) -> String {
-    let [w, h] = size.map(|s| (s * FINE).round() as u32);
-    let drawn = format!("width=\"{w}\" height=\"{h}\"");
-    let shown = format!("width=\"{}\" height=\"{}\" role=\"img\"", size[0], size[1]);
-    // Full cover is what an SVG has by itself; texts cannot hold this, their quotes are escaped.
-    shortened(&text.replacen(&drawn, &shown, 1).replace(" opacity=\"1\"", ""))
-}
-
-fn fine(p: Px) -> (i32, i32) {
-    ((p[0] * FINE).round() as i32, (p[1] * FINE).round() as i32)
-}
-
-fn style(ink: Ink, width: f64) -> ShapeStyle {
-    ShapeStyle {
-        color: ink.rgba(),
-        filled: width == 0.0,
-        stroke_width: (width * FINE).round() as u32,
+/// The corners of a path, each from the origin.
+fn path(points: &[Px]) -> String {
+    let mut path = String::new();
+    for (n, [x, y]) in points.iter().enumerate() {
+        let _ = write!(path, "{}{x:.1} {y:.1}", if n == 0 { 'M' } else { 'L' });
     }
+    path
 }
 
-fn fault(cause: impl std::fmt::Display) -> FigureError {
-    FigureError::Drawing(cause.to_string())
+/// A text as XML holds it.
+fn escaped(text: &str) -> String {
+    let clean = text.replace(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'), " ");
+    clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A title may hold anything that a scene's title may hold.
+    #[test]
+    fn texts_are_escaped() {
+        let mut canvas = Canvas::new([10.0, 10.0]);
+        canvas.text("<b>&\"\u{1}</b>", [0.0, 0.0], plain(8.0, -1));
+        assert!(canvas.finish().contains(">&lt;b&gt;&amp;\" &lt;/b&gt;</text>"));
+    }
+
+    /// A polygon is closed; full cover needs no attribute.
+    #[test]
+    fn shapes_pass_their_corners() {
+        let mut canvas = Canvas::new([10.0, 10.0]);
+        canvas.polygon(&[[1.0, 2.0], [3.04, 2.0], [3.0, 4.0]], Ink([255, 0, 16], 1.0));
+        canvas.line(&[[1.0, 2.0], [3.0, 2.0]], Ink([0; 3], 0.5), 0.8);
+        let text = canvas.finish();
+        assert!(text.contains("<path fill=\"#ff0010\" d=\"M1.0 2.0L3.0 2.0L3.0 4.0z\"/>"));
+        assert!(text.contains(
+            "<path fill=\"none\" stroke=\"#000000\" stroke-opacity=\"0.5\" stroke-width=\"0.8\" d=\"M1.0 2.0L3.0 2.0\"/>"
+        ));
+    }
 }

@@ -1,4 +1,4 @@
-//! Colors of the figure, and the scale that turns a height into one.
+//! Colors of the pictures, and the scale that turns a value into one.
 //!
 //! The scale is viridis (S. van der Walt and N. Smith, matplotlib, CC0): lightness grows evenly with
 //! the value, also for color-blind eyes and in gray print.
@@ -7,28 +7,14 @@ use super::canvas::Ink;
 
 /// Text and axes.
 pub(super) const DARK: Ink = Ink([45, 50, 58], 1.0);
-/// Grid lines of the box.
+/// Grid lines of a chart.
 pub(super) const GRID: Ink = Ink([223, 226, 231], 1.0);
-/// Edges of the box.
+/// Edges and ticks.
 pub(super) const FRAME: Ink = Ink([160, 166, 175], 1.0);
-/// The mold.
-pub(super) const MOLD: Ink = Ink([214, 220, 228], 0.75);
-/// A curved mold turned away from the light, and towards it.
-pub(super) const MOLD_DARK: Ink = Ink([138, 146, 158], 1.0);
-pub(super) const MOLD_LIGHT: Ink = Ink([240, 243, 246], 1.0);
-/// Grid lines on a curved mold.
-pub(super) const MOLD_EDGE: Ink = Ink([176, 183, 193], 1.0);
-/// The outline of the target on the mold.
-pub(super) const TARGET: Ink = Ink([88, 98, 112], 1.0);
-/// Fabric lines on the surface.
-pub(super) const WEAVE: Ink = Ink([255; 3], 0.28);
-/// Catenaries and contact.
+/// The place of the largest shear.
 pub(super) const RED: Ink = Ink([214, 25, 33], 1.0);
-/// Grippers.
+/// Seeds and arrows.
 pub(super) const BLACK: Ink = Ink([20, 22, 26], 1.0);
-/// Edge of a gripper, which keeps it apart from dark parts of the ply.
-pub(super) const EDGE: Ink = Ink([255; 3], 0.9);
-
 /// Viridis at every sixteenth of its range.
 const VIRIDIS: [[u8; 3]; 17] = [
     [68, 1, 84],

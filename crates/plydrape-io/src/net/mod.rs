@@ -4,7 +4,7 @@
 //!
 //! - `nodes.csv`, where every point of the fabric should end ([`nodes`]);
 //! - `boundary.csv` and `boundary.dxf`, the ply's boundary on the mold ([`boundary`]);
-//! - `shear.svg`, the shear map ([`figure::shear_map`]);
+//! - `shear.svg`, the shear on the flat fabric ([`figure::shear_map`]);
 //! - `seeds.csv` and `seeds.svg`, what each seed costs, where it was searched for ([`seeds`], [`figure::seeds`]);
 //! - `net.vtp` and `mold.vtp` for ParaView and other readers of VTK's files ([`polygons`]).
 //!
@@ -31,8 +31,7 @@ use std::path::{Path, PathBuf};
 /// Returns the paths written. Same net, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if the net has no node with a place, a number is not finite, a file in the way is not
-/// plydrape's, or the disk refuses; the folder is then as it was.
+/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses; the folder is then as it was.
 pub fn write_all(
     net: &Net,
     mold: &Mold,
@@ -46,17 +45,16 @@ pub fn write_all(
     let boundary = findings.boundary.as_ref().filter(|boundary| !boundary.lines.is_empty());
     let lines = boundary.map(boundary::table).transpose()?;
     let drawing = boundary.map(boundary::dxf);
-    let map = figure::shear_map::svg(net, mold, title)?;
+    let map = figure::shear_map::svg(net, title);
     let costs = findings.seeds.as_ref().map(seeds::table).transpose()?;
     let picture = findings.seeds.as_ref().map(|seeds| figure::seeds::svg(seeds, net, title));
-    let picture = picture.transpose()?;
     let cells = polygons::net(net);
     let surface = polygons::mold(net, mold);
     let texts = [
         ("nodes.csv", Some(&nodes)),
         ("boundary.csv", lines.as_ref()),
         ("boundary.dxf", drawing.as_ref()),
-        ("shear.svg", Some(&map)),
+        ("shear.svg", map.as_ref()),
         ("seeds.csv", costs.as_ref()),
         ("seeds.svg", picture.as_ref()),
     ];

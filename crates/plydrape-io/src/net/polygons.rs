@@ -5,10 +5,15 @@
 use super::nodal_shear;
 use crate::vtk::polydata::{Array, Kind, PolyData};
 use plydrape::mold::Mold;
+use plydrape::mold::patch::patch;
 use plydrape::net::Net;
 use std::collections::HashMap;
 
 type Point = [f64; 3];
+
+/// Triangles of the mold, at most, and how far it goes beyond the net, as a share of the net's width.
+const TRIANGLES: usize = 8000;
+const BEYOND: f64 = 0.06;
 
 /// The net. At points: fabric coordinates `u`, `v` (m), grid indices `i`, `j`, `shear_deg` as in
 /// `nodes.csv`, and `has_shear`, 1 where that is known; else both 0. In cells: `shear_deg`, the magnitude; `signed_shear_deg`, positive where u and v stand at
@@ -56,27 +61,20 @@ pub fn net(net: &Net) -> Vec<u8> {
     PolyData { points, kind: Kind::Polys, cells, at_points, in_cells, fields: Vec::new() }.bytes()
 }
 
-/// The patch of mold that the shear map shows, in triangles; none if the mold is not near the net.
+/// The mold under a net and a little beyond, in triangles; none if the mold is not near the net.
 #[must_use]
 pub fn mold(net: &Net, mold: &Mold) -> Option<Vec<u8>> {
-    let outlines = crate::figure::shear_map::patch(net, mold);
-    let mut points: Vec<Point> = Vec::new();
-    let mut known = HashMap::new();
-    let mut cells = Vec::new();
-    for outline in outlines {
-        let corners: Vec<usize> = outline
-            .iter()
-            .map(|p| {
-                *known.entry(p.map(f64::to_bits)).or_insert_with(|| {
-                    points.push(*p);
-                    points.len() - 1
-                })
-            })
-            .collect();
-        cells.extend(corners[1..].windows(2).map(|pair| vec![corners[0], pair[0], pair[1]]));
-    }
+    let places = || net.nodes.iter().flatten();
+    let bound = |pick: fn(f64, f64) -> f64, start: f64| {
+        [0, 1].map(|c| places().map(|place| place[c]).fold(start, pick))
+    };
+    let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
+    let more = BEYOND * (high[0] - low[0]).hypot(high[1] - low[1]);
+    let found = patch(mold, low.map(|c| c - more), high.map(|c| c + more), TRIANGLES);
+    let cells: Vec<Vec<usize>> =
+        found.triangles.iter().map(|corners| corners.map(|n| n as usize).to_vec()).collect();
     let (kind, at_points, in_cells, fields) = (Kind::Polys, Vec::new(), Vec::new(), Vec::new());
-    let data = PolyData { points, kind, cells, at_points, in_cells, fields };
+    let data = PolyData { points: found.vertices, kind, cells, at_points, in_cells, fields };
     (!data.cells.is_empty()).then(|| data.bytes())
 }
 

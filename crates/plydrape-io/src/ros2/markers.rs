@@ -11,6 +11,7 @@ use crate::mold_patch::mold_patch;
 use crate::result::{ResultFile, catenaries};
 use crate::sheet::{SheetMesh, SheetState};
 use crate::surface::Surface;
+use plydrape::mold::Mold;
 use plydrape::outcome::{Gripper, Step};
 
 type Point = [f64; 3];
@@ -28,6 +29,8 @@ const BLUE: ColorRgba = ColorRgba { r: 0.10, g: 0.30, b: 0.85, a: 1.0 };
 const BLACK: ColorRgba = ColorRgba { r: 0.08, g: 0.09, b: 0.10, a: 1.0 };
 const GREY: ColorRgba = ColorRgba { r: 0.78, g: 0.80, b: 0.83, a: 1.0 };
 
+/// Radius of a gripper's disc as a share of the shorter side of a cell.
+const GRIPPER: f64 = 0.12;
 /// Width of a catenary, and thickness of a gripper's disc, as shares of the disc's radius.
 const LINE: f64 = 0.1;
 const DISC: f64 = 0.2;
@@ -49,7 +52,7 @@ impl Paint {
         let cells = result.scene.ply.lines().surface().cells().max(1);
         let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);
         let grippers = result.steps.iter().flat_map(|step| &step.grippers);
-        let value = |gripper: &Gripper| figure::colour_value(result, gripper.position);
+        let value = |gripper: &Gripper| colour_value(result, gripper.position);
         let range = grippers
             .map(value)
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
@@ -64,6 +67,20 @@ impl Paint {
     }
 }
 
+/// What the ply's color tells at a place (m): its gap to a curved mold, else its height.
+fn colour_value(result: &ResultFile, place: Point) -> f64 {
+    match &result.scene.mold {
+        Some(Mold::Plane(_)) | None => place[2],
+        Some(curved) => curved.signed_distance(place).max(0.0),
+    }
+}
+
+/// Radius of a gripper's disc (m).
+fn gripper_radius(result: &ResultFile) -> f64 {
+    let [a, b] = result.scene.ply.cell;
+    GRIPPER * if result.scene.ply.grid.nv != 1 { a.min(b) } else { a }
+}
+
 /// The markers of a step: the grippers, of catenaries these with the surface between them, of a sheet its `state` if that was kept.
 pub(super) fn ply(
     result: &ResultFile,
@@ -71,7 +88,7 @@ pub(super) fn ply(
     state: Option<(&SheetMesh, &SheetState)>,
     paint: &Paint,
 ) -> MarkerArray {
-    let radius = figure::gripper_radius(result);
+    let radius = gripper_radius(result);
     let mut markers = Vec::with_capacity(4 + step.grippers.len());
     if step.catenaries.is_some() {
         markers.extend(drawn(result, step, paint, radius));
@@ -109,7 +126,7 @@ fn cells(result: &ResultFile, mesh: &SheetMesh, state: &SheetState, paint: &Pain
         let [a, b, c, d] = cell.map(|n| state.positions[n as usize]);
         for place in [a, b, c, a, c, d] {
             marker.points.push(place.into());
-            marker.colors.push(paint.colour(figure::colour_value(result, place)));
+            marker.colors.push(paint.colour(colour_value(result, place)));
         }
     }
     marker
@@ -129,7 +146,7 @@ fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
     let surface = Surface::new(result, step, paint.divisions);
     let [across, along] = surface.size.map(|n| n - 1);
     let colours: Vec<ColorRgba> =
-        (surface.vertices.iter()).map(|p| paint.colour(figure::colour_value(result, *p))).collect();
+        (surface.vertices.iter()).map(|p| paint.colour(colour_value(result, *p))).collect();
     let mut marker = Marker { color: GREY, ..marker("ply", 0, TRIANGLE_LIST) };
     for [k, m] in (0..along).flat_map(|m| (0..across).map(move |k| [k, m])) {
         let first = m * (across + 1) + k;

@@ -48,7 +48,7 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
 }
 
 /// The verdict on a strategy in a word.
-pub(crate) fn verdict(row: &Row) -> &'static str {
+fn verdict(row: &Row) -> &'static str {
     match (row.not_draped, row.accepted) {
         (true, _) => "not draped",
         (false, true) => "accepted",

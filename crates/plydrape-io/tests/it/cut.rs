@@ -170,9 +170,7 @@ fn a_cut_ply_is_written_to_every_file() {
     let read = plydrape_io::read::read(&results.join("result.json")).unwrap();
     assert_eq!(read.scene.ply, scene.layup.ply);
     let any = export::Options { even_if_rejected: true, ..export::Options::default() };
-    for format in
-        [Format::Csv, Format::Svg, Format::Ros2, Format::Vtk, Format::Pattern, Format::Boundary]
-    {
+    for format in [Format::Csv, Format::Ros2, Format::Vtk, Format::Pattern, Format::Boundary] {
         let files = export::files(&read, format, &any)
             .unwrap_or_else(|error| panic!("{format:?}: {error}"));
         assert!(

@@ -92,7 +92,7 @@ fn a_forged_result_is_refused_or_harmless() {
                     page::html(&result).map(drop).err().map_or(String::new(), |e| e.to_string());
                 let options =
                     export::Options { even_if_rejected: true, ..export::Options::default() };
-                for format in [Format::Csv, Format::Inp, Format::Svg, Format::Ros2, Format::Vtk] {
+                for format in [Format::Csv, Format::Inp, Format::Ros2, Format::Vtk] {
                     match export::write(&result, format, &options, folder.path()) {
                         Err(error) => all += &format!("{format:?}: {error}"),
                         Ok(files) => {

@@ -9,7 +9,7 @@ use plydrape::scene::Scene;
 use plydrape_io::result::Turned;
 use plydrape_io::scene::{self, SceneFile};
 use plydrape_io::{Content, ResultFile};
-use plydrape_io::{csv, figure, page, read};
+use plydrape_io::{csv, page, read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -48,7 +48,7 @@ fn again(result: &ResultFile) -> ResultFile {
     read::parse(result.text().unwrap().as_bytes(), Path::new("result.json")).unwrap()
 }
 
-/// Every example's result reads back to what writes the same bytes: the file, its tables, figure and page.
+/// Every example's result reads back to what writes the same bytes: the file, its tables and page.
 #[test]
 fn all_outputs_can_be_made_from_the_file_alone() {
     for scene in examples() {
@@ -58,8 +58,6 @@ fn all_outputs_can_be_made_from_the_file_alone() {
         assert_eq!(back.text().unwrap(), result.text().unwrap(), "{what}");
         assert_eq!(csv::steps(&back).unwrap(), csv::steps(&result).unwrap(), "{what}");
         assert_eq!(csv::trajectory(&back).unwrap(), csv::trajectory(&result).unwrap(), "{what}");
-        let figures = [&back, &result].map(|r| figure::svg(r, &figure::default_steps(r)).unwrap());
-        assert_eq!(figures[0], figures[1], "{what}");
         let pages = [&back, &result].map(|r| page::html(r).unwrap());
         assert_eq!(pages[0], pages[1], "{what}");
         assert_eq!(back.scene.input, scene.input, "{what}");

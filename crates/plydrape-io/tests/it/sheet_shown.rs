@@ -1,4 +1,4 @@
-//! What shows the sheet of a result: files for VTK, the page, the figure.
+//! What shows the sheet of a result: files for VTK, the page.
 
 use crate::common::examples;
 use plydrape::outcome;

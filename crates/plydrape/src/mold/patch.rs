@@ -99,7 +99,7 @@ fn sampled(
 
 /// The last point of the mold (m) on the way from a place with one to a place without.
 #[must_use]
-pub fn boundary(
+fn boundary(
     mut last: [f64; 3],
     mut with: [f64; 2],
     mut without: [f64; 2],

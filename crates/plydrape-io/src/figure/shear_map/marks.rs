@@ -1,7 +1,5 @@
-//! What stands on both pictures of a net: its seed, the ways of u and v, the largest shear.
+//! What is marked on the picture of a net: its seed, the ways of u and v, the largest shear.
 
-use super::PANELS;
-use crate::figure::FigureError;
 use crate::figure::canvas::{Canvas, Ink, Px, Type};
 use crate::figure::colour::{BLACK, DARK, RED};
 use plydrape::net::Net;
@@ -31,8 +29,8 @@ pub(super) fn marked(net: &Net) -> Option<(f64, [usize; 2])> {
 }
 
 /// A line with a head at its end and its name beyond it, readable on every color.
-pub(super) fn arrow(canvas: &mut Canvas, path: &[Px], name: &str) -> Result<(), FigureError> {
-    let [.., before, tip] = path else { return Ok(()) };
+pub(super) fn arrow(canvas: &mut Canvas, path: &[Px], name: &str) {
+    let [.., before, tip] = path else { return };
     let size = (tip[0] - before[0]).hypot(tip[1] - before[1]).max(1e-9);
     let along = [0, 1].map(|c| (tip[c] - before[c]) / size);
     let place = |ahead: f64, aside: f64| {
@@ -41,42 +39,34 @@ pub(super) fn arrow(canvas: &mut Canvas, path: &[Px], name: &str) -> Result<(), 
     let head = |grow: f64| {
         [place(1.0 + grow, 0.0), place(-8.0 - grow, 4.0 + grow), place(-8.0 - grow, -4.0 - grow)]
     };
-    canvas.line(path, WHITE, 3.4)?;
-    canvas.polygon(&head(1.4), WHITE)?;
-    canvas.line(path, BLACK, 1.6)?;
-    canvas.polygon(&head(0.0), BLACK)?;
-    badge(canvas, place(13.0, 0.0), name)
+    canvas.line(path, WHITE, 3.4);
+    canvas.polygon(&head(1.4), WHITE);
+    canvas.line(path, BLACK, 1.6);
+    canvas.polygon(&head(0.0), BLACK);
+    badge(canvas, place(13.0, 0.0), name);
 }
 
 /// The seed.
-pub(super) fn dot(canvas: &mut Canvas, at: Px) -> Result<(), FigureError> {
-    disc(canvas, at, 5.2, WHITE)?;
-    disc(canvas, at, 4.0, BLACK)
+pub(super) fn dot(canvas: &mut Canvas, at: Px) {
+    canvas.disc(at, 5.2, WHITE);
+    canvas.disc(at, 4.0, BLACK);
 }
 
-/// The place of the largest shear, and how large it is.
-pub(super) fn mark(canvas: &mut Canvas, at: Px, value: &str) -> Result<(), FigureError> {
-    canvas.circle(at, 5.0, WHITE, 3.6)?;
-    canvas.circle(at, 5.0, RED, 1.8)?;
+/// The place of the largest shear, and how large it is; the text ends before `right`.
+pub(super) fn mark(canvas: &mut Canvas, at: Px, value: &str, right: f64) {
+    canvas.circle(at, 5.0, WHITE, 3.6);
+    canvas.circle(at, 5.0, RED, 1.8);
     let half = 3.4 * value.chars().count() as f64;
     // beside the mark, on the side with room
-    let side = if at[0] + 2.0 * half + 20.0 < PANELS { 1.0 } else { -1.0 };
-    badge(canvas, [at[0] + side * (10.0 + half), at[1]], value)
+    let side = if at[0] + 2.0 * half + 20.0 < right { 1.0 } else { -1.0 };
+    badge(canvas, [at[0] + side * (10.0 + half), at[1]], value);
 }
 
 /// A short text on a light ground.
-fn badge(canvas: &mut Canvas, at: Px, text: &str) -> Result<(), FigureError> {
+fn badge(canvas: &mut Canvas, at: Px, text: &str) {
     let half = [3.4 * text.chars().count() as f64 + 2.5, 7.5];
     let corner = |x: f64, y: f64| [at[0] + x * half[0], at[1] + y * half[1]];
     let ring = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-    canvas.polygon(&ring, Ink([255; 3], 0.82))?;
-    canvas.text(text, at, Type { size: 12.0, bold: true, ink: DARK, side: 0 })
-}
-
-fn disc(canvas: &mut Canvas, [x, y]: Px, radius: f64, ink: Ink) -> Result<(), FigureError> {
-    let ring: Vec<Px> = (0..24)
-        .map(|k| (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos())
-        .map(|(s, c)| [x + radius * c, y + radius * s])
-        .collect();
-    canvas.polygon(&ring, ink)
+    canvas.polygon(&ring, Ink([255; 3], 0.82));
+    canvas.text(text, at, Type { size: 12.0, bold: true, ink: DARK, side: 0 });
 }
