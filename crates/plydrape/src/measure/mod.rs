@@ -477,7 +477,7 @@ mod tests {
         let mut layup = sample::layup();
         layup.settings.pad.slip_force = Some(10.0);
         layup.settings.pad.holding_force = Some(20.0);
-        let mut state = sample::state(&layup);
+        let mut state = PlyState { model: Model::Sheet, ..sample::state(&layup) };
         let asked = [
             Name::GripperLoad,
             Name::GripperPull,
