@@ -53,7 +53,7 @@ impl ModelError {
 
 /// How stiff mounts are, in N/mm: `2 N/mm along the ply, 5 N/mm across it`.
 fn stiffness(lateral: Option<f64>, axial: Option<f64>) -> String {
-    let along = |(k, axis): (Option<f64>, &str)| Some(format!("{} N/mm {axis}", 1e-3 * k?));
+    let along = |(k, axis): (Option<f64>, &str)| Some(format!("{} N/mm {axis}", k? / 1e3));
     let axes = [(lateral, "along the ply"), (axial, "across it")];
     axes.into_iter().filter_map(along).collect::<Vec<_>>().join(", ")
 }
