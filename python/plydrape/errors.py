@@ -154,8 +154,7 @@ class SolveError(PlydrapeError, ArithmeticError):
     Attributes
     ----------
     status
-        How the solve ended: `stalled`, `iteration-limit`, `length-not-met` or
-        `mounts-not-balanced`.
+        How the solve ended: `stalled`, `iteration-limit` or `length-not-met`.
     iterations
         Iterations on the slopes.
     residual

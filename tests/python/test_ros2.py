@@ -113,9 +113,10 @@ def either(request: pytest.FixtureRequest) -> Exported:
 
 @pytest.fixture(scope="module")
 def mounted(tmp_path_factory: pytest.TempPathFactory) -> Exported:
-    """A drape of grippers on mounts, which have a preload besides."""
+    """A drape of a sheet from grippers on mounts, which have a preload besides."""
     home = tmp_path_factory.mktemp("mounted")
-    result = made("simulate", home, SCENE.replace("[target]", MOUNTS + "[target]"))
+    scene = SCENE.replace('kind = "catenaries"', 'kind = "sheet"\n[sheet]\nmesh = "40 mm"')
+    result = made("simulate", home, scene.replace("[target]", MOUNTS + "[target]"))
     return Exported(result, result.export("ros2"))
 
 
@@ -271,7 +272,7 @@ def test_loads_are_those_of_the_table_and_of_the_springs(mounted: Exported) -> N
 
     Of stiffness k: F = -k p.
 
-    1e-6 N is the balance of ply and mounts.
+    1e-6 N is above the rounding of positions of a meter times k.
     """
     [(time, message)] = mounted.decoded("/plydrape/loads")
     assert time == 0 and message.header.frame_id == "mold"

@@ -12,7 +12,7 @@ import { handle, type FullHandle, type Handle } from "./page/handle";
 import { linkHover } from "./page/hover";
 import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
-import { showLimit, showLimits, showStrength, showVerdict } from "./page/limits";
+import { showLimit, showLimits, showVerdict } from "./page/limits";
 import { asked, colourOf, pointerOf, worst } from "./page/opening";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
@@ -73,7 +73,6 @@ async function open(): Promise<void> {
   linkLegend(state, motion);
   linkTimeline(state, player, motion);
   showLimits(state, data);
-  showStrength(data);
   showSample(state, motion);
   const charts = new Charts(state, data);
   showFacts(data);

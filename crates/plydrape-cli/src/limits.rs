@@ -1,9 +1,8 @@
-//! `plydrape limits`: the presets of limits, each figure with its source, and what is published of fiber angles.
+//! `plydrape limits`: the presets of limits, each figure with its source.
 
 use crate::failure::Done;
 use crate::numbers::written;
 use plydrape::measure::Preset;
-use plydrape_io::strength;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -41,12 +40,6 @@ fn text() -> String {
         "A preset is a set of numbers, no standard: a drape that keeps it has not been shown to keep one.",
         "",
     );
-    text += "\nStrength that fiber angles cost, as published:\n";
-    for note in strength::published() {
-        text += &wrapped(&format!("{}: {}", note.angles, note.text), "  ");
-        text += &wrapped(&note.source, "    ");
-    }
-    text += &wrapped(strength::INFORMATION, "  ");
     text
 }
 

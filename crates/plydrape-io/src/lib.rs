@@ -7,7 +7,7 @@
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`page`], [`pattern`]: everything else is made from a result;
 //!    [`program`] is what a cell does over time, for the controllers of robots;
 //! 4. [`net`] does the same for an ideal drape, with pictures by [`figure`], [`plan`] for a plan, [`replan`] for one whose ply lies elsewhere, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
-//!    [`table`] prints for people, [`strength`] says what is published of fiber angles;
+//!    [`table`] prints for people;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
 
@@ -44,7 +44,6 @@ pub mod sheet;
 pub mod shown;
 pub mod size;
 pub mod strategy;
-pub mod strength;
 pub mod surface;
 pub mod table;
 pub mod vtk;

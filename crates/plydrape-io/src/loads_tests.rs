@@ -143,24 +143,6 @@ fn motion_csv_has_the_loads_of_the_springs_at_every_sample() {
     assert_eq!(follows.layup.motion, motion.sampled(rate).unwrap());
 }
 
-/// Where the catenaries decide, their mounts do; 1e-6 N is the balance of their forces.
-#[test]
-fn catenaries_on_mounts_have_the_loads_of_their_springs() {
-    let mut scene = dome(MOUNTS, 60);
-    scene.layup.settings.model = Model::Catenaries;
-    let (result, _dir) = draped(&scene);
-    let rows = rows(&csv::trajectory(&result).unwrap());
-    for (n, row) in rows.iter().enumerate() {
-        let gripper = &result.steps[n / 9].grippers[n % 9];
-        assert_eq!(vector(row, "load", "N"), gripper.force);
-        let [load, preload] = [vector(row, "load", "N"), vector(row, "preload", "mm")];
-        for c in 0..3 {
-            let expected = -1e-3 * STIFFNESS[c] * preload[c];
-            assert!((load[c] - expected).abs() < 1e-6, "{} N, {expected} N", load[c]);
-        }
-    }
-}
-
 /// Rigid grippers have loads by either model, and no preload.
 #[test]
 fn rigid_grippers_have_loads_and_no_preload() {

@@ -178,7 +178,7 @@ def test_a_plan_on_mounts_is_followed_where_the_robot_holds_them(tmp_path: Path)
             "stiffness": {"lateral": "0.1 N/mm", "axial": "0.1 N/mm"},
         },
         motion={"kind": "hold"},
-        model={"kind": "catenaries"},
+        sheet={"mesh": "50 mm"},
     )
     result = plydrape.simulate(scene)
     result.write(str(tmp_path / "held"))

@@ -44,13 +44,6 @@ export interface Limit {
   place: Place | null;
 }
 
-/** What a source says of the strength that the angles at the end cost. */
-export interface StrengthNote {
-  angles: string;
-  text: string;
-  source: string;
-}
-
 /** One quantity over the steps: a column of steps.csv. */
 export interface Measure {
   key: string;
@@ -240,8 +233,6 @@ export interface PageData {
   ids: GripperId[];
   /** Every limit of the model that decides, the closest first. */
   limits: Limit[];
-  /** What published data say of such angles, for information, and what they are not. */
-  strength: { notes: StrengthNote[]; warning: string };
   /** The drape by the model that decides. */
   drape: DrapeData;
   /** The drape by the other model, if it was asked for: shown for comparison, and judging nothing. */
@@ -286,9 +277,6 @@ export function checked(found: Partial<PageData> | null): PageData {
   }
   for (const key of LISTS) {
     if (!Array.isArray(found[key])) throw new BrokenData(`the list “${key}” is missing in its data`);
-  }
-  if (!Array.isArray(found.strength?.notes)) {
-    throw new BrokenData("what is published of strength is missing in its data");
   }
   const data = found as PageData;
   if (data.steps.length === 0) throw new BrokenData("its data has no step");

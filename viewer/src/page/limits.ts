@@ -127,22 +127,3 @@ export function showLimit(state: State, data: PageData, limit: Limit): void {
   const pointer = pointerOf(data, limit);
   if (pointer !== null) state.set({ pointer });
 }
-
-/** What published data say of the angles that were found: information below the limits. */
-export function showStrength(data: PageData): void {
-  const { notes, warning } = data.strength;
-  if (notes.length === 0) return;
-  const list = make("dl");
-  for (const { angles, text, source } of notes) {
-    list.append(make("dt", {}, angles), make("dd", {}, text, make("span", { class: "source" }, source)));
-  }
-  byId("limits").append(
-    make(
-      "details",
-      { class: "strength" },
-      make("summary", {}, "Strength: what is published of such fiber angles"),
-      list,
-      make("p", { class: "quiet" }, warning),
-    ),
-  );
-}

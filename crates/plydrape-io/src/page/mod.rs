@@ -33,7 +33,6 @@ use super::OutputError;
 use crate::format::VERSION;
 use crate::result::ResultFile;
 use crate::sheet::ended;
-use crate::strength;
 use block::Block;
 use catenaries::Detail;
 use cell::{Cell, VacuumEvent, cell, events};
@@ -77,8 +76,6 @@ struct Page<'a> {
     ids: Vec<GripperId>,
     /// Every limit of the model that decides, the closest first.
     limits: Vec<Limit<'a>>,
-    /// What published data say of the angles at the end.
-    strength: Strength,
     /// The drape by the model that decides.
     drape: Drape<'a>,
     /// The drape by the other model, if it was asked for: it is shown and judges nothing.
@@ -93,14 +90,6 @@ struct Page<'a> {
     /// The largest errors that the motion stands, in words.
     stands: Option<String>,
     left_out: Vec<String>,
-}
-
-/// What published data say, for information.
-#[derive(Serialize)]
-struct Strength {
-    notes: Vec<strength::Note>,
-    /// What it is and is not.
-    warning: &'static str,
 }
 
 /// How a page is given what it draws.
@@ -184,7 +173,6 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, OutputError> {
         first_contact: summary.first_contact_step(),
         ids: (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect(),
         limits: limits(summary),
-        strength: Strength { notes: strength::notes(summary), warning: strength::INFORMATION },
         left_out: left_out(result, &detail, steps.len(), drape.drawn.len()),
         steps,
         drape,

@@ -47,6 +47,7 @@ pub(super) fn scene(
     let settings = settings(file, &ply, document)?;
     let models = Models::named(file, settings.model, document)?;
     models.check_lines(&ply)?;
+    models.check_mounts()?;
     let places = Surroundings {
         ply: &ply,
         mold: mold.as_ref(),

@@ -1,7 +1,7 @@
 //! Which models drape a scene, and whether each of them can.
 
 use super::error::{Document, SceneError};
-use super::file::{MethodKey, SceneKeys};
+use super::file::{MethodKey, MountTable, SceneKeys};
 use super::located::Located;
 use super::sheet;
 use crate::size::PlanSheets;
@@ -68,6 +68,33 @@ impl<'a> Models<'a> {
         }
     }
 
+    /// Refuses mounts that give where catenaries hold the grippers: as a model, or in the stepwise planner.
+    pub fn check_mounts(&self) -> Result<(), SceneError> {
+        let grippers = self.file.grippers.as_ref();
+        let mounts = grippers.and_then(|table| table.value.stiffness.as_ref());
+        let gives = |mount: &&Located<MountTable>| {
+            mount.value.lateral.is_some() || mount.value.axial.is_some()
+        };
+        let Some(Located { span, .. }) = mounts.filter(gives) else { return Ok(()) };
+        let stepwise = matches!(self.file.plan.method, Some(MethodKey::Stepwise));
+        let (what, help) = match (self.decides, self.also) {
+            (Model::Catenaries, _) => (
+                "catenaries hold their grippers rigidly, and these mounts give",
+                "take kind = \"sheet\" in [model], or leave out `stiffness`",
+            ),
+            (_, Some((Model::Catenaries, _))) => (
+                "the catenaries beside the sheet hold their grippers rigidly, and these mounts give",
+                "leave out `also` in [model], or `stiffness`",
+            ),
+            _ if stepwise => (
+                "the stepwise planner follows catenaries, which hold their grippers rigidly, and these mounts give",
+                "plan it with method = \"path\" in [plan], or leave out `stiffness`",
+            ),
+            _ => return Ok(()),
+        };
+        Err(self.document.error(span.clone(), what, help))
+    }
+
     /// Refuses a sheet that material, pads, mesh or memory do not allow. Returns the sheets of a plan; none where catenaries decide.
     pub fn check_sheets(
         &self,
@@ -114,7 +141,7 @@ impl<'a> Models<'a> {
 /// What helps where a model cannot be made.
 fn remedy(fault: &ModelError) -> &'static str {
     match fault {
-        ModelError::NoCatenaries => "write kind = \"sheet\" in [model]",
+        ModelError::NoCatenaries | ModelError::Mounts { .. } => "write kind = \"sheet\" in [model]",
         ModelError::Sheet(SheetError::PadSmall { .. } | SheetError::PadPoint { .. }) => {
             "give a larger `pad_radius` in [grippers], or a finer `mesh` in [sheet]"
         }

@@ -169,13 +169,14 @@ fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, SceneE
     let force = |key: &Option<Quantity<Force>>| {
         key.as_ref().map(|key| key.within_for(document, PAD_FORCES, "a pad")).transpose()
     };
+    let stiffness = table.stiffness.as_ref().map(|keys| &keys.value);
     Ok(PadSettings {
         radius: match &table.pad_radius {
             Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => usual.radius,
         },
-        lateral_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.lateral.as_ref()))?,
-        axial_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.axial.as_ref()))?,
+        lateral_stiffness: mount(stiffness.and_then(|keys| keys.lateral.as_ref()))?,
+        axial_stiffness: mount(stiffness.and_then(|keys| keys.axial.as_ref()))?,
         slip_force: force(&table.slip_force)?,
         holding_force: force(&table.holding_force)?,
     })

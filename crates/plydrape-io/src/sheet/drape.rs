@@ -51,6 +51,9 @@ pub fn model_remedy(fault: &ModelError) -> &'static str {
             "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
         }
         ModelError::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
+        ModelError::Mounts { .. } => {
+            "take the sheet (kind = \"sheet\" in [model]) and its planner (method = \"path\" in [plan]) alone, or leave out `stiffness` in [grippers]"
+        }
     }
 }
 

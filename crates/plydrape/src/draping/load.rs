@@ -9,13 +9,10 @@ use crate::layup::Layup;
 /// The forces of the ply on all grippers (N), in the order of [`crate::ply::Ply::index`].
 ///
 /// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
-/// artifact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
+/// artifact of the axial stiffness; half of its weight counts.
 #[must_use]
 pub fn forces(layup: &Layup, snapshot: &Snapshot) -> Vec<[f64; 3]> {
     let (ply, lines) = (&layup.ply, layup.ply.lines());
-    if let Some(mounts) = &snapshot.mounts {
-        return mounts.force.clone();
-    }
     let mut out = vec![[0.0; 3]; ply.grippers()];
     for span in snapshot.shape.spans.iter().filter(|span| span.catenary < lines.edges()) {
         let share = lines.tributary(span.catenary);

@@ -4,7 +4,7 @@
 //! ([`crate::equilibrium`]), find the contact, and hand over the ply as any model says it ([`PlyState`](crate::state::PlyState)), with
 //! the catenaries themselves ([`record`]) where they are recorded. What is measured and judged follows from the states.
 //!
-//! 1. `stepping`: one move of the grippers; `contact`, `gap`, `sampling`, `bridge`, `standing`: how the contact follows;
+//! 1. `stepping`: one move of the grippers; `contact`, `gap`, `sampling`, `bridge`: how the contact follows;
 //! 2. `spans`, `snapshot`: the ply as it was solved; `attitude`, `misfit`, `landing`, `load`: what follows from that; `solved_step`
 //!    computes it when it is needed;
 //! 3. `ply_state`, `recording`: what is handed over of a step; `stop`: where no ply would survive;
@@ -20,8 +20,6 @@ pub mod gap;
 mod landing;
 mod load;
 pub(crate) mod misfit;
-#[cfg(test)]
-mod mount_tests;
 mod ply_state;
 #[cfg(test)]
 mod ply_state_tests;
@@ -32,7 +30,6 @@ pub mod sampling;
 mod snapshot;
 mod solved_step;
 pub mod spans;
-mod standing;
 mod stepping;
 mod stop;
 mod tuning;

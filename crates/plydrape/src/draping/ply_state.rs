@@ -1,7 +1,8 @@
 //! A solved step as any model says it.
 //!
 //! The catenaries know the ply along lines alone: its points have no normals and stand for no area. Landing errors and fiber angles are
-//! those of fibers; a diagonal is none, and where it lands follows from the shear that its cell lands with.
+//! those of fibers; a diagonal is none, and where it lands follows from the shear that its cell lands with. Grippers are where they are
+//! commanded, and no fabric slides under them.
 
 use super::curves::hanging;
 use super::load::forces;
@@ -46,16 +47,15 @@ pub fn ply_state(step: &SolvedStep, detail: Detail) -> PlyState {
 fn grippers(step: &SolvedStep) -> Vec<GripperState> {
     let snapshot = step.snapshot;
     let forces = forces(step.layup, snapshot);
-    let slip = |n: usize| snapshot.mounts.as_ref().map_or([0.0; 2], |mounts| mounts.slip[n]);
     let gripper = |n: usize| {
-        let (attitude, [x, y]) = (&step.attitudes()[n], slip(n));
+        let attitude = &step.attitudes()[n];
         GripperState {
             position: snapshot.positions[n],
-            commanded: snapshot.commanded()[n],
+            commanded: snapshot.positions[n],
             quaternion: attitude.quaternion,
             tilt: attitude.tilt,
             force: forces[n],
-            slide: x.hypot(y),
+            slide: 0.0,
             holds: true,
         }
     };

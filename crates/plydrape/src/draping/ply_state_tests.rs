@@ -1,15 +1,70 @@
 //! What a step of the catenaries says of the ply.
 
-use super::mount_tests::{down, draped, lowered};
+use super::record::CatenaryStep;
 use super::{Follow, follow};
-use crate::layup::{Layup, PadSettings};
-use crate::ply::Grid;
+use crate::layup::{Layup, Model, Settings};
+use crate::material::{Material, Section};
+use crate::mold::{Mold, Plane};
+use crate::motion::Motion;
+use crate::ply::{Grid, Ply};
 use crate::state::{LineState, PlyState, Site};
 use std::ops::ControlFlow;
 
+fn plane() -> Mold {
+    Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] })
+}
+
+/// A ply that is lowered onto the plane z = 0 in steps, its grippers at a spacing (m) that grows to another.
+fn lowered(grid: Grid, heights: &[f64], [first, last]: [f64; 2]) -> Layup {
+    let material = Material {
+        name: "krogh2018".into(),
+        source: "Krogh et al. 2018, Table 1".into(),
+        section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
+        shear_curve: None,
+        tension: None,
+        locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
+    };
+    let ply = Ply::of_array(grid, [0.1; 2], material);
+    let settings = Settings { model: Model::Catenaries, ..Settings::default() };
+    let share = |step: usize| step as f64 / (heights.len() - 1).max(1) as f64;
+    let place = |n: usize, step: usize| {
+        let spacing = first + share(step) * (last - first);
+        let middle = [grid.nu, grid.nv].map(|count| 0.5 * (count - 1) as f64);
+        let [i, j] = grid.id(n);
+        [spacing * (i as f64 - middle[0]), spacing * (j as f64 - middle[1]), heights[step]]
+    };
+    let positions = |step| (0..grid.grippers()).map(|n| place(n, step)).collect();
+    let motion = Motion {
+        times: (0..heights.len()).map(|n| n as f64).collect(),
+        positions: (0..heights.len()).map(positions).collect(),
+    };
+    Layup { mold: Some(plane()), ..Layup::new(ply, settings, motion) }
+}
+
+/// Every step of a drape that is solved to its end.
+fn draped(layup: &Layup) -> Vec<(PlyState, CatenaryStep)> {
+    let mut steps = Vec::new();
+    let options = Follow { most_equilibria: usize::MAX, full: true };
+    follow(layup, options, |state, record, _| {
+        let record = record.unwrap();
+        assert!(record.solver.found(), "step {}: {:?}", state.step, record.solver);
+        steps.push((state.clone(), record));
+        ControlFlow::Continue(())
+    });
+    assert_eq!(steps.len(), layup.motion.positions.len());
+    steps
+}
+
+/// From 40 mm down to a last height (m).
+fn down(last: f64, steps: usize) -> Vec<f64> {
+    (0..steps).map(|n| 0.04 + (last - 0.04) * n as f64 / (steps - 1) as f64).collect()
+}
+
 /// A ply that comes down to a plane with 2 % of slack along u and v, of which it keeps a quarter.
 fn layup() -> Layup {
-    lowered(Grid { nu: 4, nv: 3 }, PadSettings::default(), &down(0.0, 20), [0.098, 0.0995])
+    lowered(Grid { nu: 4, nv: 3 }, &down(0.0, 20), [0.098, 0.0995])
 }
 
 /// Every step as a search sees it.
@@ -92,7 +147,7 @@ fn a_search_ends_when_its_equilibria_are_spent() {
 #[test]
 fn a_drape_ends_where_a_fiber_is_torn() {
     let spacings = [0.098, 0.115];
-    let layup = lowered(Grid { nu: 3, nv: 1 }, PadSettings::default(), &[0.05; 18], spacings);
+    let layup = lowered(Grid { nu: 3, nv: 1 }, &[0.05; 18], spacings);
     let (mut last, mut steps) = (false, 0);
     let options = Follow { most_equilibria: usize::MAX, full: true };
     let followed = follow(&layup, options, |state, _, is_last| {

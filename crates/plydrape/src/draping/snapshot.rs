@@ -2,7 +2,7 @@
 
 use super::bridge::Bridge;
 use super::spans::{Point, Shape};
-use crate::equilibrium::{Equilibrium, MountedSolver, Status};
+use crate::equilibrium::{Equilibrium, Status};
 use crate::ply::ContactSegment;
 
 /// The ply in one step, with everything that is known of it.
@@ -12,10 +12,8 @@ pub(crate) struct Snapshot {
     pub step: usize,
     /// Time (s).
     pub time: f64,
-    /// Where the grippers hold the fabric (m).
+    /// Where the grippers are (m), which hold the fabric there.
     pub positions: Vec<Point>,
-    /// Their mounts, where they yield.
-    pub mounts: Option<MountState>,
     /// Free spans and the equilibrium that holds them.
     pub shape: Shape,
     /// Contact segment of each catenary.
@@ -35,37 +33,7 @@ pub(crate) struct Snapshot {
     pub contact_status: ContactStatus,
 }
 
-/// The mounts of all grippers in one step, in the order of [`crate::ply::Ply::index`].
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct MountState {
-    /// Where the robot holds them (m).
-    pub commanded: Vec<Point>,
-    /// Force on each gripper (N).
-    pub force: Vec<[f64; 3]>,
-    /// How far the fabric has slid under each pad, along x and y (m).
-    pub slip: Vec<[f64; 2]>,
-    /// Whether each pad stands on the mold.
-    pub standing: Vec<bool>,
-}
-
-impl MountState {
-    /// Of the last solve, with the robot at `commanded` (m).
-    pub fn of(mounts: &MountedSolver, commanded: &[Point]) -> Self {
-        MountState {
-            commanded: commanded.to_vec(),
-            force: (0..commanded.len()).map(|n| mounts.gripper_force(n)).collect(),
-            slip: mounts.reactions().iter().map(|reaction| reaction.slip).collect(),
-            standing: mounts.standing().iter().map(Option::is_some).collect(),
-        }
-    }
-}
-
 impl Snapshot {
-    /// Where the robot holds the grippers (m).
-    pub fn commanded(&self) -> &[Point] {
-        self.mounts.as_ref().map_or(&self.positions, |mounts| &mounts.commanded)
-    }
-
     /// Why this step is no solution, if it is none.
     #[must_use]
     pub fn failure(&self) -> Option<&'static str> {

@@ -68,9 +68,8 @@ impl<'a> SolvedStep<'a> {
             let mut attitudes: Vec<Attitude> = (0..ply.grippers()).map(turned).collect();
             // with a tool it tilts from the stem, and a pad without a joint is turned with the frame
             if self.layup.tool.is_some() {
-                let commanded = self.snapshot.commanded();
-                let stem = self.layup.stems(commanded);
-                let fixed = self.layup.fixed_pads(commanded);
+                let stem = self.layup.stems(positions);
+                let fixed = self.layup.fixed_pads(positions);
                 for (n, attitude) in attitudes.iter_mut().enumerate() {
                     attitude.tilt = angle_between(normal(attitude.quaternion), stem);
                     if let Some(turned) = fixed {

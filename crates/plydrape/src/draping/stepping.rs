@@ -4,12 +4,10 @@ use super::bridge::Bridge;
 use super::contact::{self, Diagonal};
 use super::gap::GapSamples;
 use super::sampling::GapCache;
-use super::snapshot::MountState;
 use super::spans::{FreeSpan, Point, Shape, shape};
-use super::standing::Ground;
 use super::tuning::TUNING;
 use super::{CellShear, ContactStatus, Snapshot};
-use crate::equilibrium::{Continuation, Equilibrium, MountedSolver, Solver, Status};
+use crate::equilibrium::{Equilibrium, Solver, Status};
 use crate::layup::{Layup, Stepping};
 use crate::ply::{ContactSegment, Kind, Lines, shear};
 use crate::stopwatch::Stopwatch;
@@ -24,9 +22,7 @@ pub(crate) struct Draping<'a> {
     lines: Arc<Lines>,
     /// The solver, as it was left by the last move.
     pub(crate) solver: Solver,
-    /// The mounts of the grippers, where they yield.
-    pub(crate) mounts: Option<MountedSolver>,
-    /// Where the grippers are (m): where the robot holds their mounts.
+    /// Where the grippers are (m), which hold the fabric there.
     pub(crate) positions: Vec<Point>,
     /// Contact segment of each catenary.
     pub(crate) contacts: Vec<Option<ContactSegment>>,
@@ -50,7 +46,6 @@ impl<'a> Draping<'a> {
             layup,
             lines: layup.ply.lines(),
             solver: Solver::new(&layup.ply, &layup.settings),
-            mounts: (count > 0).then(|| MountedSolver::new(&layup.ply, &layup.settings)).flatten(),
             positions: layup.motion.positions[0].clone(),
             contacts: vec![None; count],
             bridges: vec![None; count],
@@ -64,40 +59,16 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// Solves the equilibrium at gripper positions; where mounts are hard to balance, by all means or only by a direct search.
-    fn solve(&mut self, positions: &[Point], continuation: Continuation) -> Shape {
+    /// Solves the equilibrium at gripper positions (m).
+    fn solve(&mut self, positions: &[Point]) -> Shape {
         let watch = Stopwatch::start();
-        let equilibrium: Equilibrium = match &mut self.mounts {
-            None => self.solver.solve(positions, &self.contacts),
-            Some(mounts) => {
-                if let Some(ground) = ground(self.layup, &self.contacts) {
-                    ground.lead(mounts, positions);
-                }
-                mounts.solve(&mut self.solver, positions, &self.contacts, continuation)
-            }
-        };
+        let equilibrium = self.solver.solve(positions, &self.contacts);
         self.solving += watch.elapsed();
         self.equilibria += 1;
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
         }
-        let pads = self.mounts.as_ref().map_or(positions, MountedSolver::pads);
-        shape(&self.layup.ply, &self.solver, equilibrium, pads, &self.contacts)
-    }
-
-    /// Where the fabric is held (m): the pads, or the grippers themselves where their mounts are rigid.
-    pub(crate) fn pads(&self) -> &[Point] {
-        self.mounts.as_ref().map_or(&self.positions, MountedSolver::pads)
-    }
-
-    /// Lets pads come to stand on the mold, and at first lifts off those that do no longer; whether any did.
-    fn update_pads(&mut self, lift: bool) -> bool {
-        let (Some(mounts), Some(ground)) = (&mut self.mounts, ground(self.layup, &self.contacts))
-        else {
-            return false;
-        };
-        // what is lifted off may come down elsewhere in a later round
-        (lift && ground.lift(mounts)) || ground.land(mounts)
+        shape(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.
@@ -108,8 +79,7 @@ impl<'a> Draping<'a> {
         Snapshot {
             step: step + 1,
             time: self.layup.motion.times[step],
-            positions: self.pads().to_vec(),
-            mounts: self.mounts.as_ref().map(|mounts| MountState::of(mounts, goal)),
+            positions: goal.clone(),
             contacts: self.contacts.clone(),
             bridges: self.bridges.clone(),
             deepest: self.deepest,
@@ -146,24 +116,18 @@ impl<'a> Draping<'a> {
 
     /// As in the paper: one equilibrium, the contact evaluated once; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
-        let mut shape = self.solve(goal, Continuation::IfNeeded);
-        for round in 0..2 {
-            if self.update_pads(round == 0) {
-                shape = self.solve(goal, Continuation::IfNeeded);
-            }
-        }
+        let mut shape = self.solve(goal);
         let mut gaps = self.gaps(&shape);
         if self.update_contact(&shape, &gaps) {
-            shape = self.solve(goal, Continuation::IfNeeded);
+            shape = self.solve(goal);
             gaps = self.gaps(&shape);
         }
-        self.keep_slide();
         self.note_depth(&shape, &gaps);
         shape
     }
 
-    /// Cuts the move where the ply would penetrate the mold deeper than the tolerance, or where mounts find no balance, and
-    /// follows the contact at each position until it no longer changes.
+    /// Cuts the move where the ply would penetrate the mold deeper than the tolerance, and follows the contact at each position
+    /// until it no longer changes.
     fn cut_to(&mut self, goal: &[Point]) -> Shape {
         let start = self.positions.clone();
         let at = |fraction: f64| -> Vec<Point> {
@@ -178,76 +142,36 @@ impl<'a> Draping<'a> {
             let next = f64::min(done + part, 1.0);
             let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
             let before = self.unsolved;
-            let kept = self.mounts.clone().map(|mounts| Kept {
-                mounts,
-                solver: self.solver.clone(),
-                contacts: self.contacts.clone(),
-            });
-            let may_cut = start != *goal && part > TUNING.smallest_cut;
-            // a step that could not be followed is not tried any harder
-            let is_followed = before.is_none();
-            let continuation = match !may_cut && is_followed {
-                true => Continuation::IfNeeded,
-                false => Continuation::Never,
-            };
-            let mut shape = self.solve(&place, continuation);
+            let mut shape = self.solve(&place);
             let mut gaps = self.gaps(&shape);
             let deep = self.deep(&shape, &gaps).filter(|_| start != *goal);
-            let is_deep = deep.is_some() || (self.pad_is_deep() && start != *goal);
-            let mut is_cut = is_deep && may_cut;
+            if deep.is_some() && part > TUNING.smallest_cut {
+                // the grippers do not go to this position, so how it was solved does not count
+                self.unsolved = before;
+                part *= 0.5;
+                continue;
+            }
             // a fibre that jumps so far penetrates the mold, which has a limit; a diagonal is no fibre
-            if !is_cut && deep.is_some_and(|catenary| catenary < self.lines.edges()) {
+            if deep.is_some_and(|catenary| catenary < self.lines.edges()) {
                 self.contact_status = ContactStatus::CutLimit;
                 self.note_depth(&shape, &gaps);
             }
             let mut rounds = 0;
-            let is_lost = |shape: &Shape| {
-                let is_lost = shape.equilibrium.status == Status::MountsNotBalanced;
-                is_lost && may_cut && is_followed
-            };
-            is_cut |= is_lost(&shape);
-            // pads first: a span that touches runs from a gripper that stands on the mold
-            while !is_cut && (self.update_pads(rounds == 0) || self.update_contact(&shape, &gaps)) {
-                shape = self.solve(&place, continuation);
+            while self.update_contact(&shape, &gaps) {
+                shape = self.solve(&place);
                 gaps = self.gaps(&shape);
-                is_cut = is_lost(&shape);
                 rounds += 1;
-                if rounds == TUNING.contact_rounds && !is_cut {
+                if rounds == TUNING.contact_rounds {
                     self.contact_status = ContactStatus::RoundLimit;
                     break;
                 }
             }
-            if is_cut {
-                // the grippers do not go to this position, so how it was solved does not count
-                self.unsolved = before;
-                if let Some(kept) = kept {
-                    self.mounts = Some(kept.mounts);
-                    self.solver = kept.solver;
-                    self.contacts = kept.contacts;
-                }
-                part *= 0.5;
-                continue;
-            }
-            self.keep_slide();
             if next >= 1.0 || self.equilibria > self.most {
                 self.note_depth(&shape, &gaps);
                 return shape;
             }
             (done, part) = (next, f64::min(2.0 * part, 1.0 - next));
         }
-    }
-
-    /// Keeps what the fabric has slid under the pads where the grippers have come to.
-    fn keep_slide(&mut self) {
-        if let Some(mounts) = &mut self.mounts {
-            mounts.keep();
-        }
-    }
-
-    /// Whether a pad in the air is deeper below the mold than the tolerance.
-    fn pad_is_deep(&self) -> bool {
-        let ground = ground(self.layup, &self.contacts);
-        self.mounts.as_ref().zip(ground).is_some_and(|(mounts, ground)| ground.is_deep(mounts))
     }
 
     /// Gap samples of every span; none without a mold.
@@ -342,21 +266,4 @@ impl<'a> Draping<'a> {
         }
         changed
     }
-}
-
-/// Where pads, ply and contact are before the grippers move on.
-struct Kept {
-    mounts: MountedSolver,
-    solver: Solver,
-    contacts: Vec<Option<ContactSegment>>,
-}
-
-/// What pads on mounts that yield can stand on; none without a mold.
-fn ground<'a>(layup: &'a Layup, contacts: &'a [Option<ContactSegment>]) -> Option<Ground<'a>> {
-    Some(Ground {
-        mold: layup.mold.as_ref()?,
-        tolerance: layup.settings.contact.tolerance,
-        lines: layup.ply.lines(),
-        contacts,
-    })
 }

@@ -29,13 +29,6 @@ pub(crate) struct Tuning {
     /// Share of its run at both ends in which a diagonal is not drawn through the other one: half spans that short have no
     /// shape.
     pub crossing_margin: f64,
-    /// Pull of the mold on a pad that stands on it, as a share of the largest force of the ply, from which the pad is lifted
-    /// off. 1e-6: what a balance may leave.
-    pub lifting_force: f64,
-    /// Most rounds in which a pad is led to the mold. 20: each takes off all of the height but what the mold curves.
-    pub pad_rounds: usize,
-    /// Least vertical part of the mold's normal with which a pad is led up or down to the mold.
-    pub upright_pad: f64,
     /// Stretch of an edge, as a share of its length, beyond which a drape ends. 0.1: carbon fiber breaks at 1.5 to
     /// 2 %, and the crimp of a woven ply adds some percent.
     pub breaking_stretch: f64,
@@ -54,9 +47,6 @@ pub(crate) const TUNING: Tuning = Tuning {
     shortest_direction: 1e-2,
     parallel_diagonals: 1e-9,
     crossing_margin: 0.01,
-    lifting_force: 1e-6,
-    pad_rounds: 20,
-    upright_pad: 0.1,
     breaking_stretch: 0.1,
     large_landing_error: 0.1,
 };

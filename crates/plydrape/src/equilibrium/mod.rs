@@ -11,8 +11,7 @@
 //! - `newton` is the iteration of either rule, and `status` says how it ended.
 //! - `solver` goes from step to step, with a `warm_start` from earlier solutions, and by continuation where it must.
 //! - `sensitivity` is the exact derivative of a solved state along a `direction`, eq. (11).
-//! - `mount` lets the grippers' pads yield on springs and the fabric slide under them, eqs. (11a) to (11d), with a
-//!   `coloring` of the grippers that are moved at once when the ply is differentiated.
+//! - `coloring` says which grippers are moved at once when the ply is differentiated.
 //! - `tuning` holds every constant of the method.
 
 mod coloring;
@@ -21,7 +20,6 @@ mod force;
 mod hessian;
 mod min_force;
 mod moment_balance;
-mod mount;
 mod newton;
 mod problem;
 mod rule;
@@ -34,9 +32,6 @@ mod warm_start;
 
 pub(crate) use coloring::Coloring;
 pub use direction::{Direction, Property};
-pub use mount::{
-    Continuation, MountLaw, MountReaction, MountedLinearization, MountedSolver, Standing,
-};
 pub use problem::{
     Constraint, Element, End, PlaneSlope, Problem, SharedSlope, Side, SlopeSource, Stretched,
     heading,

@@ -29,8 +29,6 @@ pub struct StateTangent {
     pub spans: Vec<[f64; 3]>,
     /// Change of each element's weight per length (N/m) and flexural rigidity (N·m²).
     pub loads: Vec<[f64; 2]>,
-    /// Change of the moments EI z'' at both ends of each element (N·m).
-    pub moments: Vec<[f64; 2]>,
     /// Change of the taut path of each cell's stretched diagonal (m); 0 where none is.
     pub paths: Vec<f64>,
     /// Change of the slopes of the ply at each gripper along u and v, see [`Solver::gripper_slope`]; 0 where it has
@@ -145,9 +143,6 @@ impl<'a> Linearization<'a> {
             end_slopes: pass.held.iter().map(|h| h.map(|s| s.eps)).collect(),
             spans: elements.iter().map(|e| [e.run.eps, e.rise.eps, e.length.eps]).collect(),
             loads: elements.iter().map(|e| [e.weight.eps, e.rigidity.eps]).collect(),
-            moments: (elements.iter().zip(&pass.responses))
-                .map(|(e, r)| r.curvature.map(|curvature| (e.rigidity * curvature).eps))
-                .collect(),
             paths: problem.shearing.iter().map(|s| s.map_or(0.0, |(path, _)| path.eps)).collect(),
             grippers: (0..positions.len()).map(gripper).collect(),
             is_sound,

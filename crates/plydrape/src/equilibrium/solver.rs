@@ -6,7 +6,6 @@
 
 use super::min_force::MinForce;
 use super::moment_balance::MomentBalance;
-use super::mount::MountLaw;
 use super::newton::{Newton, StepLength};
 use super::problem::{Circumstances, End, Factors, Problem, heading};
 use super::rule::Rule;
@@ -69,10 +68,7 @@ impl Solver {
     /// A solver for a ply under the rules of a scene, without earlier solutions.
     #[must_use]
     pub fn new(ply: &Ply, settings: &Settings) -> Solver {
-        let mut tuning = Tuning::default();
-        if MountLaw::new(ply, &settings.pad, &tuning).is_some() {
-            tuning.length_margin = tuning.mount_length_margin;
-        }
+        let tuning = Tuning::default();
         Solver {
             ply: ply.clone(),
             lines: ply.lines(),
@@ -266,12 +262,6 @@ impl Solver {
             free,
             constrained: *constrained,
         }
-    }
-
-    /// The ply.
-    #[must_use]
-    pub(crate) fn ply(&self) -> &Ply {
-        &self.ply
     }
 
     /// The lines of the ply.

@@ -13,8 +13,6 @@ pub enum Status {
     IterationLimit,
     /// No force was found that gives a span its length.
     LengthNotMet,
-    /// The forces of the ply and those of the grippers' mounts could not be balanced.
-    MountsNotBalanced,
 }
 
 impl Status {
@@ -26,7 +24,6 @@ impl Status {
             Status::Stalled => "stalled",
             Status::IterationLimit => "iteration-limit",
             Status::LengthNotMet => "length-not-met",
-            Status::MountsNotBalanced => "mounts-not-balanced",
         }
     }
 }

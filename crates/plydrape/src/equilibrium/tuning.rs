@@ -94,38 +94,6 @@ pub struct Tuning {
     pub growth: f64,
     /// Growth below which the continuation gives up.
     pub smallest_growth: f64,
-    /// Unbalanced force of a pad, as a share of the largest force at any pad, at which mounts and ply are in balance.
-    /// 1e-9, as for the slopes.
-    pub mount_tolerance: f64,
-    /// The same up to which a search that finds nothing better is limited by rounding.
-    pub mount_rounding: f64,
-    /// Newton steps on the pads after which a solve gives up; a regular one takes one to six.
-    pub mount_iterations: usize,
-    /// Trials of the length of one of these steps.
-    pub mount_trials: usize,
-    /// Share of a step's first work that may be left to do in the other direction at its end. A half, so that a step over
-    /// the place where a slack line becomes taut is cut.
-    pub mount_overshoot: f64,
-    /// Share to which a step is cut that is too long, until one is short enough; then by halves of its logarithm.
-    pub mount_cut: f64,
-    /// Width of that search, as a share of the step, at which what is left is a jump of the forces.
-    pub mount_jump: f64,
-    /// Factor by which a step must lower the unbalanced force for its matrix to be used again.
-    pub mount_contraction: f64,
-    /// Cells to each side of a gripper within which the first matrix knows what it does to the ply.
-    pub mount_reach: usize,
-    /// Share of an array by which its pads are first drawn together where a line that does not stretch would be taut.
-    pub mount_draw: f64,
-    /// Share of the mounts' stiffness from which their continuation starts.
-    pub mount_soft: f64,
-    /// Share of the length tolerance above which a length is met anew where mounts are balanced. 1e-4: the force of a taut
-    /// line is its axial stiffness times the error of its length.
-    pub mount_length_margin: f64,
-    /// Distance that a mount without stiffness yields before the fabric slides, as a share of a cell's shorter side.
-    /// 1e-6: a tenth of a micrometer of 100 mm.
-    pub rigid_yield: f64,
-    /// Rounds of refinement of a derivative with mounts; a regular one takes two to five.
-    pub refinements: usize,
 }
 
 impl Default for Tuning {
@@ -168,20 +136,6 @@ impl Default for Tuning {
             limp: 1e-4,
             growth: 4.0,
             smallest_growth: 1.05,
-            mount_tolerance: 1e-9,
-            mount_rounding: 1e-6,
-            mount_iterations: 60,
-            mount_trials: 40,
-            mount_overshoot: 0.5,
-            mount_cut: 0.1,
-            mount_jump: 1e-3,
-            mount_contraction: 0.1,
-            mount_reach: 1,
-            mount_draw: 1e-3,
-            mount_soft: 1e-4,
-            mount_length_margin: 1e-4,
-            rigid_yield: 1e-6,
-            refinements: 30,
         }
     }
 }

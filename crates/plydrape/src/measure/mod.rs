@@ -62,7 +62,6 @@ mod slope;
 mod speed;
 mod steps;
 mod strain;
-mod strength;
 mod tilt;
 mod tilt_rate;
 mod tool_residual;
@@ -88,7 +87,6 @@ pub use observation::{Observation, Past};
 pub use preset::{Figure, Preset};
 pub use record::{ByName, Measures, Numbers, Worst};
 pub use slack_angle::{angle_of_slack, slack_of_angle};
-pub use strength::{Loss, Plane, Published};
 use tuning::TUNING;
 use unit::DEGREE;
 pub use unit::Unit;
@@ -477,7 +475,7 @@ mod tests {
         let mut layup = sample::layup();
         layup.settings.pad.slip_force = Some(10.0);
         layup.settings.pad.holding_force = Some(20.0);
-        let mut state = sample::state(&layup);
+        let mut state = PlyState { model: Model::Sheet, ..sample::state(&layup) };
         let asked = [
             Name::GripperLoad,
             Name::GripperPull,

@@ -110,3 +110,21 @@ impl Preset {
         self.figures().iter().find(|figure| figure.name == name).map(|figure| figure.value)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nobody reads a promise out of a preset: it names no standard as kept.
+    #[test]
+    fn no_preset_claims_conformity() {
+        for preset in Preset::ALL {
+            let sources = preset.figures().iter().map(|figure| figure.source);
+            for text in sources.chain([preset.about()]) {
+                for word in ["conform", "complies", "compliant", "certif", "in accordance"] {
+                    assert!(!text.to_lowercase().contains(word), "{text}");
+                }
+            }
+        }
+    }
+}

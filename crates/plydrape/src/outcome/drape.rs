@@ -97,7 +97,7 @@ pub struct DrapeWatch<'a> {
 /// # Errors
 /// [`ModelError`] if the scene lacks what the model needs.
 pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, ModelError> {
-    ModelError::check_lines(&scene.layup, model)?;
+    ModelError::check_catenaries(&scene.layup, model)?;
     let (carried, tool) = scene.layup.carried();
     let mut recorder = Recorder::new(&carried, &scene.limits);
     let (mut summary, steps, sheet, solving) = match model {
@@ -193,7 +193,7 @@ pub(super) fn judge_seen(
     most_equilibria: usize,
     stop: &dyn Fn() -> bool,
 ) -> Result<(Judged, Option<sheet::Drape>), ModelError> {
-    ModelError::check_lines(layup, layup.settings.model)?;
+    ModelError::check_catenaries(layup, layup.settings.model)?;
     let (carried, _) = layup.carried();
     let layup = &*carried;
     let planned = layup.motion.positions.len();

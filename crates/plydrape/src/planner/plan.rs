@@ -10,6 +10,7 @@ use super::quickest::{Quickest, quickest};
 use super::record::{LimitedBy, PlanRecord};
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
+use crate::layup::Model;
 use crate::measure::{Name, Verdict, WholeMotion, Worst};
 use crate::motion::{Attitudes, MotionError, TimedMotion};
 use crate::outcome::{self, ModelError, Outcome, Robustness, Watch};
@@ -201,6 +202,7 @@ fn by_path(
 }
 
 fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
+    ModelError::check_catenaries(&scene.layup, Model::Catenaries)?;
     state.begin("step by step");
     let plan = stepwise(scene, &mut |done| {
         state.set_steps(done);

@@ -19,16 +19,6 @@ pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
     sine.clamp(-1.0, 1.0).asin()
 }
 
-/// Signed shear angle γ (rad) of a cell with sides a, b and diagonals d₁, d₂ (m): sin γ = (d₁² − d₂²)/4ab.
-///
-/// Where the sides keep their lengths in a plane it is that of [`angle`]. It passes smoothly through zero, also where the mold
-/// or stretched sides make both diagonals longer.
-#[must_use]
-pub(crate) fn difference_angle([a, b]: [f64; 2], [rising, falling]: [f64; 2]) -> f64 {
-    let sine = (rising * rising - falling * falling) / (4.0 * a * b);
-    sine.clamp(-1.0, 1.0).asin()
-}
-
 /// Weight of a shearing cell's plane in the slopes around it, from 0 at the onset of shear to 1 at the shear angle
 /// `full` (rad): the smoothstep `x²(3 − 2x)` of x = γ/`full`.
 ///

@@ -14,7 +14,7 @@ const CRATES: [(&str, &str); 5] = [
     (
         "plydrape-io",
         "json format file_kind shown size read_error error manifest folder formula input sheet result mesh outline scene strategy \
-         table book loads csv surface figure comparison mold_patch inp pattern program ros2 vtk export fit net strength page plan \
+         table book loads csv surface figure comparison mold_patch inp pattern program ros2 vtk export fit net page plan \
          replan sample",
     ),
     (

@@ -6,9 +6,11 @@ use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
 use plydrape::measure::{Name, Scope, Verdict};
 use plydrape::mold::{Face, Mold, Pose, Sphere};
 use plydrape::outcome::{Status, Summary, judge};
+use plydrape::planner::PlanError;
 use plydrape::ply::{Grid, Ply};
+use plydrape::scene::PlanMethod;
 use plydrape::tool::{Axis, Tool};
-use plydrape::{Limits, Motion, Scene, Settings, plan, simulate};
+use plydrape::{Limits, ModelError, Motion, Scene, Settings, plan, simulate};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
@@ -98,12 +100,8 @@ fn assert_cups_are_judged(summary: &Summary) {
     }
 }
 
-const SCENES: [(Model, bool); 4] = [
-    (Model::Sheet, false),
-    (Model::Sheet, true),
-    (Model::Catenaries, false),
-    (Model::Catenaries, true),
-];
+const SCENES: [(Model, bool); 3] =
+    [(Model::Sheet, false), (Model::Sheet, true), (Model::Catenaries, false)];
 
 /// A limit that applies has a verdict, and no other one has: none is left out, and none is of what the model does not follow.
 #[test]
@@ -122,6 +120,27 @@ fn every_limit_is_judged_along_a_given_motion() {
         assert_eq!(names(&summary.limits), expected, "{model:?} {gives}");
         assert_cups_are_judged(&summary);
     }
+}
+
+/// Catenaries hold their grippers rigidly: wherever they would follow mounts that give, the scene is refused with the stiffness.
+#[test]
+fn catenaries_refuse_mounts_that_give() {
+    let refused = ModelError::Mounts { lateral: Some(2e3), axial: Some(5e3) };
+    assert!(refused.to_string().ends_with("give: 2 N/mm along the ply, 5 N/mm across it"));
+    let mut mounted = scene(Model::Catenaries, true);
+    let Scene { layup, limits, .. } = &mounted;
+    assert_eq!(judge(layup, limits, usize::MAX, &|| false).unwrap_err(), refused);
+    let simulated = simulate(&mounted, |_| ControlFlow::Continue(()));
+    assert_eq!(simulated.unwrap_err(), refused);
+    let planned = |scene: &Scene| plan(scene, None, &mut |_| ControlFlow::Continue(()));
+    assert_eq!(planned(&mounted).unwrap_err(), PlanError::Model(refused.clone()));
+
+    mounted.layup.settings.model = Model::Sheet;
+    mounted.also = true;
+    let simulated = simulate(&mounted, |_| ControlFlow::Continue(()));
+    assert_eq!(simulated.unwrap_err(), refused, "beside the sheet");
+    (mounted.also, mounted.plan.method) = (false, PlanMethod::Stepwise);
+    assert_eq!(planned(&mounted).unwrap_err(), PlanError::Model(refused), "step by step");
 }
 
 /// Of a planned motion every limit is judged, those of the motion in time too.

@@ -296,7 +296,7 @@ pub(super) struct GrippersTable {
     /// Radius of the pads that hold the sheet flat (m); 0 unless given, which holds one point.
     pub pad_radius: Option<Quantity<Length>>,
     /// How far the mounts of the pads yield; rigid unless given.
-    pub stiffness: Option<MountTable>,
+    pub stiffness: Option<Located<MountTable>>,
     /// Largest load along the ply that a pad holds before the fabric slides under it (N); never unless given.
     pub slip_force: Option<Quantity<Force>>,
     /// Largest load across the ply that a pad holds (N); any unless given.
