@@ -1,5 +1,4 @@
-//! How long a user waits: one span, one equilibrium cold and warm, large arrays, the whole example, one factorization of
-//! a sheet and whole drapes of it.
+//! How long a user waits: one span, one equilibrium cold and warm, large arrays, the whole example, and whole drapes of a sheet.
 //!
 //! `benches/run` prints these beside a SciPy solver of the same problem; `benches/README.md` is its
 //! table.
@@ -14,7 +13,6 @@ use plydrape::motion::Motion;
 use plydrape::outcome::{Drape, DrapeWatch, Status, drape};
 use plydrape::ply::Grid;
 use plydrape::scene::Scene;
-use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -168,39 +166,6 @@ fn example_30_steps(bencher: Bencher) {
 fn curved_example(bencher: Bencher, name: &str) {
     let scene = shipped(name);
     bencher.bench_local(|| followed(black_box(&scene), Model::Catenaries));
-}
-
-/// One factorization and one solution of a sheet of `across × along` nodes, each coupled to its eight neighbours and to
-/// two along each line; three unknowns per node.
-#[divan::bench(args = [(19, 7), (31, 11), (31, 31), (31, 61), (56, 46)])]
-fn sheet_factorization(bencher: Bencher, (across, along): (u32, u32)) {
-    let at = |i: u32, j: u32| j * across + i;
-    let pairs = (0..along).flat_map(|j| (0..across).map(move |i| (i, j))).flat_map(|(i, j)| {
-        let others = [(i + 1, j), (i, j + 1), (i + 1, j + 1), (i + 2, j), (i, j + 2)];
-        let inside = |&(k, l): &(u32, u32)| k < across && l < along;
-        let falling = (i > 0 && j + 1 < along).then(|| [at(i, j), at(i - 1, j + 1)]);
-        let others = others.into_iter().filter(inside).map(move |(k, l)| [at(i, j), at(k, l)]);
-        others.chain(falling).collect::<Vec<_>>()
-    });
-    let nodes = (across * along) as usize;
-    let mut matrix = BlockMatrix::new(nodes, pairs);
-    for [i, j] in matrix.pairs().to_vec() {
-        // springs, and a mass at each node
-        let [i, j] = [i as usize, j as usize];
-        matrix.add_scalar(matrix.slot(i, j), -1.0);
-        matrix.add_scalar(matrix.slot(i, i), 1.0);
-        matrix.add_scalar(matrix.slot(j, j), 1.0);
-    }
-    for i in 0..nodes {
-        matrix.add_scalar(matrix.slot(i, i), 0.1);
-    }
-    let mut cholesky = Cholesky::new(&matrix);
-    let mut x = vec![1.0; 3 * nodes];
-    bencher.bench_local(|| {
-        cholesky.factorize(black_box(&matrix)).expect("positive definite");
-        x.fill(1.0);
-        cholesky.solve(&mut x);
-    });
 }
 
 /// A scene with lines of its sheet every so many millimetres.

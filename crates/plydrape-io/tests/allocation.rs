@@ -2,7 +2,6 @@
 
 use plydrape::equilibrium::Solver;
 use plydrape::layup::SlopeRule;
-use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
 use plydrape::sheet::{Status, Tuning, drape};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
@@ -38,25 +37,6 @@ fn a_second_solve_allocates_nothing() {
         assert!(iterations > 10, "{rule:?}: {iterations}");
         assert_eq!((change.allocations, change.reallocations), (0, 0), "{rule:?}");
     }
-}
-
-/// The sheet's factorization has its storage from the analysis of the pattern.
-#[test]
-fn a_factorization_and_its_solution_allocate_nothing() {
-    let nodes = 300;
-    let chain = (0..nodes as u32 - 20).flat_map(|i| [[i, i + 1], [i, i + 20]]);
-    let mut matrix = BlockMatrix::new(nodes, chain);
-    for i in 0..nodes {
-        matrix.add_scalar(matrix.slot(i, i), 1.0);
-    }
-    let mut cholesky = Cholesky::new(&matrix);
-    let mut x = vec![1.0; 3 * nodes];
-    let region = Region::new(ALLOCATOR);
-    cholesky.factorize(&matrix).expect("the identity is positive definite");
-    cholesky.solve(&mut x);
-    let change = region.change();
-    assert!(x.iter().all(|&x| x == 1.0));
-    assert_eq!((change.allocations, change.reallocations), (0, 0));
 }
 
 /// From one time step of a sheet to the next, with contact, halved steps and the relaxation at the end; what is kept

@@ -9,14 +9,13 @@
 //!   touches it (`contact`) and friction holds it (`friction`); pads are on mounts (`mount`); nodes have `weight` and `inertia`.
 //! - An implicit time step is solved by Newton's method in numbered stages (`newton`). Pads move with their grippers (`pads`),
 //!   nodes that lie are left out (`resting`), and what is left are the unknowns (`unknowns`) of a linear system (`system`,
-//!   [`cholesky`]). `cloth` has all of these together, in a `configuration`.
+//!   [`block_cholesky`]). `cloth` has all of these together, in a `configuration`.
 //! - Time steps bring the ply from the flat to rest (`march`), until and after pads let go (`release`, [`event`]); `drape` sees
 //!   to what is seen of it in each step.
 //!
 //! What measures ask of it is handed over as a [`crate::state::PlyState`] (`hand_over`). Lengths in meters, forces in newtons, angles in radians.
 
 mod bending;
-pub mod cholesky;
 mod cloth;
 mod configuration;
 mod contact;

@@ -1,7 +1,6 @@
 //! The linear system of one Newton step: terms of the energy add to nodes and to blocks of unknowns, and what carries a node
 //! ([`Carrier`]) decides which unknowns these are.
 
-use super::cholesky::{BlockMatrix, Cholesky, NotPositiveDefinite, Slot};
 use super::configuration::Configuration;
 use super::energy::Stiffness;
 use super::unknowns::Carrier;
@@ -9,6 +8,7 @@ use crate::geometry::matrix3::{
     IDENTITY, Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
 };
 use crate::geometry::vector::{along, cross, dot, sub};
+use block_cholesky::{BlockMatrix, Cholesky, Error, Slot};
 
 /// A pair of nodes that an element couples, and where two free nodes are in the matrix.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +75,7 @@ impl System {
             }
         }
         coupled.retain(|[i, j]| i != j);
-        let matrix = BlockMatrix::new(blocks, coupled);
+        let matrix = BlockMatrix::new(blocks, coupled).expect("carriers name blocks of unknowns");
         let nodes = carriers.len();
         let zero = vec![[0.0; 3]; nodes];
         System {
@@ -122,12 +122,16 @@ impl System {
     /// A pair of nodes for [`System::couple`].
     pub fn pair(&self, nodes: [u32; 2]) -> Pair {
         let slot = match nodes.map(|node| self.carriers[node as usize]) {
-            [Carrier::Free { block: i }, Carrier::Free { block: j }] => {
-                Some(self.matrix.slot(i as usize, j as usize))
-            }
+            [Carrier::Free { block: i }, Carrier::Free { block: j }] => Some(self.slot(i, j)),
             _ => None,
         };
         Pair { nodes, slot }
+    }
+
+    /// Where the matrix has two blocks of unknowns that elements or a pad couple.
+    #[inline]
+    fn slot(&self, i: u32, j: u32) -> Slot {
+        self.matrix.slot(i as usize, j as usize).expect("these blocks of unknowns are coupled")
     }
 
     /// What carries a node.
@@ -177,7 +181,7 @@ impl System {
                     let both = plus(&block, 1.0, &transposed(&block));
                     self.matrix.add_diagonal(i as usize, &both);
                 } else {
-                    let slot = self.matrix.slot(i as usize, j as usize);
+                    let slot = self.slot(i, j);
                     self.matrix.add(slot, &block);
                 }
             }
@@ -214,7 +218,7 @@ impl System {
                 self.matrix.add_diagonal(shift as usize, k);
             }
             if let (Some(turn), Some(shift)) = (turn, shift) {
-                let slot = self.matrix.slot(turn as usize, shift as usize);
+                let slot = self.slot(turn, shift);
                 self.matrix.add(slot, &turned);
             }
         }
@@ -265,14 +269,14 @@ impl System {
     ///
     /// # Errors
     /// If it is not positive definite.
-    pub fn factorize(&mut self) -> Result<(), NotPositiveDefinite> {
+    pub fn factorize(&mut self) -> Result<(), Error> {
         self.cholesky.factorize(&self.matrix)
     }
 
     /// Solves for Newton's step of all nodes and pads with the matrix that was factorized last.
     pub fn solve(&mut self) {
         self.solution.copy_from_slice(&self.right);
-        self.cholesky.solve(&mut self.solution);
+        self.cholesky.solve(&mut self.solution).expect("a matrix is factorized");
         self.spread();
     }
 
@@ -348,7 +352,7 @@ impl System {
     /// The matrix times a direction of all unknowns.
     pub fn multiply(&self, direction: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; direction.len()];
-        self.matrix.multiply(direction, &mut product);
+        self.matrix.multiply(direction, &mut product).expect("three entries per block");
         product
     }
 

@@ -5,7 +5,11 @@ use std::fs;
 use std::path::Path;
 
 /// The folders of each crate, from the bottom to the top.
-const CRATES: [(&str, &str); 5] = [
+const CRATES: [(&str, &str); 6] = [
+    (
+        "block-cholesky",
+        "error tuning block_matrix graph kernel supernode front assembly analysis restriction substitution cholesky",
+    ),
     (
         "plydrape",
         "stopwatch geometry mold material ply net motion bodies tool layup clearance state catenary elastica fit equilibrium draping \

@@ -5,9 +5,9 @@
 //! supernode of the first update row. Duff and Reid 1983, "The multifrontal solution of indefinite sparse symmetric
 //! linear equations".
 
-use super::graph::Graph;
-use super::kernel::{COLUMNS, ROWS};
-use super::tuning::Tuning;
+use crate::graph::Graph;
+use crate::kernel::{COLUMNS, ROWS};
+use crate::tuning::Tuning;
 
 /// Nodes in a row panel.
 pub const PANEL_NODES: usize = ROWS / 3;
@@ -31,16 +31,16 @@ impl Supernodes {
     /// The order of the result is another one with the same or a little more fill.
     pub fn new(graph: &Graph, order: &[u32], tuning: &Tuning) -> Self {
         let single: Vec<Vec<u32>> = order.iter().map(|&node| vec![node]).collect();
-        let merged = Self::analyse(graph, &single).merge(single, tuning);
-        // the stack of updates wants a supernode directly after its descendants
-        let postorder = Self::analyse(graph, &merged).postorder();
+        let merged = Self::analyze(graph, &single).merge(single, tuning);
+        // the stack of updates needs a supernode directly after its descendants
+        let postorder = Self::analyze(graph, &merged).postorder();
         let mut slots: Vec<Option<Vec<u32>>> = merged.into_iter().map(Some).collect();
         let groups: Vec<Vec<u32>> = postorder.iter().filter_map(|&s| slots[s].take()).collect();
-        Self::analyse(graph, &groups)
+        Self::analyze(graph, &groups)
     }
 
     /// Update rows and parents of groups that are eliminated one after the other.
-    fn analyse(graph: &Graph, groups: &[Vec<u32>]) -> Self {
+    fn analyze(graph: &Graph, groups: &[Vec<u32>]) -> Self {
         let order: Vec<u32> = groups.iter().flatten().copied().collect();
         let mut place = vec![0; order.len()];
         for (k, &node) in order.iter().enumerate() {
@@ -57,7 +57,7 @@ impl Supernodes {
         let mut rows: Vec<Vec<u32>> = Vec::with_capacity(groups.len());
         for s in 0..groups.len() {
             let end = starts[s + 1] as u32;
-            let own = groups[s].iter().flat_map(|&node| graph.neighbours(node));
+            let own = groups[s].iter().flat_map(|&node| graph.neighbors(node));
             let own = own.map(|&node| place[node as usize]);
             let inherited = children[s].iter().flat_map(|&child: &usize| &rows[child]).copied();
             let mut all: Vec<u32> = own.chain(inherited).filter(|&row| row >= end).collect();

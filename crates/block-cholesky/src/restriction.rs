@@ -4,8 +4,9 @@
 //! rows of a front are again those of its blocks and of its children, so that the factor has no more entries than an
 //! analysis in this order would find. Every part of a front keeps the storage that it has in the whole matrix, or less.
 
-use super::analysis::Front;
-use super::supernode::PANEL_NODES;
+use crate::analysis::Front;
+use crate::assembly::Entry;
+use crate::supernode::PANEL_NODES;
 
 /// A node or row that is left out.
 pub const OUT: u32 = u32::MAX;
@@ -83,7 +84,7 @@ impl Restriction {
 
             // blocks of the matrix and updates of children
             front.entries.clear();
-            let moved = |entry: &super::assembly::Entry| super::assembly::Entry {
+            let moved = |entry: &Entry| Entry {
                 row: rows[entry.row as usize],
                 pivot: rows[entry.pivot as usize],
                 ..*entry

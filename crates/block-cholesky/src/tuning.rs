@@ -3,7 +3,7 @@
 /// Constants of the cost model that decides which supernodes are merged.
 ///
 /// The unit of cost is one multiply-add on a tile of 12 × 4 numbers, about six cycles. The defaults are the best of a
-/// trial on woven grids of 133 to 2 576 nodes. Half of any of them changes the time by some percent, twice of
+/// trial on grids of 133 to 2 576 nodes, each coupled to its eight neighbors and to two along each line. Half of any of them changes the time by some percent, twice of
 /// `tile_cost` by 10 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
@@ -14,7 +14,7 @@ pub struct Tuning {
     /// Cost of adding one 3×3 block of an update to the parent's front.
     pub block_cost: usize,
     /// Nodes of a matrix from which on its fronts are eliminated on all threads of rayon. Smaller ones take a few
-    /// milliseconds, and searches have one on each core. The result does not depend on the threads.
+    /// milliseconds. `usize::MAX` means one thread for every matrix. The result does not depend on the threads.
     pub thread_nodes: usize,
     /// Fewer update rows (nodes) of a front are eliminated on one thread.
     pub split_rows: usize,

@@ -1,7 +1,8 @@
 //! The factorization against dense references and residuals.
 
-use super::*;
-use front::Shape;
+use crate::front::Shape;
+use crate::kernel::Column;
+use crate::{Block, BlockMatrix, Cholesky, Error, Slot, Tuning, assembly, front};
 use proptest::prelude::*;
 
 /// Numbers between −1 and 1, the same in every run.
@@ -24,8 +25,8 @@ impl Random {
     }
 }
 
-/// The couplings of a woven ply of `across × along` nodes: eight neighbors, and two along each line for the bending.
-fn woven(across: usize, along: usize) -> Vec<[u32; 2]> {
+/// The couplings of a grid of `across × along` nodes: eight neighbors, and two along each line.
+fn grid(across: usize, along: usize) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for j in 0..along {
         for i in 0..across {
@@ -41,14 +42,24 @@ fn woven(across: usize, along: usize) -> Vec<[u32; 2]> {
     pairs
 }
 
+/// A zero matrix of a pattern without errors.
+fn zero(nodes: usize, pairs: impl IntoIterator<Item = [u32; 2]>) -> BlockMatrix {
+    BlockMatrix::new(nodes, pairs).expect("all pairs are of nodes")
+}
+
+/// Where a block is that the pattern has.
+fn slot(matrix: &BlockMatrix, i: usize, j: usize) -> Slot {
+    matrix.slot(i, j).expect("the nodes are coupled")
+}
+
 /// Sums of `Bᵀ B` over the pairs and a small diagonal: positive definite, and far from diagonal dominance.
 fn positive_definite(nodes: usize, pairs: &[[u32; 2]], random: &mut Random) -> BlockMatrix {
-    let mut matrix = BlockMatrix::new(nodes, pairs.iter().copied());
+    let mut matrix = zero(nodes, pairs.iter().copied());
     let product = |a: &Block, b: &Block| -> Block {
         std::array::from_fn(|r| std::array::from_fn(|c| (0..3).map(|k| a[k][r] * b[k][c]).sum()))
     };
     for i in 0..nodes {
-        matrix.add_scalar(matrix.slot(i, i), 0.1);
+        matrix.add_scalar(slot(&matrix, i, i), 0.1);
     }
     for pair in pairs {
         let [i, j] = pair.map(|node| node as usize);
@@ -56,7 +67,7 @@ fn positive_definite(nodes: usize, pairs: &[[u32; 2]], random: &mut Random) -> B
         matrix.add_diagonal(i, &product(&a, &a));
         matrix.add_diagonal(j, &product(&b, &b));
         if i != j {
-            matrix.add(matrix.slot(i, j), &product(&a, &b));
+            matrix.add(slot(&matrix, i, j), &product(&a, &b));
         } else {
             let (ab, ba) = (product(&a, &b), product(&b, &a));
             matrix.add_diagonal(i, &ab);
@@ -73,7 +84,7 @@ fn dense(matrix: &BlockMatrix) -> Vec<Vec<f64>> {
         let mut unit = vec![0.0; n];
         unit[c] = 1.0;
         let mut column = vec![0.0; n];
-        matrix.multiply(&unit, &mut column);
+        matrix.multiply(&unit, &mut column).expect("three entries per node");
         column
     });
     columns.collect()
@@ -115,7 +126,7 @@ fn dense_solution(matrix: &BlockMatrix, b: &[f64]) -> Option<Vec<f64>> {
 fn backward_error(matrix: &BlockMatrix, x: &[f64], b: &[f64]) -> f64 {
     let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let mut product = vec![0.0; x.len()];
-    matrix.multiply(x, &mut product);
+    matrix.multiply(x, &mut product).expect("three entries per node");
     let residual: Vec<f64> = product.iter().zip(b).map(|(p, b)| p - b).collect();
     // rows have at most some hundreds of entries of order one
     let size = matrix.blocks().iter().flatten().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -128,7 +139,7 @@ fn assert_solved(matrix: &BlockMatrix, random: &mut Random) {
     cholesky.factorize(matrix).expect("the matrix is positive definite");
     let b = random.vector(3 * matrix.nodes());
     let mut x = b.clone();
-    cholesky.solve(&mut x);
+    cholesky.solve(&mut x).expect("it is factorized");
     let error = backward_error(matrix, &x, &b);
     assert!(error < 1e-13, "{} nodes: {error:e}", matrix.nodes());
 }
@@ -154,7 +165,7 @@ proptest! {
         let mut x = b.clone();
         let mut cholesky = Cholesky::new(&matrix);
         prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
-        cholesky.solve(&mut x);
+        cholesky.solve(&mut x).expect("it is factorized");
         prop_assert!(backward_error(&matrix, &x, &b) < 1e-13);
         let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         for (x, expected) in x.iter().zip(&expected) {
@@ -167,7 +178,7 @@ proptest! {
     fn indefinite_matrices_are_refused((nodes, pairs) in graphs(), seed: u64, shift in 0.0..4.0f64) {
         let mut random = Random(seed);
         let mut matrix = positive_definite(nodes, &pairs, &mut random);
-        matrix.add_scalar(matrix.slot(nodes / 2, nodes / 2), -shift);
+        matrix.add_scalar(slot(&matrix, nodes / 2, nodes / 2), -shift);
         let b = vec![1.0; 3 * nodes];
         let result = Cholesky::new(&matrix).factorize(&matrix);
         prop_assert_eq!(result.is_ok(), dense_solution(&matrix, &b).is_some());
@@ -186,9 +197,9 @@ proptest! {
             cholesky.leave_out(is_out);
             prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
             let mut x = b.clone();
-            cholesky.solve(&mut x);
+            cholesky.solve(&mut x).expect("it is factorized");
             let mut product = vec![0.0; 3 * nodes];
-            matrix.multiply(&x, &mut product);
+            matrix.multiply(&x, &mut product).expect("three entries per node");
             for node in 0..nodes {
                 for n in 3 * node..3 * node + 3 {
                     let error = if is_out(node) { x[n] } else { product[n] - b[n] };
@@ -211,31 +222,31 @@ proptest! {
         let tuning = Tuning { front_cost, tile_cost, block_cost, ..Tuning::default() };
         let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
         prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
-        cholesky.solve(&mut x);
+        cholesky.solve(&mut x).expect("it is factorized");
         prop_assert!(backward_error(&matrix, &x, &b) < 1e-13);
     }
 }
 
 #[test]
-fn woven_grids_are_solved() {
+fn grids_are_solved() {
     let mut random = Random(1);
     for (across, along) in [(1, 1), (2, 1), (1, 9), (3, 3), (7, 5), (31, 11), (12, 40), (31, 31)] {
-        let matrix = positive_definite(across * along, &woven(across, along), &mut random);
+        let matrix = positive_definite(across * along, &grid(across, along), &mut random);
         assert_solved(&matrix, &mut random);
     }
 }
 
-/// The nodes of a pad move together: each is coupled to all others of the pad.
+/// Parts of the grid of which each node is coupled to all others.
 #[test]
-fn pads_with_tens_of_couplings_are_solved() {
+fn cliques_of_tens_of_nodes_are_solved() {
     let mut random = Random(2);
     let (across, along) = (24, 13);
-    let mut pairs = woven(across, along);
+    let mut pairs = grid(across, along);
     for corner in [0, 10, 5 * across + 3, 6 * across + 17] {
-        let pad: Vec<u32> =
+        let clique: Vec<u32> =
             (0..6).flat_map(|j| (0..6).map(move |i| (corner + j * across + i) as u32)).collect();
-        for (k, &i) in pad.iter().enumerate() {
-            pairs.extend(pad[..k].iter().map(|&j| [i, j]));
+        for (k, &i) in clique.iter().enumerate() {
+            pairs.extend(clique[..k].iter().map(|&j| [i, j]));
         }
     }
     let matrix = positive_definite(across * along, &pairs, &mut random);
@@ -244,14 +255,14 @@ fn pads_with_tens_of_couplings_are_solved() {
 
 #[test]
 fn nodes_without_couplings_are_solved_by_their_own_blocks() {
-    let mut matrix = BlockMatrix::new(9, [[2, 3]]);
+    let mut matrix = zero(9, [[2, 3]]);
     for i in 0..9 {
-        matrix.add_scalar(matrix.slot(i, i), 2.0 + i as f64);
+        matrix.add_scalar(slot(&matrix, i, i), 2.0 + i as f64);
     }
     let mut x = vec![1.0; 27];
     let mut cholesky = Cholesky::new(&matrix);
     cholesky.factorize(&matrix).unwrap();
-    cholesky.solve(&mut x);
+    cholesky.solve(&mut x).expect("it is factorized");
     for (k, x) in x.iter().enumerate() {
         assert!((x * (2.0 + (k / 3) as f64) - 1.0).abs() < 1e-15);
     }
@@ -259,22 +270,22 @@ fn nodes_without_couplings_are_solved_by_their_own_blocks() {
 
 #[test]
 fn an_empty_matrix_has_an_empty_solution() {
-    let matrix = BlockMatrix::new(0, []);
+    let matrix = zero(0, []);
     let mut cholesky = Cholesky::new(&matrix);
     cholesky.factorize(&matrix).unwrap();
-    cholesky.solve(&mut []);
+    cholesky.solve(&mut []).expect("it is factorized");
 }
 
 /// Both directions of a slot add to the same entries, and `multiply` is the product with the dense symmetric matrix.
 #[test]
 fn blocks_are_added_with_their_transposes() {
-    let mut matrix = BlockMatrix::new(3, [[0, 2], [2, 0], [1, 0], [1, 1]]);
+    let mut matrix = zero(3, [[0, 2], [2, 0], [1, 0], [1, 1]]);
     assert_eq!(matrix.pairs(), [[1, 0], [2, 0]]);
-    assert_eq!(matrix.find(1, 2), None);
+    assert_eq!(matrix.slot(1, 2), None);
     let block = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
-    matrix.add(matrix.slot(0, 2), &block);
-    matrix.add(matrix.slot(1, 0), &block);
-    matrix.add_scalar(matrix.slot(0, 1), 0.5);
+    matrix.add(slot(&matrix, 0, 2), &block);
+    matrix.add(slot(&matrix, 1, 0), &block);
+    matrix.add_scalar(slot(&matrix, 0, 1), 0.5);
     let a = dense(&matrix);
     for r in 0..3 {
         for c in 0..3 {
@@ -289,22 +300,22 @@ fn blocks_are_added_with_their_transposes() {
 #[test]
 fn the_same_matrix_gives_the_same_bytes() {
     let mut random = Random(3);
-    let pairs = woven(17, 12);
+    let pairs = grid(17, 12);
     let matrix = positive_definite(17 * 12, &pairs, &mut random);
     let other = positive_definite(17 * 12, &pairs, &mut random);
     let mut refused = other.clone();
-    refused.add_scalar(refused.slot(100, 100), -1e3);
+    refused.add_scalar(slot(&refused, 100, 100), -1e3);
     let b = random.vector(3 * 17 * 12);
     let solution = |cholesky: &mut Cholesky| {
         cholesky.factorize(&matrix).unwrap();
         let mut x = b.clone();
-        cholesky.solve(&mut x);
+        cholesky.solve(&mut x).expect("it is factorized");
         x.into_iter().map(f64::to_bits).collect::<Vec<_>>()
     };
     let mut cholesky = Cholesky::new(&matrix);
     let first = solution(&mut cholesky);
     cholesky.factorize(&other).unwrap();
-    assert_eq!(cholesky.factorize(&refused), Err(NotPositiveDefinite { node: 100 }));
+    assert_eq!(cholesky.factorize(&refused), Err(Error::NotPositiveDefinite { node: 100 }));
     assert_eq!(first, solution(&mut cholesky));
     assert_eq!(first, solution(&mut Cholesky::new(&other)));
 }
@@ -313,25 +324,95 @@ fn the_same_matrix_gives_the_same_bytes() {
 #[test]
 fn threads_do_not_change_a_solution() {
     let mut random = Random(6);
-    let matrix = positive_definite(900, &woven(30, 30), &mut random);
+    let matrix = positive_definite(900, &grid(30, 30), &mut random);
     let b = random.vector(3 * 900);
     let [one, many] = [usize::MAX, 0].map(|thread_nodes| {
         let tuning = Tuning { thread_nodes, split_rows: 8, ..Tuning::default() };
         let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
         cholesky.factorize(&matrix).expect("the matrix is positive definite");
         let mut x = b.clone();
-        cholesky.solve(&mut x);
+        cholesky.solve(&mut x).expect("it is factorized");
         x
     });
     assert_eq!(one, many);
+}
+
+/// A pair of a node that the matrix does not have is refused before anything is stored, and so is a matrix whose blocks have no
+/// numbers of 32 bits.
+#[test]
+fn impossible_patterns_are_refused() {
+    assert_eq!(BlockMatrix::new(3, [[0, 1], [3, 2]]), Err(Error::NoSuchNode { node: 3, nodes: 3 }));
+    assert_eq!(BlockMatrix::new(0, [[0, 0]]), Err(Error::NoSuchNode { node: 0, nodes: 0 }));
+    assert_eq!(BlockMatrix::new(1 << 33, []), Err(Error::TooManyBlocks));
+    assert_eq!(zero(2, []).slot(2, 2), None);
+}
+
+/// Another pattern is refused also if it has as many nodes and blocks; the same pattern made anew is accepted.
+#[test]
+fn another_pattern_is_refused() {
+    let identity = |pairs: [[u32; 2]; 1], nodes| {
+        let mut matrix = zero(nodes, pairs);
+        (0..nodes).for_each(|i| matrix.add_scalar(slot(&matrix, i, i), 1.0));
+        matrix
+    };
+    let mut cholesky = Cholesky::new(&identity([[0, 1]], 3));
+    assert_eq!(cholesky.factorize(&identity([[0, 2]], 3)), Err(Error::OtherPattern));
+    assert_eq!(cholesky.factorize(&identity([[0, 1]], 4)), Err(Error::OtherPattern));
+    assert_eq!(cholesky.factorize(&identity([[1, 0]], 3)), Ok(()));
+}
+
+/// Without a factorization of the present nodes a right-hand side stays as it is.
+#[test]
+fn nothing_is_solved_without_a_factorization() {
+    let mut matrix = zero(2, [[0, 1]]);
+    let mut cholesky = Cholesky::new(&matrix);
+    let mut x = [1.0; 6];
+    assert_eq!(cholesky.solve(&mut x), Err(Error::NotFactorized));
+    for i in 0..2 {
+        matrix.add_scalar(slot(&matrix, i, i), 4.0);
+    }
+    assert_eq!(cholesky.factorize(&matrix), Ok(()));
+    cholesky.leave_out(|node| node == 0);
+    assert_eq!(cholesky.solve(&mut x), Err(Error::NotFactorized));
+    let mut indefinite = matrix.clone();
+    indefinite.add_scalar(slot(&matrix, 1, 1), -5.0);
+    let error = Error::NotPositiveDefinite { node: 1 };
+    assert_eq!(cholesky.factorize(&indefinite), Err(error));
+    assert_eq!(cholesky.solve(&mut x), Err(Error::NotFactorized));
+    assert_eq!(x, [1.0; 6]);
+    assert_eq!(cholesky.factorize(&matrix), Ok(()));
+    assert_eq!(cholesky.solve(&mut x), Ok(()));
+    // exact, because the root of 4 is
+    assert_eq!(x, [0.0, 0.0, 0.0, 0.25, 0.25, 0.25]);
+}
+
+/// Vectors must have three entries per node, neither more nor less.
+#[test]
+fn vectors_of_another_length_are_refused() {
+    let matrix = zero(2, []);
+    for length in [5, 7] {
+        let error = Err(Error::WrongLength { length, expected: 6 });
+        assert_eq!(Cholesky::new(&matrix).solve(&mut vec![0.0; length]), error);
+        assert_eq!(matrix.multiply(&vec![0.0; length], &mut [0.0; 6]), error);
+        assert_eq!(matrix.multiply(&[0.0; 6], &mut vec![0.0; length]), error);
+    }
+}
+
+/// A message has the numbers that its reader needs.
+#[test]
+fn messages_name_the_place() {
+    let message = Error::NoSuchNode { node: 7, nodes: 4 }.to_string();
+    assert_eq!(message, "a pair names node 7, but the matrix has 4 nodes, counted from 0");
+    let message = Error::NotPositiveDefinite { node: 3 }.to_string();
+    assert_eq!(message, "the matrix is not positive definite: a pivot of node 3 is not positive");
 }
 
 /// A number that is not finite is refused and does not come back as a solution.
 #[test]
 fn a_matrix_with_nan_is_refused() {
     for value in [f64::NAN, f64::INFINITY] {
-        let mut matrix = positive_definite(25, &woven(5, 5), &mut Random(4));
-        matrix.add_scalar(matrix.slot(7, 8), value);
+        let mut matrix = positive_definite(25, &grid(5, 5), &mut Random(4));
+        matrix.add_scalar(slot(&matrix, 7, 8), value);
         assert!(Cholesky::new(&matrix).factorize(&matrix).is_err());
     }
 }

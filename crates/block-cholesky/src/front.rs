@@ -4,8 +4,8 @@
 //! diagonal, become columns of the factor L; the lower triangle on the update rows becomes the update
 //! `U − L₂₁ L₂₁ᵀ`, of which panel i has the columns of the panels up to i.
 
-use super::kernel::{self, COLUMNS, Column, ROWS};
-use super::supernode::PANEL_NODES;
+use crate::kernel::{self, COLUMNS, Column, ROWS};
+use crate::supernode::PANEL_NODES;
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
@@ -62,7 +62,7 @@ pub fn update_start(i: usize) -> usize {
 
 /// Eliminates the pivots of a front. `factor` has the assembled pivot columns, on return the columns of L with the
 /// reciprocals of its diagonal; `update` the assembled lower triangle of the update rows, on return the update. A front of
-/// so many panels of update rows as `split` is eliminated on several threads.
+/// `split` panels of update rows or more is eliminated on several threads.
 ///
 /// # Errors
 /// The pivot (a row of the front) that is not positive.

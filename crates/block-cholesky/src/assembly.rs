@@ -1,9 +1,9 @@
 //! Assembly of a front from blocks of the matrix and from the updates of its children.
 
-use super::block_matrix::Block;
-use super::front::{Shape, update_start};
-use super::kernel::{COLUMNS, Column, ROWS};
-use super::supernode::PANEL_NODES;
+use crate::block_matrix::Block;
+use crate::front::{Shape, update_start};
+use crate::kernel::{COLUMNS, Column, ROWS};
+use crate::supernode::PANEL_NODES;
 use pulp::{Simd, WithSimd};
 
 /// Where a block of the matrix goes in the pivot columns of its front.
@@ -68,7 +68,7 @@ impl WithSimd for Addition<'_> {
         let pivots = rows.partition_point(|&row| (row as usize) < pivot_rows);
         let mut end = 0;
         while end < rows.len() {
-            // rows that are neighbours in one panel here and there are added together; above the diagonal nothing is
+            // rows that are neighbors in one panel here and there are added together; above the diagonal nothing is
             // read later
             let first = end;
             let (panel, to) =

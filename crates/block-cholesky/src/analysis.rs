@@ -1,9 +1,9 @@
 //! Storage of all fronts and what is added to each, found once for a pattern.
 
-use super::assembly::Entry;
-use super::block_matrix::BlockMatrix;
-use super::front::Shape;
-use super::supernode::Supernodes;
+use crate::assembly::Entry;
+use crate::block_matrix::BlockMatrix;
+use crate::front::Shape;
+use crate::supernode::Supernodes;
 
 /// One front of the elimination.
 #[derive(Debug, Clone)]

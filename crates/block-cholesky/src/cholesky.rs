@@ -1,67 +1,36 @@
-//! Sparse Cholesky factorization `P A Pᵀ = L Lᵀ` of a symmetric positive definite matrix of 3×3 blocks.
-//!
-//! 1. [`BlockMatrix`]: the matrix over a fixed pattern, one block row per node;
-//! 2. `graph`: which nodes are coupled, and an order of elimination by approximate minimum degree;
-//! 3. `supernode`: nodes that are eliminated together, and the fronts that they form;
-//! 4. `analysis`: where everything is stored;
-//! 5. `assembly`: a front is the sum of blocks of the matrix and of the updates of its children;
-//! 6. `front`, `kernel`: dense elimination of the pivots of a front;
-//! 7. `restriction`: the same without some of the nodes;
-//! 8. `substitution`: solutions, front by front.
-//!
-//! Order and fronts depend on the pattern only and are found once. Multifrontal method: Duff and Reid 1983; Liu 1992,
-//! "The multifrontal method for sparse matrix solution: theory and practice".
+//! The factorization: analysis once for a pattern, then elimination and substitution as often as the numbers change.
 
-mod analysis;
-mod assembly;
-mod block_matrix;
-mod front;
-mod graph;
-mod kernel;
-mod restriction;
-mod substitution;
-mod supernode;
-mod tuning;
+use crate::analysis::{self, Front};
+use crate::assembly::{self, Addition};
+use crate::block_matrix::{BlockMatrix, check_length};
+use crate::error::Error;
+use crate::front::{self, Shape};
+use crate::graph::Graph;
+use crate::kernel::{self, Column};
+use crate::restriction::{OUT, Restriction};
+use crate::substitution::{Backward, Forward};
+use crate::supernode::{PANEL_NODES, Supernodes};
+use crate::tuning::Tuning;
+use std::sync::Arc;
 
-#[cfg(test)]
-mod tests;
-
-pub use block_matrix::{Block, BlockMatrix, Slot};
-pub use tuning::Tuning;
-
-use analysis::Front;
-use assembly::Addition;
-use front::Shape;
-use graph::Graph;
-use kernel::Column;
-use restriction::{OUT, Restriction};
-use substitution::{Backward, Forward};
-use supernode::{PANEL_NODES, Supernodes};
-
-/// The matrix is not positive definite.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the matrix is not positive definite: a pivot of node {node} is not positive")]
-pub struct NotPositiveDefinite {
-    /// Node at which the elimination ended.
-    pub node: usize,
-}
-
-/// A factorization whose order and storage are found once for a pattern.
+/// A factorization `P A Pᵀ = L Lᵀ` whose order P and storage are found once for a pattern.
 #[derive(Debug, Clone)]
 pub struct Cholesky {
     /// The node at each place of the order of elimination.
     order: Vec<u32>,
-    /// The same of the nodes that are not left out.
+    /// The nodes that are not left out, in the order of elimination.
     remaining: Vec<u32>,
-    /// For each place in the whole order that among the remaining nodes.
+    /// For each place in the whole order the place among the remaining nodes, or [`OUT`].
     places: Vec<u32>,
     restriction: Restriction,
     /// Fronts, children before parents.
     fronts: Vec<Front>,
     /// Panels of update rows from which on a front is eliminated on several threads.
     split_panels: usize,
-    /// Number of blocks of the matrix, to recognize another pattern.
-    blocks: usize,
+    /// Pattern of the matrix below the diagonal, to recognize another one.
+    pattern: Arc<[[u32; 2]]>,
+    /// Whether `factor` is that of a matrix, in the order of the remaining nodes.
+    is_factorized: bool,
     /// Columns of L, front by front.
     factor: Vec<Column>,
     /// Two stacks of updates.
@@ -99,7 +68,8 @@ impl Cholesky {
             } else {
                 tuning.split_rows.div_ceil(PANEL_NODES)
             },
-            blocks: matrix.blocks().len(),
+            pattern: matrix.pattern().clone(),
+            is_factorized: false,
             factor: vec![Column::ZERO; shapes().map(Shape::factor_len).sum()],
             updates: [0, 1].map(|parity| vec![Column::ZERO; stack(parity)]),
             unknowns: vec![[0.0; 3]; n],
@@ -112,15 +82,9 @@ impl Cholesky {
         }
     }
 
-    /// Size of the factor and of the storage that its computation needs (bytes).
-    #[must_use]
-    pub fn memory(&self) -> usize {
-        let columns = self.factor.len() + self.updates.iter().map(Vec::len).sum::<usize>();
-        columns * size_of::<Column>()
-    }
-
-    /// Leaves out nodes from now on: what follows is about the matrix without their rows and columns, and
-    /// [`Self::solve`] gives them zero. It allocates nothing.
+    /// Leaves out those nodes for which `is_out` is true, from now on: what follows is about the matrix without their rows and
+    /// columns, and [`Self::solve`] gives them zero. Nodes that were left out before and are not now come back. It allocates
+    /// nothing.
     pub fn leave_out(&mut self, is_out: impl Fn(usize) -> bool) {
         self.remaining.clear();
         let mut changed = false;
@@ -134,6 +98,7 @@ impl Cholesky {
             *place = new;
         }
         if changed {
+            self.is_factorized = false;
             self.restriction.apply(&self.places, &mut self.fronts);
         }
     }
@@ -141,23 +106,26 @@ impl Cholesky {
     /// Factorizes a matrix with the pattern given to [`Self::new`]. On one thread it allocates nothing.
     ///
     /// # Errors
-    /// If a pivot is not positive; there is no factorization then, and [`Self::solve`] gives no solution.
-    ///
-    /// # Panics
-    /// If the matrix has another pattern.
-    pub fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
-        assert_eq!(matrix.nodes(), self.order.len(), "the pattern is another one");
-        assert_eq!(matrix.blocks().len(), self.blocks, "the pattern is another one");
+    /// If a pivot is not positive or not finite, or if the matrix has another pattern. There is no factorization then.
+    pub fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), Error> {
+        self.is_factorized = false;
+        let pattern = matrix.pattern();
+        let is_same = Arc::ptr_eq(pattern, &self.pattern) || *pattern == self.pattern;
+        if matrix.nodes() != self.order.len() || !is_same {
+            return Err(Error::OtherPattern);
+        }
         if self.split_panels == usize::MAX {
-            self.eliminate(matrix)
+            self.eliminate(matrix)?;
         } else {
             // among the threads, which then wait for each other less than a thread from outside does
-            rayon::scope(|_| self.eliminate(matrix))
+            rayon::scope(|_| self.eliminate(matrix))?;
         }
+        self.is_factorized = true;
+        Ok(())
     }
 
     /// Eliminates front after front.
-    fn eliminate(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
+    fn eliminate(&mut self, matrix: &BlockMatrix) -> Result<(), Error> {
         let [even, odd] = &mut self.updates;
         for front in &self.fronts {
             let (own, children) =
@@ -176,18 +144,22 @@ impl Cholesky {
                 continue;
             }
             front::eliminate(shape, factor, update, self.split_panels).map_err(|row| {
-                NotPositiveDefinite { node: self.remaining[front.first + row / 3] as usize }
+                Error::NotPositiveDefinite { node: self.remaining[front.first + row / 3] as usize }
             })?;
         }
         Ok(())
     }
 
-    /// Solves `A x = b` with the last factorization: `x` is b before and the solution after. It allocates nothing.
+    /// Solves `A x = b` with the last factorization: `x` is b before and the solution after, three entries per node. It
+    /// allocates nothing.
     ///
-    /// # Panics
-    /// If there are not three entries for each node.
-    pub fn solve(&mut self, x: &mut [f64]) {
-        assert_eq!(x.len(), 3 * self.order.len(), "three entries for each node");
+    /// # Errors
+    /// If there are not three entries for each node, or if there is no factorization. `x` is as before then.
+    pub fn solve(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        check_length(x, self.order.len())?;
+        if !self.is_factorized {
+            return Err(Error::NotFactorized);
+        }
         let x = x.as_chunks_mut::<3>().0;
         for (unknown, &node) in self.unknowns.iter_mut().zip(&self.remaining) {
             *unknown = x[node as usize];
@@ -232,6 +204,7 @@ impl Cholesky {
         for (unknown, &node) in self.unknowns.iter().zip(&self.remaining) {
             x[node as usize] = *unknown;
         }
+        Ok(())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Forward and backward substitution with the columns of one front.
 
-use super::front::Shape;
-use super::kernel::{self, COLUMNS, Column, ROWS};
+use crate::front::Shape;
+use crate::kernel::{self, COLUMNS, Column, ROWS};
 use pulp::{Simd, WithSimd};
 
 /// Solves `L₁₁ y = x` for the pivots and gives `L₂₁ y` for the update rows.

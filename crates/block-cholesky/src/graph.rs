@@ -6,7 +6,7 @@ pub struct Graph {
     /// Where the neighbors of each node begin; n + 1 entries.
     starts: Vec<usize>,
     /// Neighbors, ascending for each node.
-    neighbours: Vec<u32>,
+    neighbors: Vec<u32>,
 }
 
 impl Graph {
@@ -22,17 +22,17 @@ impl Graph {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut neighbours = vec![0; 2 * pairs.len()];
+        let mut neighbors = vec![0; 2 * pairs.len()];
         for &[i, j] in pairs {
             for (node, other) in [(i, j), (j, i)] {
-                neighbours[next[node as usize]] = other;
+                neighbors[next[node as usize]] = other;
                 next[node as usize] += 1;
             }
         }
         for node in 0..nodes {
-            neighbours[starts[node]..starts[node + 1]].sort_unstable();
+            neighbors[starts[node]..starts[node + 1]].sort_unstable();
         }
-        Self { starts, neighbours }
+        Self { starts, neighbors }
     }
 
     /// Number of nodes.
@@ -41,17 +41,17 @@ impl Graph {
     }
 
     /// The nodes that a node is coupled to, ascending.
-    pub fn neighbours(&self, node: u32) -> &[u32] {
-        &self.neighbours[self.starts[node as usize]..self.starts[node as usize + 1]]
+    pub fn neighbors(&self, node: u32) -> &[u32] {
+        &self.neighbors[self.starts[node as usize]..self.starts[node as usize + 1]]
     }
 
     /// An order of elimination with little fill: approximate minimum degree, Amestoy, Davis and Duff 1996.
     pub fn minimum_degree_order(&self) -> Vec<u32> {
-        // the columns of the whole matrix with its diagonal, as the algorithm wants them
+        // the columns of the whole matrix with its diagonal, as the algorithm takes them
         let (mut starts, mut rows) = (vec![0], Vec::new());
         for node in 0..self.nodes() {
-            let neighbours = self.neighbours(node as u32).iter().map(|&other| other as usize);
-            rows.extend(neighbours.chain([node]));
+            let neighbors = self.neighbors(node as u32).iter().map(|&other| other as usize);
+            rows.extend(neighbors.chain([node]));
             rows[starts[node]..].sort_unstable();
             starts.push(rows.len());
         }
