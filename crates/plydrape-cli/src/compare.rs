@@ -8,10 +8,11 @@ use crate::watch::Interrupt;
 use plydrape::measure::Verdict;
 use plydrape::planner::comparison::{StrategyName, compare};
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape_io::comparison::{self, NAME};
+use plydrape_io::Folder;
 use plydrape_io::scene::SceneFile;
-use plydrape_io::strategy::Row;
-use plydrape_io::{Folder, table};
+use plydrape_io::text::strategy::Row;
+use plydrape_io::text::table;
+use plydrape_io::write::comparison::{self, NAME};
 use serde::Serialize;
 use std::process::ExitCode;
 

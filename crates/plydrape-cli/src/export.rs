@@ -4,9 +4,11 @@ use crate::argument::value;
 use crate::failure::{Done, Failure};
 use crate::results;
 use clap::ValueEnum;
-use plydrape_io::program::{Robot, Template, Tolerance};
+use plydrape_io::export;
+use plydrape_io::result::read;
+use plydrape_io::robot::program::{Robot, Template, Tolerance};
 use plydrape_io::scene::Measured;
-use plydrape_io::{export, input, read};
+use plydrape_io::store::input;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

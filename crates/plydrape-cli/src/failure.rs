@@ -5,9 +5,9 @@ use miette::{
     SourceCode, SourceSpan, SpanContents,
 };
 use plydrape::planner::PlanError;
+use plydrape_io::result::sheet::model_remedy;
 use plydrape_io::scene::SceneError;
-use plydrape_io::sheet::model_remedy;
-use plydrape_io::shown;
+use plydrape_io::store::shown;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ pub enum Failure {
     Results(#[from] plydrape_io::OutputError),
     /// The scene cannot be draped by a model.
     #[error(transparent)]
-    Drape(#[from] plydrape_io::sheet::SheetDrapeError),
+    Drape(#[from] plydrape_io::result::sheet::SheetDrapeError),
     /// A result file was refused.
     #[error(transparent)]
     Read(#[from] plydrape_io::ReadError),

@@ -5,7 +5,7 @@ use crate::failure::{Done, Failure};
 use crate::new::put;
 use plydrape_io::fit::{FitFault, Request, Test, fit};
 use plydrape_io::scene::Measured;
-use plydrape_io::shown;
+use plydrape_io::store::shown;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -4,8 +4,9 @@ use crate::watch::{Interrupt, bar};
 use clap::ValueEnum;
 use plydrape::layup::Model;
 use plydrape::scene::Scene;
-use plydrape_io::sheet::{self, KeptDrape, SheetDrapeError};
-use plydrape_io::{ResultFile, table};
+use plydrape_io::ResultFile;
+use plydrape_io::result::sheet::{self, KeptDrape, SheetDrapeError};
+use plydrape_io::text::table;
 use std::path::Path;
 
 /// A model of the ply.

@@ -3,7 +3,7 @@
 use crate::failure::Done;
 use crate::results::Results;
 use plydrape::net::Net;
-use plydrape_io::net::{Findings, Summary, write_all};
+use plydrape_io::write::net::{Findings, Summary, write_all};
 use serde::Serialize;
 use std::process::ExitCode;
 use std::time::Instant;

@@ -2,7 +2,7 @@
 
 use crate::failure::{Done, Failure};
 use plydrape_io::scene::TEMPLATE;
-use plydrape_io::shown;
+use plydrape_io::store::shown;
 use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};

@@ -2,7 +2,9 @@
 
 use crate::failure::Done;
 use crate::results;
-use plydrape_io::{folder, page, read};
+use plydrape_io::page;
+use plydrape_io::result::read;
+use plydrape_io::store::folder;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,8 +1,9 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
 use crate::failure::Failure;
-use plydrape_io::table::{self, Ink};
-use plydrape_io::{OutputError, ResultFile, json, shown};
+use plydrape_io::store::{json, shown};
+use plydrape_io::text::table::{self, Ink};
+use plydrape_io::{OutputError, ResultFile};
 use serde::Serialize;
 use std::env;
 use std::io::{self, IsTerminal, Write};

@@ -4,7 +4,7 @@ use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::planner::Progress;
 use plydrape::scene::{Plan, PlanMethod};
-use plydrape_io::table;
+use plydrape_io::text::table;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::Mutex;

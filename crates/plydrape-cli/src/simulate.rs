@@ -7,7 +7,8 @@ use crate::outcome::{Printed, exit_code};
 use crate::results::Results;
 use crate::watch::Interrupt;
 use plydrape::outcome::Robustness;
-use plydrape_io::{Folder, NAMES, ResultFile, scene, table, write_into};
+use plydrape_io::text::table;
+use plydrape_io::{Folder, NAMES, ResultFile, scene, write_into};
 
 /// Drape the ply along the trajectories of a scene; steps, limits, verdict, files.
 #[derive(Debug, clap::Args)]

@@ -2,7 +2,7 @@
 
 use crate::failure::Done;
 use clap::ValueEnum;
-use plydrape_io::program::Robot;
+use plydrape_io::robot::program::Robot;
 use std::io::{self, Write};
 use std::process::ExitCode;
 

@@ -3,10 +3,13 @@
 //! Some of them drive machines: robots and axes follow them as they are. Of a motion that is not accepted these are written
 //! only if the caller says so, see [`Options::even_if_rejected`].
 
-use super::program::{Program, ProgramError, Robot, Template, Tolerance, template, wide};
-use super::{OutputError, csv, folder, inp, pattern, ros2, vtk};
-use crate::folder::Files;
+use crate::OutputError;
 use crate::result::ResultFile;
+use crate::robot::program::{Program, ProgramError, Robot, Template, Tolerance, template, wide};
+use crate::robot::ros2;
+use crate::store::folder;
+use crate::store::folder::Files;
+use crate::write::{csv, inp, pattern, vtk};
 use std::path::{Path, PathBuf};
 
 /// What a result is made into.
@@ -88,7 +91,7 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
 /// of the same names only make way if plydrape wrote them and nobody has changed them since.
 ///
 /// # Errors
-/// [`OutputError`], as for [`files`] and [`super::write_all`].
+/// [`OutputError`], as for [`files`] and [`crate::write_all`].
 pub fn write(
     result: &ResultFile,
     format: Format,

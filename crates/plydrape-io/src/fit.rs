@@ -226,7 +226,7 @@ fn specimens(count: usize) -> String {
 }
 
 fn name(path: &Path) -> String {
-    crate::shown::path(path).to_string()
+    crate::store::shown::path(path).to_string()
 }
 
 fn points(tables: &[(String, FitTable)]) -> Vec<Vec<[f64; 2]>> {

@@ -1,61 +1,41 @@
 //! Files of plydrape: scenes, mesh readers, result files, exports, pictures and the page.
 //!
-//! The crate `plydrape` computes; this one reads what it needs and writes what it found, and computes no physics:
+//! The crate `plydrape` computes; this one reads what it needs and writes what it found, and computes no physics. Its folders, from the
+//! bottom to the top:
 //!
-//! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold and [`outline`] for its ply;
-//! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
-//! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`page`], [`pattern`]: everything else is made from a result;
-//!    [`program`] is what a cell does over time, for the controllers of robots;
-//! 4. [`net`] does the same for an ideal drape, with pictures by [`figure`], [`plan`] for a plan, [`replan`] for one whose ply lies elsewhere, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
-//!    [`table`] prints for people;
-//! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
-//!    the memory.
+//! | folder | what it does |
+//! |---|---|
+//! | [`store`] | writes folders whole or not at all, JSON without NaN, reads regular files alone, and refuses what would not fit the memory |
+//! | [`read`] | readers of meshes, drawings and formulas |
+//! | [`result`] | the result file, and the states of a sheet beside it |
+//! | [`scene`] | a file becomes a checked scene |
+//! | [`text`] | results as tables for people |
+//! | [`write`](mod@write) | files for other programs, each made from a result alone |
+//! | [`robot`] | what a cell does over time: programs for controllers of robots, messages of ROS 2 |
+//! | [`page`] | the results page |
+//! | [`export`], [`fit`], [`plan`], [`replan`] | all exports by name, fitted materials, the files of a plan and of one whose ply lies elsewhere |
 
-pub mod book;
-pub mod comparison;
-pub mod csv;
-mod error;
 pub mod export;
-pub mod figure;
-mod file_kind;
 pub mod fit;
-pub mod folder;
-pub mod format;
-pub mod formula;
-pub mod inp;
-pub mod input;
-pub mod json;
-mod loads;
-mod manifest;
-pub mod mesh;
-pub mod mold_patch;
-pub mod net;
-pub mod outline;
 pub mod page;
-pub mod pattern;
 pub mod plan;
-pub mod program;
-mod read_error;
+pub mod read;
 pub mod replan;
 pub mod result;
-pub mod ros2;
+pub mod robot;
 pub mod scene;
-pub mod sheet;
-pub mod shown;
-pub mod size;
-pub mod strategy;
-pub mod surface;
-pub mod table;
-pub mod vtk;
+pub mod store;
+pub mod text;
+pub mod write;
 
 #[cfg(test)]
 mod sample;
 
-pub use error::OutputError;
+pub use store::error::OutputError;
 
-pub use folder::{Content, Files, Folder, Staged};
-pub use read_error::ReadError;
-pub use result::{ResultFile, read};
+pub use result::ResultFile;
+pub use store::folder::{Content, Files, Folder, Staged};
+pub use store::read_error::ReadError;
 
 use std::path::{Path, PathBuf};
 
@@ -80,7 +60,7 @@ pub const NAMES: [&str; 7] = [
     "steps.csv",
     "trajectory.csv",
     "report.html",
-    sheet::NAME,
+    result::sheet::NAME,
     "motion.csv",
     "plan.json",
 ];
@@ -111,9 +91,9 @@ pub fn stage_into(
 ) -> Result<Staged, OutputError> {
     // First of all: no number that is not finite goes on.
     result.check_finite()?;
-    let steps = csv::steps(result)?;
-    let trajectory = csv::trajectory(result)?;
-    let motion = csv::planned_motion(result)?;
+    let steps = write::csv::steps(result)?;
+    let trajectory = write::csv::trajectory(result)?;
+    let motion = write::csv::planned_motion(result)?;
     let page = page::html(result)?;
     let [steps, trajectory, page] = [&steps, &trajectory, &page].map(|text| text.as_bytes());
     let motion = motion.as_ref().map(|motion| motion.as_bytes());
@@ -121,7 +101,9 @@ pub fn stage_into(
         vec![("result.json", result), ("steps.csv", &steps), ("trajectory.csv", &trajectory)];
     files.extend(motion.as_ref().map(|motion| ("motion.csv", motion as &dyn Content)));
     files.push(("report.html", &page));
-    files.extend(result.sheet_states.as_ref().map(|states| (sheet::NAME, states as &dyn Content)));
+    files.extend(
+        result.sheet_states.as_ref().map(|states| (result::sheet::NAME, states as &dyn Content)),
+    );
     files.extend(more);
     folder.stage_files(&files, read)
 }

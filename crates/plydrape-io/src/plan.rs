@@ -1,6 +1,7 @@
 //! The files of a plan: those of its drape, the motion, and `plan.json`, the checkpoint from which a later search continues.
 
-use super::{Folder, OutputError, ResultFile, Staged, json};
+use crate::store::json;
+use crate::{Folder, OutputError, ResultFile, Staged};
 use plydrape::planner::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -75,7 +76,7 @@ pub fn read(text: &str) -> Result<Checkpoint, PlanFileError> {
 /// their paths.
 ///
 /// # Errors
-/// [`OutputError`], as for [`super::write_all`].
+/// [`OutputError`], as for [`crate::write_all`].
 pub fn write_all(
     result: &ResultFile,
     search: &Checkpoint,

@@ -3,7 +3,7 @@
 
 use crate::ReadError;
 use crate::result::ResultFile;
-use crate::sheet::{SheetError, SheetKept, SheetSpool, SheetState};
+use crate::result::sheet::{SheetError, SheetKept, SheetSpool, SheetState};
 use plydrape::layup::Layup;
 use plydrape::layup::Model;
 use plydrape::measure::Name;

@@ -1,8 +1,8 @@
 //! Made-up results for the tests of this folder: parabolas between grippers that move to a sheared
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
+use crate::result::sheet::{SheetKept, SheetSeal};
 use crate::result::{Also, ResultFile, SceneEcho};
-use crate::sheet::{SheetKept, SheetSeal};
 use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;
@@ -27,7 +27,7 @@ const HEIGHT: f64 = 0.075;
 const STATIONS: usize = 25;
 
 /// A drape onto the flat mold z = 0, like the paper's example.
-pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
+pub(crate) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
     let grid = Grid { nu, nv };
     let target = positions(grid, CELL, SHEAR.to_radians(), 0.0);
     let start = positions(grid, SPACING, 0.0, HEIGHT);
@@ -45,7 +45,7 @@ pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
 }
 
 /// A ply that just hangs, one step, no mold.
-pub(super) fn hanging(nu: usize, nv: usize) -> ResultFile {
+pub(crate) fn hanging(nu: usize, nv: usize) -> ResultFile {
     let grid = Grid { nu, nv };
     let mut result = frame(grid);
     let grippers = positions(grid, SPACING, 0.0, HEIGHT);
@@ -318,12 +318,12 @@ fn frame(grid: Grid) -> ResultFile {
 }
 
 /// The catenaries of a step of a result, by its place.
-pub(super) fn lines(result: &mut ResultFile, step: usize) -> &mut Vec<CatenaryState> {
+pub(crate) fn lines(result: &mut ResultFile, step: usize) -> &mut Vec<CatenaryState> {
     &mut result.steps[step].catenaries.as_mut().expect("catenaries drape").catenaries
 }
 
 /// A drape onto a tilted plane, the whole motion tilted with it.
-pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
+pub(crate) fn tilted(nu: usize, nv: usize) -> ResultFile {
     let mut result = draped(nu, nv, 30);
     let lean = |p: &mut [f64; 3]| p[2] += 0.25 * p[0] + 0.1 * p[1];
     for step in &mut result.steps {
@@ -345,7 +345,7 @@ pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
 }
 
 /// A drape by a sheet of nine nodes with the grippers of [`draped`]; its states are in no file.
-pub(super) fn sheet(nu: usize, nv: usize, steps: usize) -> ResultFile {
+pub(crate) fn sheet(nu: usize, nv: usize, steps: usize) -> ResultFile {
     let mut result = draped(nu, nv, steps);
     result.scene.settings.model = Model::Sheet;
     for step in &mut result.steps {
@@ -383,19 +383,19 @@ pub(super) fn sheet(nu: usize, nv: usize, steps: usize) -> ResultFile {
 }
 
 /// States of a sheet in a file that is not there.
-pub(super) fn states() -> SheetKept {
+pub(crate) fn states() -> SheetKept {
     let checksum = "crc32:0123abcd".to_string();
     let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
     SheetKept::read(seal, "no/such/folder".into())
 }
 
 /// A result as the drape by the model that does not decide.
-pub(super) fn also(result: ResultFile) -> Also {
+pub(crate) fn also(result: ResultFile) -> Also {
     Also { summary: result.summary.unjudged(), steps: result.steps }
 }
 
 /// A sample of four cells, two of which are accepted and three needed.
-pub(super) fn sample_verdict() -> SampleVerdict {
+pub(crate) fn sample_verdict() -> SampleVerdict {
     let cell = |height: f64| CellVerdict {
         accepted: height <= 0.5,
         height_mm: Some(height),

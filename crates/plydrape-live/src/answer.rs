@@ -5,10 +5,11 @@ use plydrape::layup::Model;
 use plydrape::outcome::Step;
 use plydrape::ply::{GripperId, Kind};
 use plydrape_io::page::{self, Form};
+use plydrape_io::result::sheet::drape;
 use plydrape_io::scene::{SceneError, parse_for};
-use plydrape_io::sheet::drape;
-use plydrape_io::surface::{shape, stations};
-use plydrape_io::{OutputError, PROGRAM, ResultFile, json};
+use plydrape_io::store::json;
+use plydrape_io::write::surface::{shape, stations};
+use plydrape_io::{OutputError, PROGRAM, ResultFile};
 use serde::Serialize;
 use std::path::Path;
 

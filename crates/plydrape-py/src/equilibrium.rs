@@ -8,7 +8,7 @@ use plydrape::draping::spans::Shape;
 use plydrape::equilibrium::{self, Direction, EarlyEnds, Property, Status};
 use plydrape::layup::Settings;
 use plydrape::ply::{self, ContactSegment, shear};
-use plydrape_io::size;
+use plydrape_io::store::size;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;

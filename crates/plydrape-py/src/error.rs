@@ -1,9 +1,9 @@
 //! Errors of the library as the exceptions of `plydrape.errors`, with the same words.
 
 use plydrape::ModelError;
+use plydrape_io::result::sheet::{SheetDrapeError, model_remedy};
 use plydrape_io::scene::{SceneError, Unread};
-use plydrape_io::sheet::{SheetDrapeError, model_remedy};
-use plydrape_io::size::SizeError;
+use plydrape_io::store::size::SizeError;
 use plydrape_io::{OutputError, ReadError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

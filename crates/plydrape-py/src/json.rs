@@ -1,7 +1,7 @@
 //! What the library writes as JSON, as dicts and lists.
 
 use crate::error;
-use plydrape_io::json;
+use plydrape_io::store::json;
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use serde::Serialize;

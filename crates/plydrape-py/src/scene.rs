@@ -9,7 +9,7 @@ use crate::{error, table};
 use plydrape::errors::{Draw, Errors};
 use plydrape::motion::Motion;
 use plydrape_io::scene::{self, SceneFile};
-use plydrape_io::{shown, size};
+use plydrape_io::store::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -6,7 +6,7 @@ use crate::json::Json;
 use plydrape::layup::Model;
 use plydrape::outcome::Status;
 use plydrape_io::ResultFile;
-use plydrape_io::sheet::{SheetState, SheetStates};
+use plydrape_io::result::sheet::{SheetState, SheetStates};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
 

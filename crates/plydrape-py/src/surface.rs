@@ -1,7 +1,7 @@
 //! `plydrape.Surface`: the ply between its catenaries.
 
 use crate::arrays::Array;
-use plydrape_io::surface;
+use plydrape_io::write::surface;
 use pyo3::prelude::*;
 
 /// The ply of one step as a surface.

@@ -4,7 +4,7 @@ use super::Line;
 use crate::numbers::millimetres;
 use plydrape::bodies::{Mount, Shape};
 use plydrape::scene::Scene;
-use plydrape_io::shown;
+use plydrape_io::store::shown;
 
 /// Bodies, then obstacles; nothing where there are none.
 pub(super) fn bodies(scene: &Scene) -> Vec<Line> {

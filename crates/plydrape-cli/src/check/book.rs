@@ -4,7 +4,7 @@ use super::{mold, warnings};
 use crate::failure::Done;
 use crate::numbers::degrees;
 use plydrape_io::scene::{BookPly, read_book};
-use plydrape_io::shown;
+use plydrape_io::store::shown;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;

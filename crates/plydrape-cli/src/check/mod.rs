@@ -13,7 +13,7 @@ use crate::failure::Done;
 use crate::numbers::{degrees, short};
 use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
 use plydrape_io::scene::SceneFile;
-use plydrape_io::shown;
+use plydrape_io::store::shown;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -4,8 +4,8 @@ use super::Line;
 use crate::numbers::{millimetres, short};
 use plydrape::layup::{Friction, Model, Settings, SheetTime};
 use plydrape::scene::Scene;
-use plydrape_io::sheet::SheetSize;
-use plydrape_io::size;
+use plydrape_io::result::sheet::SheetSize;
+use plydrape_io::store::size;
 
 /// Mesh, pads and friction of the sheet; nothing where catenaries decide.
 pub(super) fn sheet(scene: &Scene) -> Vec<Line> {

@@ -77,7 +77,7 @@ fn other_files_are_refused_with_a_remedy() {
     let home = tempfile::tempdir().unwrap();
     let good = result(home.path(), "02_hanging_strip");
     let sound = std::fs::read_to_string(&good).unwrap();
-    let version = plydrape_io::format::VERSION;
+    let version = plydrape_io::store::format::VERSION;
     let versioned = |other: u32| {
         sound.replacen(&format!("\"version\":{version}"), &format!("\"version\":{other}"), 1)
     };

@@ -7,7 +7,7 @@ use super::block::Block;
 use super::field::{Field, ends};
 use super::packing::{MICRO, hundredths, micrometers};
 use crate::result::ResultFile;
-use crate::surface::{Surface, contact_lines, lines, stations};
+use crate::write::surface::{Surface, contact_lines, lines, stations};
 use plydrape::draping::record::Cell;
 use plydrape::geometry::distance;
 use plydrape::measure::{Name, Verdict};

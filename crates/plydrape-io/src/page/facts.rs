@@ -26,7 +26,8 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
                 PlanMethod::Stepwise => "steps",
             },
             plan.evaluations,
-            crate::shown::picked_up(plan).map_or_else(String::new, |text| format!(", {text}")),
+            crate::store::shown::picked_up(plan)
+                .map_or_else(String::new, |text| format!(", {text}")),
             shown(last.map_or(0.0, |step| step.time)),
         ),
         (None, Some(last)) => {
@@ -37,7 +38,7 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     };
     let fact = |label, value| Fact { label, value };
     vec![
-        fact("Ply", crate::shown::ply(&scene.ply)),
+        fact("Ply", crate::store::shown::ply(&scene.ply)),
         fact("Material", material(result)),
         fact("Mold", scene.mold.as_ref().map_or("none".into(), mold)),
         fact("Motion", motion),

@@ -1,6 +1,6 @@
 //! Limits as the page lists them: the closest first, in the words and units of their measures.
 
-use crate::table::slack_in_words;
+use crate::text::table::slack_in_words;
 use plydrape::measure::{Name, Scope, Verdict};
 use plydrape::outcome::Summary;
 use serde::Serialize;

@@ -5,7 +5,7 @@
 //! surface and the mold in triangles. The page computes no mechanics, and knows no measure by name: which measures and limits there are,
 //! their words, units and senses all come with its data.
 //!
-//! Verdict, limits and charts are those of the model that decides. The other one, where it was draped, is a second [`Drape`] without a
+//! Verdict, limits and charts are those of the model that decides. The other one, where it was draped, is a second `Drape` without a
 //! limit in it.
 //!
 //! 1. `limit`, `course`, `field`: limits, measures over the steps, and what colors tell;
@@ -29,10 +29,10 @@ mod reading;
 mod sample;
 mod sheet;
 
-use super::OutputError;
-use crate::format::VERSION;
+use crate::OutputError;
 use crate::result::ResultFile;
-use crate::sheet::ended;
+use crate::result::sheet::ended;
+use crate::store::format::VERSION;
 use block::Block;
 use catenaries::Detail;
 use cell::{Cell, VacuumEvent, cell, events};
@@ -119,7 +119,7 @@ impl Form {
 /// # Errors
 /// As [`html`].
 pub fn data(result: &ResultFile, form: Form) -> Result<String, OutputError> {
-    Ok(super::json::of(&page(result, form)?)?)
+    Ok(crate::store::json::of(&page(result, form)?)?)
 }
 
 /// The page of a result. Same result, same bytes.

@@ -1,8 +1,8 @@
 //! The mold as the page draws it: triangles around the ply.
 
 use super::packing::short;
-use crate::mold_patch::mold_patch;
 use crate::result::ResultFile;
+use crate::write::mold_patch::mold_patch;
 use serde::Serialize;
 
 /// Triangles (m).

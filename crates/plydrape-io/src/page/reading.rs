@@ -5,7 +5,7 @@
 
 use super::Form;
 use super::block::Block;
-use crate::sheet::normal;
+use crate::result::sheet::normal;
 use plydrape::geometry::vector::{along, dot, norm};
 use plydrape::measure::{Name, Verdict};
 use plydrape::outcome::Gripper;

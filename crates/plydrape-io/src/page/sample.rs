@@ -2,8 +2,8 @@
 
 use super::limit::{Limit, closest_first};
 use crate::result::ResultFile;
-use crate::sheet::SheetMesh;
-use crate::table::{share, stands_in_words};
+use crate::result::sheet::SheetMesh;
+use crate::text::table::{share, stands_in_words};
 use plydrape::geometry::distance;
 use plydrape::measure::Name;
 use plydrape::outcome::CellVerdict;

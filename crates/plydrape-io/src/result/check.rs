@@ -1,8 +1,8 @@
 //! What is impossible in a result that was read.
 
 use super::{Also, ResultFile, SceneEcho};
-use crate::json::JsonError;
-use crate::shown;
+use crate::store::json::JsonError;
+use crate::store::shown;
 use plydrape::bodies::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
 use plydrape::layup::{Friction, Model, Settings};

@@ -10,11 +10,11 @@
 use super::contact::Known;
 use super::step::StepColumns;
 use super::{ResultFile, SceneEcho};
-use crate::folder::Content;
-use crate::format::{FORMAT, VERSION};
-use crate::json::JsonError;
-use crate::json::finite;
-use crate::sheet::SheetSeal;
+use crate::result::sheet::SheetSeal;
+use crate::store::folder::Content;
+use crate::store::format::{FORMAT, VERSION};
+use crate::store::json::JsonError;
+use crate::store::json::finite;
 use plydrape::layup::Model;
 use plydrape::outcome::{Step, Summary, Unjudged};
 use plydrape::planner::PlanRecord;
@@ -217,8 +217,8 @@ impl Serialize for ResultFile {
 
 #[cfg(test)]
 mod tests {
-    use crate::json::JsonError;
     use crate::sample::lines;
+    use crate::store::json::JsonError;
     use crate::{ResultFile, sample};
 
     fn refused_key(result: &ResultFile) -> Option<String> {

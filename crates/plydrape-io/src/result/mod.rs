@@ -10,9 +10,10 @@ mod contact;
 pub mod document;
 pub mod mold;
 pub mod read;
+pub mod sheet;
 mod step;
 
-use crate::sheet::{self, KeptDrape, SheetDrapeError, SheetKept};
+use crate::result::sheet::{KeptDrape, SheetDrapeError, SheetKept};
 use plydrape::bodies::Bodies;
 use plydrape::draping::curves;
 use plydrape::draping::record::CatenaryState;

@@ -1,6 +1,6 @@
 //! A mold as a file holds it: what it is made from again.
 
-use crate::formula;
+use crate::read::formula;
 use plydrape::mold::{
     Cylinder, Graph, HeightGrid, Layer, Layers, Mesh, Mold, Plane, Pose, Raised, Saddle, Sphere,
     Surface, Torus,

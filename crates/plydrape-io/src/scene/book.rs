@@ -293,7 +293,7 @@ fn reading<'a>(
         (Some(name), _) => check::line(name, document)?,
         (None, Some(file)) => {
             let stem = Path::new(&file.value).file_stem().unwrap_or_default();
-            crate::shown::name(&stem.to_string_lossy())
+            crate::store::shown::name(&stem.to_string_lossy())
         }
         (None, None) => {
             return refused(header, "the ply has no name", "add name = \"first\" or the like");

@@ -10,7 +10,7 @@ use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
 use super::usual;
-use crate::shown::millimetres;
+use crate::store::shown::millimetres;
 use plydrape::ply::{
     Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId, gripper_name,
 };

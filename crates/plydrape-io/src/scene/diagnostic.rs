@@ -4,7 +4,7 @@ use super::choice::MIDDLE;
 use super::error::{Document, SceneError, excerpt};
 use super::read::BACKSLASHES;
 use super::tree::{Fault, WORD_WANTED};
-use crate::file_kind::edits;
+use crate::store::file_kind::edits;
 use std::ops::Range;
 
 /// A diagnostic of the TOML reader or of serde as a [`SceneError`].

@@ -7,7 +7,7 @@ use super::located::Located;
 use super::read;
 use super::units::{self, Dimension};
 use super::usual;
-use crate::outline::{self, Options, OutlineFault};
+use crate::read::outline::{self, Options, OutlineFault};
 use plydrape::ply::Outline;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Why a scene was refused: the place in its file, what is wrong there, and what would be right.
 
-use crate::shown;
+use crate::store::shown;
 use std::fmt;
 use std::io::ErrorKind;
 use std::ops::Range;

@@ -5,7 +5,7 @@ use super::file::{ErrorsTable, MoldErrorsTable, Term};
 use super::located::{CountOrNone, Located, Whole};
 use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
 use super::usual;
-use crate::shown::millimetres;
+use crate::store::shown::millimetres;
 use plydrape::errors::{
     self, Errors, FrameErrors, GripperErrors, MaterialErrors, MoldErrors, PickUpErrors,
 };

@@ -9,7 +9,7 @@ use super::quantity::{BendingRigidity, Measure, Quantity, Ratio};
 use super::units::Dimension;
 use super::usual::{self, Usual};
 use super::{curve, read};
-use crate::shown;
+use crate::store::shown;
 use plydrape::material::{Material, MomentCurve, Scatter, Section};
 use std::ops::Range;
 use std::path::Path;

@@ -63,8 +63,8 @@ pub use material::{read_material, shipped_material, shipped_materials};
 pub use offset::{SeenOffset, json_offset, parse_offset, read_offset};
 pub use schema::schema;
 
-use crate::file_kind::FileKind;
-use crate::{input, shown};
+use crate::store::file_kind::FileKind;
+use crate::store::{input, shown};
 use located::Located;
 use plydrape::layup::Model;
 use plydrape::mold::{MeshReport, Mold};

@@ -4,7 +4,7 @@ use super::error::{Document, SceneError};
 use super::file::{MethodKey, MountTable, SceneKeys};
 use super::located::Located;
 use super::sheet;
-use crate::size::PlanSheets;
+use crate::store::size::PlanSheets;
 use plydrape::ModelError;
 use plydrape::layup::{Layup, Model, Settings};
 use plydrape::ply::Ply;

@@ -2,8 +2,8 @@
 
 use super::error::{Document, SceneError, Unread};
 use super::{diagnostic, tree};
-use crate::file_kind::{self, FileKind};
-use crate::{input, shown};
+use crate::store::file_kind::{self, FileKind};
+use crate::store::{input, shown};
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
 use std::path::Path;

@@ -2,8 +2,8 @@
 
 use super::error::{Document, SceneError};
 use super::file::SceneKeys;
-use crate::shown::millimetres;
-use crate::size::{self, PlanSheets};
+use crate::store::shown::millimetres;
+use crate::store::size::{self, PlanSheets};
 use plydrape::layup::Settings;
 use plydrape::material::{Material, Section};
 use plydrape::planner::tuning::TUNING;

@@ -62,7 +62,7 @@ fn an_obstacle_between_two_steps_is_met_and_named() {
     let (sin, cos) = result.steps[0].grippers[0].tilt_deg.to_radians().sin_cos();
     let wanted = 98.0 - 2.0 * (15.0 * cos + 30.0 * sin);
     assert!((values[0] - wanted).abs() < 1e-3 && values[2] > 40.0, "{values:?} {wanted}");
-    assert!(plydrape_io::table::details(&result).contains("and obstacle wall at"));
+    assert!(plydrape_io::text::table::details(&result).contains("and obstacle wall at"));
     // a wall beside the way is not met
     let beside = "[[obstacles]]\nname = \"wall\"\nbox = { size = [1, 0.002, 1] }\nposition = [0.36, 0.05, 0]\n";
     let result = drape(&read(&passing(&format!("{CUP}{beside}"))));
@@ -125,7 +125,7 @@ fn a_scene_without_bodies_says_nothing_of_clearances() {
     let mut file: serde_json::Value = serde_json::from_str(&result.text().unwrap()).unwrap();
     // limits are a map, of what is not there too
     file["scene"]["limits"].as_object_mut().unwrap().remove("clearance").expect("its usual limit");
-    for text in [file.to_string(), plydrape_io::csv::steps(&result).unwrap()] {
+    for text in [file.to_string(), plydrape_io::write::csv::steps(&result).unwrap()] {
         assert!(!text.contains("clearance") && !text.contains("bodies"), "{text}");
     }
     let wall =

@@ -9,7 +9,8 @@ use plydrape::material::{Material, Section};
 use plydrape::outcome::{self, Drape, DrapeWatch, Step};
 use plydrape::ply::{ContactSegment, Grid, Ply};
 use plydrape::scene::Scene;
-use plydrape_io::{ResultFile, sheet};
+use plydrape_io::ResultFile;
+use plydrape_io::result::sheet;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

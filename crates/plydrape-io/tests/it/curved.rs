@@ -191,8 +191,8 @@ fn cap(radius: f64, n: usize) -> Mold {
         }
     }
     let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let (mesh, _) =
-        plydrape_io::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose).expect("a sound mesh");
+    let (mesh, _) = plydrape_io::read::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose)
+        .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }
 
@@ -284,7 +284,7 @@ fn a_sphere_as_a_formula_drapes_like_the_sphere() {
     let along = |s| on_circle(radius, s);
     let pose = Pose::new([0.0, 0.0, -radius], [0.0; 3]);
     let sphere = Mold::Sphere(Sphere { pose, radius, face: Face::Outside });
-    let z = plydrape_io::formula::read("sqrt(0.36 - x^2 - y^2) - 0.6").expect("a formula");
+    let z = plydrape_io::read::formula::read("sqrt(0.36 - x^2 - y^2) - 0.6").expect("a formula");
     let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Formula { z });
     let domain = Some([[-0.4, 0.4], [-0.4, 0.4]]);
     let formula = Mold::Graph(Graph { pose, surface, domain });

@@ -5,7 +5,7 @@ use plydrape::ply::Grid;
 use plydrape::scene::Scene;
 use plydrape::sheet::{self, Sheet, Status};
 use plydrape_io::export::{self, Format};
-use plydrape_io::outline::{self, Options};
+use plydrape_io::read::outline::{self, Options};
 use plydrape_io::scene;
 use std::path::Path;
 
@@ -167,7 +167,7 @@ fn a_cut_ply_is_written_to_every_file() {
     let result = crate::common::decided(&scene, folder.path());
     let results = folder.path().join("results");
     plydrape_io::write_all(&result, &results).unwrap_or_else(|error| panic!("{error}"));
-    let read = plydrape_io::read::read(&results.join("result.json")).unwrap();
+    let read = plydrape_io::result::read::read(&results.join("result.json")).unwrap();
     assert_eq!(read.scene.ply, scene.layup.ply);
     let any = export::Options { even_if_rejected: true, ..export::Options::default() };
     for format in [Format::Csv, Format::Ros2, Format::Vtk, Format::Pattern, Format::Boundary] {

@@ -3,10 +3,13 @@
 use crate::common::{drape, examples};
 use plydrape::scene::Plan;
 use plydrape_io::export::{self, Format};
-use plydrape_io::mesh::{self, MeshFileError};
+use plydrape_io::read::formula;
+use plydrape_io::read::mesh::{self, MeshFileError};
+use plydrape_io::result::read;
 use plydrape_io::scene::{self, SceneError};
-use plydrape_io::size::PlanSheets;
-use plydrape_io::{ResultFile, formula, input, page, read, size};
+use plydrape_io::store::size::PlanSheets;
+use plydrape_io::store::{input, size};
+use plydrape_io::{ResultFile, page};
 use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

@@ -149,7 +149,8 @@ fn the_net_on_the_cubic_lies_on_the_printed_polynomial() {
 fn the_stl_has_the_targets_of_its_formula() {
     let scene = example("08_stl_mold");
     let (target, net, _) = target(&scene);
-    let z = plydrape_io::formula::read("-x^2/2 + 3*x^3/5 - 9*y^2/10 + 4*x*y/5").expect("a formula");
+    let z = plydrape_io::read::formula::read("-x^2/2 + 3*x^3/5 - 9*y^2/10 + 4*x*y/5")
+        .expect("a formula");
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     let smooth = Mold::Graph(Graph { pose, surface: Surface::Formula { z }, domain: None });
     let mut layup = net.placement;

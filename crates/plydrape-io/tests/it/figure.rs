@@ -2,8 +2,8 @@
 
 use plydrape::mold::{Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface};
 use plydrape::net::{EdgeRule, Generators, Net, Placement};
-use plydrape_io::figure;
-use plydrape_io::net::{Findings, write_all};
+use plydrape_io::write::figure;
+use plydrape_io::write::net::{Findings, write_all};
 use std::path::Path;
 
 /// The map says what the net reports; same net, same bytes; even a fine net stays a page's size.

@@ -28,7 +28,7 @@ fn as_formula(scale: f64) -> Mold {
         "{scale:?}*(0.08*sin(7*x/{scale:?})*cos(5*y/{scale:?}) + 0.2*x*y/{:?})",
         scale * scale
     );
-    let z = plydrape_io::formula::read(&text).expect("a formula");
+    let z = plydrape_io::read::formula::read(&text).expect("a formula");
     let domain = Some([[-0.3 * scale, 0.3 * scale]; 2]);
     Mold::Graph(Graph { pose: level(), surface: Surface::Formula { z }, domain })
 }
@@ -65,8 +65,8 @@ fn as_mesh(scale: f64) -> Mold {
             text += &format!("f {} {} {} {}\n", a, a + 1, a + n + 1, a + n);
         }
     }
-    let (mesh, _) =
-        plydrape_io::mesh::parse("m.obj", text.as_bytes(), 1.0, &level()).expect("a sound mesh");
+    let (mesh, _) = plydrape_io::read::mesh::parse("m.obj", text.as_bytes(), 1.0, &level())
+        .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }
 
@@ -253,7 +253,7 @@ fn a_flat_formula_and_a_plane_have_the_same_samples() {
     let (slope, tolerance) = (0.3, 2e-4);
     let size = f64::hypot(slope, 1.0);
     let plane = Mold::Plane(Plane { point: [0.0; 3], normal: [-slope / size, 0.0, 1.0 / size] });
-    let z = plydrape_io::formula::read("0.3*x").expect("a formula");
+    let z = plydrape_io::read::formula::read("0.3*x").expect("a formula");
     let domain = Some([[-0.5, 0.5]; 2]);
     let formula = Graph { pose: level(), surface: Surface::Formula { z }, domain };
     let axis = places(5, 1.0);
@@ -317,7 +317,9 @@ fn steepness_bounds_every_slope_and_bend() {
     ];
     let domain = [[-0.3, 0.4], [-0.35, 0.3]];
     let mut surfaces: Vec<Surface> = (formulas.iter())
-        .map(|text| Surface::Formula { z: plydrape_io::formula::read(text).expect("a formula") })
+        .map(|text| Surface::Formula {
+            z: plydrape_io::read::formula::read(text).expect("a formula"),
+        })
         .collect();
     surfaces.push(Surface::Saddle(Saddle { radii: [0.3, 0.5] }));
     let axis = places(9, 1.4);
@@ -352,7 +354,7 @@ fn steepness_bounds_every_slope_and_bend() {
 /// called clear must not reach the next ridge.
 #[test]
 fn a_ball_that_is_called_clear_holds_nothing_of_the_mold() {
-    let z = plydrape_io::formula::read("0.03*cos(40*x) + 0.8*x").expect("a formula");
+    let z = plydrape_io::read::formula::read("0.03*cos(40*x) + 0.8*x").expect("a formula");
     let domain = Some([[-0.5, 0.5]; 2]);
     let surface = Surface::Formula { z };
     let ridges = Mold::Graph(Graph { pose: level(), surface, domain });

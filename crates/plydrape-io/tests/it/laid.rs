@@ -1,8 +1,8 @@
 //! Plies that are cut, laid on their molds from scenes: what counts, where the boundary is wanted, and which seed is taken.
 
 use plydrape::net::Net;
-use plydrape_io::net::{Findings, Summary};
 use plydrape_io::scene::{self, IdealDrape};
+use plydrape_io::write::net::{Findings, Summary};
 use std::path::Path;
 
 /// An L on a dome, as a scene; keys of `[target]`.
@@ -155,7 +155,8 @@ fn boundary_and_seeds_are_written() {
     let ideal = laid(home.path(), &scene("seed = \"best\"\ndirection = \"best\""));
     let findings = Findings::of(&ideal.net, &ideal.mold, None, ideal.seeds.clone());
     let out = home.path().join("out");
-    let files = plydrape_io::net::write_all(&ideal.net, &ideal.mold, &findings, "L", &out).unwrap();
+    let files =
+        plydrape_io::write::net::write_all(&ideal.net, &ideal.mold, &findings, "L", &out).unwrap();
     assert_eq!(files.len(), 8, "{files:?}");
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
     let boundary = read("boundary.csv");

@@ -3,7 +3,7 @@
 
 use plydrape::mold::Pose;
 use plydrape::mold::mesh::{Mesh, MeshReport};
-use plydrape_io::mesh::MeshFileError;
+use plydrape_io::read::mesh::MeshFileError;
 use std::path::Path;
 
 type Point = [f64; 3];
@@ -18,7 +18,7 @@ fn message(fault: &MeshFileError) -> String {
 }
 
 fn parse(file: &str, contents: impl AsRef<[u8]>) -> Result<(Mesh, MeshReport), MeshFileError> {
-    plydrape_io::mesh::parse(file, contents.as_ref(), 1.0, &still())
+    plydrape_io::read::mesh::parse(file, contents.as_ref(), 1.0, &still())
 }
 
 fn read(file: &str, contents: impl AsRef<[u8]>) -> (Mesh, MeshReport) {
@@ -232,7 +232,7 @@ fn the_blade_like_mold_is_one_open_surface() {
         return;
     }
     let (mesh, report) =
-        plydrape_io::mesh::read(path, 1.0, &still()).unwrap_or_else(|e| panic!("{e}"));
+        plydrape_io::read::mesh::read(path, 1.0, &still()).unwrap_or_else(|e| panic!("{e}"));
     // its sets say 1 to 3510 and 1 to 6764
     assert_eq!((report.vertices, report.triangles), (3510, 6764));
     assert_eq!((report.surfaces, report.closed, mesh.boundaries().len()), (1, 0, 1));
@@ -243,7 +243,8 @@ fn the_blade_like_mold_is_one_open_surface() {
 fn a_mesh_is_scaled_and_then_placed() {
     let pose = Pose::new([1.0, 2.0, 3.0], [0.0, 0.0, std::f64::consts::FRAC_PI_2]);
     let text = "v 0 0 0\nv 1000 0 0\nv 0 500 0\nf 1 2 3\n";
-    let (mesh, report) = plydrape_io::mesh::parse("a.obj", text.as_bytes(), 1e-3, &pose).unwrap();
+    let (mesh, report) =
+        plydrape_io::read::mesh::parse("a.obj", text.as_bytes(), 1e-3, &pose).unwrap();
     let expected: [Point; 3] = [[0.5, 2.0, 3.0], [1.0, 2.0, 3.0], [1.0, 3.0, 3.0]];
     close(&sorted(&mesh), &expected, 1e-15);
     close(&report.bounds, &mesh.bounds(), 0.0);
@@ -417,11 +418,11 @@ fn broken_files_are_refused_with_place_and_remedy() {
             Err(fault) => messages += &message(&fault),
         }
     }
-    let missing = plydrape_io::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still());
+    let missing = plydrape_io::read::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still());
     messages += &message(&missing.unwrap_err());
     for scale in [0.0, f64::NAN] {
-        let fault =
-            plydrape_io::mesh::parse("a.obj", square.as_bytes(), scale, &still()).unwrap_err();
+        let fault = plydrape_io::read::mesh::parse("a.obj", square.as_bytes(), scale, &still())
+            .unwrap_err();
         messages += &message(&fault);
     }
     insta::assert_snapshot!("messages", messages);

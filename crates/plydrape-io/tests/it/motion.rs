@@ -2,8 +2,9 @@
 
 use crate::common::paper_ply;
 use plydrape::motion::{Attitudes, Bounds, MotionError, TimedMotion};
+use plydrape_io::OutputError;
 use plydrape_io::scene;
-use plydrape_io::{OutputError, csv};
+use plydrape_io::write::csv;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

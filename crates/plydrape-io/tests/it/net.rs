@@ -494,8 +494,8 @@ fn meshed(
             writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}").unwrap();
         }
     }
-    let (mesh, _) =
-        plydrape_io::mesh::parse("mold.obj", text.as_bytes(), 1.0, &level()).expect("a sound mesh");
+    let (mesh, _) = plydrape_io::read::mesh::parse("mold.obj", text.as_bytes(), 1.0, &level())
+        .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }
 

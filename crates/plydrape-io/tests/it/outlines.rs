@@ -1,6 +1,6 @@
 //! Drawings by another program, whole and damaged; `outlines/README.md` says where they come from.
 
-use plydrape_io::outline::{self, Options, OutlineFault};
+use plydrape_io::read::outline::{self, Options, OutlineFault};
 use std::f64::consts::PI;
 use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};

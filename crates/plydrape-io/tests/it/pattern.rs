@@ -2,8 +2,8 @@
 
 use insta::assert_binary_snapshot;
 use plydrape::ply::Outline;
-use plydrape_io::outline::{self, Options};
-use plydrape_io::pattern::{Gripper, Line, Pattern, boundary, dxf, pdf};
+use plydrape_io::read::outline::{self, Options};
+use plydrape_io::write::pattern::{Gripper, Line, Pattern, boundary, dxf, pdf};
 
 /// A ply of 300 mm by 200 mm without a corner, with a hole.
 fn ply() -> Outline {

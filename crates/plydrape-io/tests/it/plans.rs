@@ -9,9 +9,12 @@ use plydrape::motion::Motion;
 use plydrape::outcome::{Status, Summary};
 use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::Scene;
+use plydrape_io::plan;
+use plydrape_io::result::read;
 use plydrape_io::result::{ResultFile, Turned};
 use plydrape_io::scene;
-use plydrape_io::{csv, plan, read, table};
+use plydrape_io::text::table;
+use plydrape_io::write::csv;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

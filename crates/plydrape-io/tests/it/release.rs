@@ -6,7 +6,9 @@ use plydrape::measure::Name;
 use plydrape::outcome::Status;
 use plydrape::scene::Scene;
 use plydrape::sheet::{Event, EventKind};
-use plydrape_io::{ResultFile, csv, read, scene, write_all};
+use plydrape_io::result::read;
+use plydrape_io::write::csv;
+use plydrape_io::{ResultFile, scene, write_all};
 use std::path::Path;
 
 /// A ply of 4 × 2 grippers that is lowered on a plane, sheared by 10°, with more tables.

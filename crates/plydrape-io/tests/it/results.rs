@@ -6,10 +6,12 @@ use plydrape::measure::Name;
 use plydrape::motion::Motion;
 use plydrape::planner;
 use plydrape::scene::Scene;
+use plydrape_io::page;
 use plydrape_io::result::Turned;
+use plydrape_io::result::read;
 use plydrape_io::scene::{self, SceneFile};
+use plydrape_io::write::csv;
 use plydrape_io::{Content, ResultFile};
-use plydrape_io::{csv, page, read};
 use std::ops::ControlFlow;
 use std::path::Path;
 

@@ -2,7 +2,8 @@
 
 use crate::common::examples;
 use plydrape::outcome;
-use plydrape_io::{ResultFile, page, scene, vtk};
+use plydrape_io::write::vtk;
+use plydrape_io::{ResultFile, page, scene};
 use std::ops::ControlFlow;
 
 /// The dome with nine cells of 50 mm between grippers by both models, and the states of its sheet in a folder that lives as long.

@@ -124,7 +124,7 @@ fn a_result_that_is_read_back_has_its_preset_and_its_limits_of_slack() {
     let result = drape(&scene);
     let dir = tempfile::tempdir().expect("a folder");
     plydrape_io::write_all(&result, dir.path()).expect("written");
-    let back = plydrape_io::read::read(&dir.path().join("result.json")).expect("read");
+    let back = plydrape_io::result::read::read(&dir.path().join("result.json")).expect("read");
     assert_eq!(back.scene.limits, scene.limits);
     assert_eq!(back.scene.limits.preset, Some(Preset::LowWrinkle));
 }

@@ -4,9 +4,9 @@ use crate::common::drape_sheet;
 use plydrape::layup::Layup;
 use plydrape::measure::Name;
 use plydrape::scene::Scene;
-use plydrape_io::program::Program;
-use plydrape_io::read;
 use plydrape_io::result::ResultFile;
+use plydrape_io::result::read;
+use plydrape_io::robot::program::Program;
 use plydrape_io::scene;
 use std::path::Path;
 

@@ -142,13 +142,13 @@ fn a_flat_mold_has_one_outcome_by_whatever_name() {
             domain: Some([[-1.0, 1.0]; 2]),
         })
     };
-    let z = plydrape_io::formula::read("-1e-12*x^2").expect("a formula");
+    let z = plydrape_io::read::formula::read("-1e-12*x^2").expect("a formula");
     let axis: Vec<f64> = (0..21).map(|n| -1.0 + 0.1 * f64::from(n)).collect();
     let heights = HeightGrid::new(axis.clone(), axis, vec![0.0; 441]).expect("a grid");
     let square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n";
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     let (mesh, _) =
-        plydrape_io::mesh::parse("flat.obj", square.as_bytes(), 1.0, &pose).expect("a mesh");
+        plydrape_io::read::mesh::parse("flat.obj", square.as_bytes(), 1.0, &pose).expect("a mesh");
     let sphere = |radius: f64| {
         let pose = Pose::new([0.15, 0.05, -radius], [0.0; 3]);
         Mold::Sphere(Sphere { pose, radius, face: Face::Outside })

@@ -15,12 +15,7 @@ const CRATES: [(&str, &str); 6] = [
         "stopwatch geometry mold material ply net motion bodies tool layup clearance state catenary elastica fit equilibrium draping \
          sheet pick_up measure errors scene outcome planner",
     ),
-    (
-        "plydrape-io",
-        "json format file_kind shown size read_error error manifest folder formula input sheet result mesh outline scene strategy \
-         table book loads csv surface figure comparison mold_patch inp pattern program ros2 vtk export fit net page plan \
-         replan sample",
-    ),
+    ("plydrape-io", "store read result scene text write robot page export fit plan replan sample"),
     (
         "plydrape-cli",
         "failure argument outcome results numbers watch search compare errors model plan check complete export new fit limits net \

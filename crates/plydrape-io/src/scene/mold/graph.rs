@@ -2,7 +2,7 @@
 
 use super::Keys;
 use super::heights::heights;
-use crate::formula::{self, FormulaError};
+use crate::read::formula::{self, FormulaError};
 use crate::scene::error::{Document, SceneError};
 use crate::scene::heading::coordinates;
 use crate::scene::layup::extent;

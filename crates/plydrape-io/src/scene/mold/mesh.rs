@@ -1,7 +1,7 @@
 //! Meshes from STL, OBJ and Abaqus files.
 
 use super::Keys;
-use crate::mesh::{self, MeshFileError};
+use crate::read::mesh::{self, MeshFileError};
 use crate::scene::error::{Document, SceneError};
 use crate::scene::layup::round;
 use crate::scene::located::Located;

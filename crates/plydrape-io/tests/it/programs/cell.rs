@@ -4,8 +4,8 @@ use plydrape::geometry::vector::{between, distance, dot, turned};
 use plydrape::mold::Pose;
 use plydrape::ply::gripper_name;
 use plydrape_io::Files;
-use plydrape_io::program::sampling::Deviation;
-use plydrape_io::program::{Axis, Event, EventKind, Frames, Pad, Program};
+use plydrape_io::robot::program::sampling::Deviation;
+use plydrape_io::robot::program::{Axis, Event, EventKind, Frames, Pad, Program};
 
 /// How long the motion takes (s).
 pub const DURATION: f64 = 10.0;

@@ -4,7 +4,7 @@ use super::cell::{Played, Point};
 use super::tokens::{Reader, lines};
 use plydrape::mold::Pose;
 use plydrape_io::Files;
-use plydrape_io::program::Frames;
+use plydrape_io::robot::program::Frames;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a list of data declares. Names are in capitals.

@@ -13,7 +13,7 @@ mod urscript;
 use cell::{Played, cell, rejected, text};
 use plydrape::mold::Pose;
 use plydrape_io::Files;
-use plydrape_io::program::{Pad, Program, Robot, Template, Tolerance, template, wide};
+use plydrape_io::robot::program::{Pad, Program, Robot, Template, Tolerance, template, wide};
 
 fn files(program: &Program, robot: Robot, position: f64) -> Files {
     let tolerance = Tolerance { position, ..Tolerance::default() };

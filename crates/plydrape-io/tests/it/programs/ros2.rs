@@ -4,9 +4,9 @@ use super::cell::{DURATION, IDS, cell, product, rejected, text};
 use plydrape::geometry::vector::distance;
 use plydrape::mold::Pose;
 use plydrape::ply::gripper_name;
-use plydrape_io::program::sampling::Deviation;
-use plydrape_io::program::{Program, Tolerance};
-use plydrape_io::ros2;
+use plydrape_io::robot::program::sampling::Deviation;
+use plydrape_io::robot::program::{Program, Tolerance};
+use plydrape_io::robot::ros2;
 use std::collections::BTreeMap;
 
 /// A decoded value.

@@ -5,7 +5,7 @@ use super::tokens::{Line, Reader, Token, lines};
 use plydrape::geometry::vector::{norm, turned};
 use plydrape::mold::Pose;
 use plydrape_io::Files;
-use plydrape_io::program::Frames;
+use plydrape_io::robot::program::Frames;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The functions of the language that may be called.

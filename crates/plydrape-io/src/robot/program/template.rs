@@ -1,0 +1,281 @@
+//! Programs for the controllers of robots, written by templates in the language of Jinja.
+//!
+//! The shipped templates are the files in `templates/`. A user's copy takes the place of that with the same ending; one with
+//! another ending, such as `cell.ls.j2`, is used instead of all of them, so that a template can be for any controller.
+
+use super::blocks::Blocks;
+use super::context::contexts;
+use super::sampling::Track;
+use super::{Program, ProgramError, Tolerance, wide};
+use crate::OutputError;
+use crate::store::folder::Files;
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::{Serde, Value};
+use minijinja::{AutoEscape, Environment, Error, ErrorKind, UndefinedBehavior};
+
+/// A controller, by the language of its programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Robot {
+    /// ABB: RAPID.
+    Rapid,
+    /// KUKA: KRL.
+    Krl,
+    /// Universal Robots: URScript.
+    Urscript,
+}
+
+/// A template: what its file is called, and its text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Template {
+    /// Name of its file; behind the ending `.j2` stands that of what it makes, as in `cell.src.j2`.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// What a controller takes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// External axes that move with the arm.
+    pub axes: usize,
+    /// What they are called.
+    pub axis_names: [&'static str; 6],
+    /// Points of one file.
+    pub points: usize,
+    /// Number of the first digital output, and how many there are, if that is known.
+    pub first_output: usize,
+    pub outputs: Option<usize>,
+    /// Radii of zones (m), the smallest first.
+    pub radii: &'static [f64],
+    /// Whether points are passed in zones.
+    pub zones: bool,
+    /// What the frames are called in the program.
+    pub mold: &'static str,
+    pub tool: &'static str,
+    /// The units, in a line.
+    pub units: &'static str,
+}
+
+/// Radii of ABB's zones z0 to z200 (m), as far as they are larger than the one before; technical reference manual for RAPID
+/// instructions (3HAC050917), `zonedata`, predefined data.
+const ZONES: [f64; 14] = [
+    0.0003, 0.001, 0.005, 0.010, 0.015, 0.020, 0.030, 0.040, 0.050, 0.060, 0.080, 0.100, 0.150,
+    0.200,
+];
+
+impl Robot {
+    /// All of them.
+    pub const ALL: [Robot; 3] = [Robot::Rapid, Robot::Krl, Robot::Urscript];
+
+    /// Its name on the command line, which is that of its folder too.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Robot::Rapid => "rapid",
+            Robot::Krl => "krl",
+            Robot::Urscript => "urscript",
+        }
+    }
+
+    /// The shipped templates: ending of what they make, and text.
+    #[must_use]
+    pub fn shipped(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Robot::Rapid => &[("mod", include_str!("templates/rapid.mod.j2"))],
+            Robot::Krl => &[
+                ("src", include_str!("templates/krl.src.j2")),
+                ("dat", include_str!("templates/krl.dat.j2")),
+            ],
+            Robot::Urscript => &[("script", include_str!("templates/urscript.script.j2"))],
+        }
+    }
+
+    /// What its controller takes. For a number of points none of the makers states a limit, so 5000 to a file is a number
+    /// of ours: an editor still opens such a file, and a motion is seldom longer than some hundred points.
+    pub(super) fn limits(self) -> Limits {
+        let points = 5000;
+        match self {
+            Robot::Rapid => Limits {
+                // extjoint: eax_a to eax_f
+                axes: 6,
+                axis_names: ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"],
+                points,
+                first_output: 1,
+                outputs: None,
+                radii: &ZONES,
+                zones: true,
+                mold: "work object ply_mold",
+                tool: "ply_tool",
+                units: "Units: mm, degrees per second, seconds; quaternions begin with w",
+            },
+            Robot::Krl => Limits {
+                // E6POS: E1 to E6
+                axes: 6,
+                axis_names: ["E1", "E2", "E3", "E4", "E5", "E6"],
+                points,
+                first_output: 1,
+                // $OUT[1] to $OUT[4096]
+                outputs: Some(4096),
+                radii: &[],
+                zones: false,
+                mold: "$BASE = PLY_MOLD",
+                tool: "$TOOL = PLY_TOOL",
+                units: "Units: mm, degrees (A about Z, B about Y, C about X), seconds",
+            },
+            Robot::Urscript => Limits {
+                axes: 0,
+                axis_names: [""; 6],
+                points,
+                first_output: 0,
+                // 8 standard, 8 configurable and 2 at the tool
+                outputs: Some(18),
+                radii: &[],
+                zones: false,
+                mold: "ply_mold, in the base of the robot",
+                tool: "the TCP",
+                units: "Units: m, rad (rotation vectors), seconds",
+            },
+        }
+    }
+}
+
+/// The files of a program for a controller: each in one part, or in several where it has too many points; and the table of
+/// the axes, where the controller cannot move all of them. Same program, same bytes.
+///
+/// # Errors
+/// [`ProgramError`] if there is no flange, a tolerance is none, there are more signals than outputs, or a template cannot be
+/// used, or the arm would stop on the way without the axes of another controller.
+pub fn files(
+    program: &Program,
+    robot: Robot,
+    templates: &[Template],
+    tolerance: &Tolerance,
+) -> Result<Files, OutputError> {
+    program.check()?;
+    tolerance.check()?;
+    if program.flange.is_none() {
+        return Err(ProgramError::NoFlange { format: robot.name() }.into());
+    }
+    let used = used(robot, templates);
+    let limits = robot.limits();
+    let separate = program.axes.len() > limits.axes;
+    let needed = program.pads.len() + usize::from(separate);
+    if let Some(most) = limits.outputs.filter(|most| needed > *most && templates.is_empty()) {
+        return Err(ProgramError::Outputs { format: robot.name(), most, needed }.into());
+    }
+
+    let track = Track::new(program, !separate);
+    let blocks = Blocks::new(&track, tolerance, limits.radii);
+    let parts = blocks.parts(limits.points).len();
+    if separate && templates.is_empty() && (parts > 1 || blocks.stops_on_the_way()) {
+        let why = match parts {
+            1 => "where the vacuum switches".into(),
+            _ => format!("between the {parts} parts of its program"),
+        };
+        let (format, axes) = (robot.name(), program.axes.len());
+        return Err(ProgramError::ApartOnTheWay { format, why, axes }.into());
+    }
+    let environment = environment();
+    let mut files = Vec::new();
+    for context in contexts(&track, &blocks, robot) {
+        let part = context.part.clone();
+        let value = Value::from(Serde(&context));
+        for (ending, Template { name, text }) in &used {
+            let made = environment.render_named_str(name, text, &value);
+            let made = made.map_err(|error| refused(name, &error))?;
+            files.push((format!("{part}.{ending}"), made.into_bytes()));
+        }
+    }
+    if separate {
+        files.push((wide::FILE.into(), wide::text(program)?.into_bytes()));
+    }
+    Ok(files)
+}
+
+/// The templates that are used, with the endings of what they make.
+fn used(robot: Robot, given: &[Template]) -> Vec<(String, Template)> {
+    let shipped = robot.shipped().iter().map(|(ending, text)| {
+        let name = format!("{}.{ending}.j2", robot.name());
+        ((*ending).to_owned(), Template { name, text: (*text).to_owned() })
+    });
+    let mut used: Vec<_> = shipped.collect();
+    let ending = |name: &str| {
+        let bare = name.strip_suffix(".j2").unwrap_or(name);
+        bare.rsplit_once('.').map_or("txt", |(_, ending)| ending).to_owned()
+    };
+    let own: Vec<(String, Template)> =
+        given.iter().map(|template| (ending(&template.name), template.clone())).collect();
+    if own.iter().any(|(ending, _)| used.iter().all(|(known, _)| known != ending)) {
+        return own;
+    }
+    for (ending, template) in own {
+        used.iter_mut()
+            .filter(|(known, _)| *known == ending)
+            .for_each(|(_, old)| *old = template.clone());
+    }
+    used
+}
+
+/// Why a template was refused, with its line.
+fn refused(name: &str, error: &Error) -> ProgramError {
+    let line = error.line().map(|line| format!("line {line}: ")).unwrap_or_default();
+    let what = error.detail().map_or_else(|| error.kind().to_string(), str::to_owned);
+    ProgramError::Template { name: name.into(), reason: format!("{line}{what}") }
+}
+
+fn environment() -> Environment<'static> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|_| AutoEscape::None);
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    let lines = SyntaxConfig::builder()
+        .trim_blocks(true)
+        .lstrip_blocks(true)
+        .keep_trailing_newline(true)
+        .build();
+    if let Ok(lines) = lines {
+        environment.set_syntax(lines);
+    }
+    environment.add_filter("fixed", |value: Value, digits: Option<usize>| {
+        each(&value, 1.0, digits.unwrap_or(6))
+    });
+    environment.add_filter("mm", |value: Value, digits: Option<usize>| {
+        each(&value, 1e3, digits.unwrap_or(4))
+    });
+    environment.add_filter("degrees", |value: Value, digits: Option<usize>| {
+        each(&value, 1.0_f64.to_degrees(), digits.unwrap_or(6))
+    });
+    environment.add_filter("comment", |lines: Vec<String>, mark: &str| {
+        lines
+            .iter()
+            .map(|line| format!("{mark} {line}").trim_end().to_owned() + "\n")
+            .collect::<String>()
+    });
+    environment.add_filter("zone", |radius: f64| {
+        let nearest = ZONES.iter().rev().find(|zone| **zone <= radius * (1.0 + 1e-9));
+        match nearest {
+            Some(zone) if *zone < 0.001 => "z0".to_owned(),
+            Some(zone) => format!("z{:.0}", zone * 1e3),
+            None => "fine".into(),
+        }
+    });
+    environment
+}
+
+/// A number times a factor, or a list of them, with so many digits; no zero has a sign.
+fn each(value: &Value, factor: f64, digits: usize) -> Result<Value, Error> {
+    if let Ok(number) = f64::try_from(value.clone()) {
+        let text = format!("{:.digits$}", number * factor);
+        let zero = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
+        return Ok(if zero { text.trim_start_matches('-').into() } else { text.into() });
+    }
+    let refused = || {
+        let what = format!("{value} is no number and no list of them");
+        Error::new(ErrorKind::InvalidOperation, what)
+    };
+    // a text would be a list of its letters
+    if value.as_str().is_some() {
+        return Err(refused());
+    }
+    let list = value.try_iter().map_err(|_| refused())?;
+    list.map(|item| each(&item, factor, digits)).collect()
+}

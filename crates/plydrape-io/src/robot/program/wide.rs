@@ -1,0 +1,77 @@
+//! The program as one table, `motion_wide.csv`: a row a time, a column a number.
+//!
+//! | columns | |
+//! |---|---|
+//! | `t (s)` | time |
+//! | `flange x (m)`, `y`, `z`, `qx`, `qy`, `qz`, `qw` | the flange in the frame of the mold, if one arm holds the array |
+//! | `g2_0_z (m)` | an axis |
+//! | `g2_0 vacuum` | 1 while the vacuum of a gripper is on, else 0 |
+//! | `g2_0 tilt (deg)` | the angle of a passive joint; no axis moves it |
+//!
+//! Numbers are in the shortest form that reads back to the same double.
+
+use super::context::rejected;
+use super::sampling::nearest;
+use super::{Event, EventKind, Program};
+use crate::write::csv::{number, text as text_of};
+use ::csv::{Error, Writer};
+use plydrape::geometry::Pose;
+use plydrape::ply::gripper_name;
+
+/// Name of the file.
+pub const FILE: &str = "motion_wide.csv";
+
+/// The table. Of a motion that is not accepted, a comment above the header says so.
+///
+/// # Errors
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn text(program: &Program) -> Result<String, Error> {
+    let mut header = vec!["t (s)".to_owned()];
+    if program.flange.is_some() {
+        header.extend(
+            ["x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"].map(|c| format!("flange {c}")),
+        );
+    }
+    header.extend(program.axes.iter().map(|axis| format!("{} (m)", axis.name)));
+    header.extend(program.grippers().iter().map(|name| format!("{name} vacuum")));
+    header.extend(program.grippers().iter().map(|name| format!("{name} tilt (deg)")));
+    let mut table = Writer::from_writer(Vec::new());
+    table.write_record(&header)?;
+    let vacuum = vacuum(program);
+    let turns = Pose::quaternions(program.flange.iter().flatten());
+    for (k, time) in program.times.iter().enumerate() {
+        let mut row = vec![number(*time)];
+        if let Some(flange) = &program.flange {
+            row.extend(flange[k].position.map(number));
+            row.extend(turns[k].map(number));
+        }
+        row.extend(program.axes.iter().map(|axis| number(axis.values[k])));
+        row.extend(vacuum[k].iter().map(|on| u8::from(*on).to_string()));
+        row.extend(program.pads.iter().map(|pad| number(pad.tilts[k].to_degrees())));
+        table.write_record(&row)?;
+    }
+    Ok(head(program) + &text_of(table)?)
+}
+
+/// A comment that says that the motion is not accepted, if it is not.
+pub(crate) fn head(program: &Program) -> String {
+    if program.accepted { String::new() } else { format!("# {}\n", rejected(program)) }
+}
+
+/// Whether the vacuum of each gripper is on at each time, from the sample nearest to each event on.
+fn vacuum(program: &Program) -> Vec<Vec<bool>> {
+    let names = program.grippers();
+    let mut on = vec![vec![false; names.len()]; program.times.len()];
+    for Event { time, kind, grippers } in &program.events {
+        let from = nearest(&program.times, *time);
+        for id in grippers {
+            let Some(n) = names.iter().position(|name| *name == gripper_name(*id)) else {
+                continue;
+            };
+            for row in &mut on[from..] {
+                row[n] = *kind != EventKind::Release;
+            }
+        }
+    }
+    on
+}

@@ -1,0 +1,244 @@
+//! A result for ROS 2: what its axes, its flange and its vacuum do, as messages in YAML, and a bag of it with the ply's shape.
+//!
+//! - `trajectory.yaml`: one `trajectory_msgs/msg/JointTrajectory` of the axes, in the block style that `ros2 topic echo`
+//!   prints and `ros2 topic pub` reads;
+//! - `flange.yaml`, if one arm holds the array: one `nav_msgs/msg/Path` of its flange;
+//! - `vacuum.yaml`: what the vacuum does, one `control_msgs/msg/DynamicInterfaceGroupValues` behind the other;
+//! - `loads.yaml`: the expected loads on the grippers at the same times, and the preload of their
+//!   mounts, as one `trajectory_msgs/msg/JointTrajectory`;
+//! - `trajectory.mcap`: a bag that `ros2 bag play` and viewers open, with the topics
+//!
+//! | topic | message | when |
+//! |---|---|---|
+//! | [`TRAJECTORY`] | the same trajectory | once, at the start |
+//! | [`PATH`] | the same path | once, at the start, if there is a flange |
+//! | [`POSE`] | `geometry_msgs/msg/PoseStamped`, the flange | over time, if there is one |
+//! | [`VACUUM`] | the same commands | each at its time |
+//! | `/tf_static` | `tf2_msgs/msg/TFMessage`: the mold in the world, the tool at the flange | once, at the start |
+//! | `/tf` | `tf2_msgs/msg/TFMessage`: the flange and every pad, by its gripper's name, at the mold | over time |
+//! | [`LOADS`] | the same loads | once, at the start |
+//! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
+//! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time; of a sheet in the steps that were kept |
+//!
+//! Meters, seconds, radians; z up; the frame [`FRAME`] is that of the scene. `message` holds the messages as
+//! Rust types, `cdr` and `bag` their bytes, `schema` their definitions; `trajectory`, `poses` and `vacuum` fill them from a
+//! program, `loads` and `markers` from a result.
+
+mod bag;
+mod cdr;
+mod error;
+mod loads;
+mod markers;
+mod message;
+mod poses;
+mod schema;
+mod time;
+mod trajectory;
+mod vacuum;
+
+pub use error::Ros2Error;
+
+use crate::OutputError;
+use crate::result::ResultFile;
+use crate::result::sheet::{SheetKept, SheetStates};
+use crate::robot::program::{Program, Tolerance, wide};
+use crate::store::folder::Files;
+use crate::store::json::finite;
+use crate::write::loads::Loads;
+use bag::Bag;
+use plydrape::layup::Model;
+
+/// The frame of all positions: the scene's own.
+pub const FRAME: &str = "mold";
+/// The frame in which the mold stands.
+pub const WORLD: &str = "world";
+/// The frame of the flange.
+pub const FLANGE: &str = "flange";
+/// The frame of the tool's center.
+pub const TOOL: &str = "tool";
+/// Topic of the trajectory of the axes.
+pub const TRAJECTORY: &str = "/plydrape/trajectory";
+/// Topic of the path of the flange.
+pub const PATH: &str = "/plydrape/flange";
+/// Topic of the flange over time.
+pub const POSE: &str = "/plydrape/flange_pose";
+/// Topic of what the vacuum does.
+pub const VACUUM: &str = "/plydrape/vacuum";
+/// Topic of the expected loads.
+pub const LOADS: &str = "/plydrape/loads";
+/// Name of the bag's record of the verdict and of the errors of what it holds.
+pub const PROGRAM: &str = "plydrape_program";
+/// Name of the bag's record of the mounts' stiffness.
+pub const MOUNTS: &str = "plydrape_mounts";
+/// Topic of the mold's marker.
+pub const MOLD: &str = "/plydrape/mold";
+/// Topic of the ply's markers.
+pub const PLY: &str = "/plydrape/ply";
+
+/// The files of a result: names and contents. Same result, same bytes.
+///
+/// # Errors
+/// [`OutputError`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
+pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, OutputError> {
+    let program = Program::of(result)?;
+    let (mut bag, mut files) = motion(&program, tolerance)?;
+
+    if let Some(known) = &Loads::of(result) {
+        let loads = loads::loads(&program, known)?;
+        finite::check(&loads)?;
+        bag.latched(LOADS, schema::JOINTS, &loads)?;
+        let mut text = wide::head(&program);
+        if let Some(mounts) = known.mounts {
+            text += &loads::head(mounts);
+            bag.note(MOUNTS, loads::stiffness(mounts))?;
+        }
+        files.push(("loads.yaml".into(), (text + &yaml(&loads)?).into_bytes()));
+    }
+    if let Some(mold) = markers::mold(result) {
+        bag.latched(MOLD, schema::MARKERS, &mold)?;
+    }
+    bag.channel(PLY, schema::MARKERS, bag::VOLATILE)?;
+    let paint = markers::Paint::of(result);
+    let decides = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
+    let mut sheet = decides.map(SheetKept::open).transpose()?;
+    let kept = sheet.as_mut().map(SheetStates::steps).transpose()?.unwrap_or_default();
+    for step in &result.steps {
+        let number = kept.iter().find(|(kept, _)| *kept == step.step).map(|(_, number)| *number);
+        let state = match (&mut sheet, number) {
+            (Some(sheet), Some(number)) => sheet.state(number)?,
+            _ => None,
+        };
+        let shown = sheet.as_ref().zip(state.as_ref()).map(|(sheet, state)| (sheet.mesh(), state));
+        let ply = markers::ply(result, step, shown, &paint);
+        finite::check(&ply)?;
+        bag.write(PLY, time::nanoseconds(step.step, step.time)?, &ply)?;
+    }
+    files.push(("trajectory.mcap".into(), bag.finish()?));
+    Ok(files)
+}
+
+/// The files of a program alone, without loads and without the shape of the ply.
+///
+/// # Errors
+/// As [`files`].
+pub fn program_files(program: &Program, tolerance: &Tolerance) -> Result<Files, OutputError> {
+    let (bag, mut files) = motion(program, tolerance)?;
+    files.push(("trajectory.mcap".into(), bag.finish()?));
+    Ok(files)
+}
+
+/// The bag of a program under way, and its other files.
+fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), OutputError> {
+    program.check()?;
+    tolerance.check()?;
+    let mut bag = Bag::new()?;
+    let mut files: Files = Vec::new();
+    let head = wide::head(program);
+
+    if !program.axes.is_empty() {
+        let trajectory = trajectory::trajectory(program)?;
+        finite::check(&trajectory)?;
+        bag.latched(TRAJECTORY, schema::JOINTS, &trajectory)?;
+        let text = head.clone() + &yaml(&trajectory)?;
+        files.push(("trajectory.yaml".into(), text.into_bytes()));
+    }
+
+    let sampling = poses::sampling(program, tolerance);
+    let millimetres = format!("{:.4}", sampling.error.position * 1e3);
+    let degrees = format!("{:.4}", sampling.error.angle.to_degrees());
+    if let Some(path) = poses::flange(program, &sampling.kept)? {
+        finite::check(&path)?;
+        bag.latched(PATH, schema::PATH, &path)?;
+        bag.channel(POSE, schema::POSE, bag::VOLATILE)?;
+        for (pose, k) in path.poses.iter().zip(&sampling.kept) {
+            bag.write(POSE, time::nanoseconds(k + 1, program.times[*k])?, pose)?;
+        }
+        let error = format!(
+            "# Straight lines between the poses stay within {millimetres} mm and {degrees} deg of the motion\n"
+        );
+        let text = head.clone() + &error + &yaml(&path)?;
+        files.push(("flange.yaml".into(), text.into_bytes()));
+    }
+    bag.latched("/tf_static", schema::FRAMES, &poses::fixed(program)?)?;
+    bag.channel("/tf", schema::FRAMES, bag::VOLATILE)?;
+    for k in &sampling.kept {
+        let frames = poses::moving(program, *k)?;
+        finite::check(&frames)?;
+        bag.write("/tf", time::nanoseconds(k + 1, program.times[*k])?, &frames)?;
+    }
+
+    let commands = vacuum::commands(program)?;
+    if !commands.is_empty() {
+        bag.channel(VACUUM, schema::OUTPUTS, bag::VOLATILE)?;
+        let mut texts = Vec::new();
+        for (at, command) in &commands {
+            bag.write(VACUUM, *at, command)?;
+            texts.push(yaml(command)?);
+        }
+        files.push(("vacuum.yaml".into(), (head + &texts.join("---\n")).into_bytes()));
+    }
+    bag.note(
+        PROGRAM,
+        [
+            ("accepted", program.accepted.to_string()),
+            ("verdict", program.verdict.clone()),
+            ("position_error_mm", millimetres),
+            ("angle_error_deg", degrees),
+        ],
+    )?;
+    Ok((bag, files))
+}
+
+/// A message as `ros2 topic echo` prints it.
+///
+/// Readers of YAML 1.1, as Python's, take a number with an exponent for text unless it has a point and a sign:
+/// `1.0e-07`. Python knows `y` as a name, which others of that version do not, so it stands unquoted.
+fn yaml<T: serde::Serialize>(message: &T) -> Result<String, Ros2Error> {
+    let options = serde_saphyr::ser_options! {
+        yaml_12: true,
+        no_lang_directive: true,
+        compact_list_indent: true,
+    };
+    Ok(serde_saphyr::to_string_with_options(message, options)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    /// The same bytes again from the same result.
+    #[test]
+    fn the_same_result_gives_the_same_bytes() {
+        let result = sample::draped(3, 2, 4);
+        let tolerance = Tolerance::default();
+        let first = files(&result, &tolerance).unwrap();
+        let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["trajectory.yaml", "vacuum.yaml", "loads.yaml", "trajectory.mcap"]);
+        assert!(first == files(&result, &tolerance).unwrap());
+    }
+
+    /// A step that is not later than the one before has no place in a trajectory.
+    #[test]
+    fn times_that_do_not_grow_are_refused() {
+        let mut result = sample::draped(2, 2, 3);
+        result.steps[2].time = result.steps[1].time + 1e-10;
+        let fault = files(&result, &Tolerance::default()).unwrap_err().to_string();
+        assert!(fault.contains("nanosecond"), "{fault}");
+        result.steps[0].time = -1.0;
+        let fault = files(&result, &Tolerance::default()).unwrap_err().to_string();
+        assert!(fault.contains("no point at 0 s"), "{fault}");
+    }
+
+    /// Every number has a point, and a sign before its exponent: Python reads it as a number.
+    #[test]
+    fn numbers_are_numbers_for_readers_of_either_version() {
+        let mut result = sample::draped(2, 2, 2);
+        result.steps[0].grippers[0].commanded = [1e-7, -1e22, 3.0];
+        let files = files(&result, &Tolerance::default()).unwrap();
+        let text = String::from_utf8(files[0].1.clone()).unwrap();
+        for wanted in ["- 1.0e-7\n", "- -1.0e+22\n", "- 3.0\n"] {
+            assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! The axes that carry the grippers, as a trajectory of joints.
+//!
+//! A planned motion has the velocity of each axis too, by differences of second order between its samples, and 0 at both
+//! ends, where it rests. A simulated drape knows only its steps: velocities are left empty, as the message allows.
+
+use super::message::{Header, JointTrajectory, JointTrajectoryPoint};
+use super::{FRAME, Ros2Error, time};
+use crate::robot::program::Program;
+
+/// The trajectory of the axes of a program.
+///
+/// # Errors
+/// [`Ros2Error`] if a time is none that ROS 2 can say.
+pub(super) fn trajectory(program: &Program) -> Result<JointTrajectory, Ros2Error> {
+    let clock = time::clock(&program.times)?;
+    let last = clock.len() - 1;
+    let point = |k: usize| {
+        let velocity = |values: &[f64]| match k {
+            _ if k == 0 || k == last => 0.0,
+            _ => {
+                let around = [k - 1, k, k + 1];
+                slope(around.map(|n| program.times[n]), around.map(|n| values[n]))
+            }
+        };
+        let velocities = program.axes.iter().map(|axis| velocity(&axis.values));
+        JointTrajectoryPoint {
+            positions: program.axes.iter().map(|axis| axis.values[k]).collect(),
+            velocities: if program.rate.is_some() { velocities.collect() } else { Vec::new() },
+            accelerations: Vec::new(),
+            effort: Vec::new(),
+            time_from_start: time::duration(clock[k]),
+        }
+    };
+    Ok(JointTrajectory {
+        // a time of 0: begin when the message is received
+        header: Header { frame_id: FRAME.into(), ..Header::default() },
+        joint_names: program.axes.iter().map(|axis| axis.name.clone()).collect(),
+        points: (0..=last).map(point).collect(),
+    })
+}
+
+/// The slope of the parabola through three values in the middle of them.
+fn slope([before, now, after]: [f64; 3], [p, q, r]: [f64; 3]) -> f64 {
+    let (h, k) = (now - before, after - now);
+    ((q - p) / h * k + (r - q) / k * h) / (h + k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A parabola has its own slope, at uneven times too.
+    #[test]
+    fn the_slope_of_a_parabola_is_exact() {
+        let at = |t: f64| 0.3 + 0.5 * t - 0.2 * t * t;
+        let times = [0.5, 0.8, 1.5];
+        assert!((slope(times, times.map(at)) - (0.5 - 0.4 * 0.8)).abs() < 1e-15);
+    }
+}

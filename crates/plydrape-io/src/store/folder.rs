@@ -1,0 +1,420 @@
+//! A folder of results: one run at a time, written whole or not at all, and never over a file of the user's.
+//!
+//! plydrape keeps a small list `.plydrape` in the folder: who wrote each file, with its checksum and length. A file
+//! may be replaced only if it is still what the list says. New files are staged in a hidden folder beside their
+//! place, brought to the disk, and moved in by renaming; if that fails in the middle, the earlier files come back.
+//! While files are moved, the list names old and new contents and has no seal: a power cut leaves files that the next
+//! run still knows as its own, and a list that says that they are mixed. The sealed list comes last.
+//!
+//! A run claims the folder with a lock of the operating system, which ends with the process, however it ends. What
+//! runs that were killed have left is cleared by the next one.
+
+use crate::OutputError;
+use crate::store::manifest::{Manifest, NAME as MANIFEST, Stamp, Stamping};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// How the names of hidden folders begin in which files are staged.
+const STAGE: &str = ".plydrape-";
+
+/// The file of a stage that says whose it is.
+const OWNER: &str = "owner";
+
+/// Files by plain name, with their contents.
+pub type Files = Vec<(String, Vec<u8>)>;
+
+/// What a file will hold: bytes, or something that writes itself piece by piece.
+pub trait Content {
+    /// Writes all of it.
+    ///
+    /// # Errors
+    /// If the writer refuses, or there is something that cannot be written.
+    fn write(&self, to: &mut dyn Write) -> io::Result<()>;
+}
+
+impl Content for &[u8] {
+    fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        to.write_all(self)
+    }
+}
+
+impl Content for &dyn Content {
+    fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        (**self).write(to)
+    }
+}
+
+/// A folder that one run has claimed.
+#[derive(Debug)]
+pub struct Folder {
+    dir: PathBuf,
+    /// The command that writes, such as `simulate`.
+    by: &'static str,
+    /// The folder was made for this run.
+    made: bool,
+    stage: Option<TempDir>,
+    /// Held as long as the claim.
+    _lock: File,
+}
+
+impl Folder {
+    /// Claims a folder for files that a command writes; it is made if it is missing.
+    ///
+    /// # Errors
+    /// [`OutputError::Busy`] if another run has claimed it, the other variants where the folder or the disk refuses.
+    pub fn claim(dir: &Path, by: &'static str) -> Result<Folder, OutputError> {
+        let made = make(dir)?;
+        let unreadable = |e| OutputError::io("open the folder", dir, e);
+        let lock = File::open(dir).map_err(unreadable)?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(OutputError::Busy { path: dir.into(), owner: owner(dir) });
+            }
+            // a disk without locks: two runs at a time are then not noticed
+            Err(TryLockError::Error(_)) => {}
+        }
+        for stage in stages(dir) {
+            // left by a run that was killed: whoever staged it would hold the lock
+            let _ = fs::remove_dir_all(stage);
+        }
+        let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(dir);
+        let owner = format!("`plydrape {by}`, process {}", std::process::id());
+        let noted =
+            stage.and_then(|stage| fs::write(stage.path().join(OWNER), owner).map(|()| stage));
+        if noted.is_err() && made {
+            let _ = fs::remove_dir(dir);
+        }
+        let stage = noted.map_err(|e| OutputError::io("write into", dir, e))?;
+        Ok(Folder { dir: dir.into(), by, made, stage: Some(stage), _lock: lock })
+    }
+
+    /// A hidden folder on the same disk for files of this run that are no results yet; it is gone when the claim ends.
+    #[must_use]
+    pub fn stage(&self) -> &Path {
+        self.stage.as_ref().map_or(&self.dir, TempDir::path)
+    }
+
+    /// Refuses to replace a file that the run itself has read: `names` are those that it will write.
+    ///
+    /// # Errors
+    /// [`OutputError::Input`] with the first such file.
+    pub fn refuse_inputs(&self, names: &[&str], read: &[PathBuf]) -> Result<(), OutputError> {
+        let same = |name: &&&str| {
+            let place = fs::canonicalize(self.dir.join(name)).ok();
+            place.is_some() && read.iter().any(|file| fs::canonicalize(file).ok() == place)
+        };
+        match names.iter().find(same) {
+            Some(name) => Err(OutputError::Input { path: self.dir.join(name) }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a set of files (plain name and content), all of them or none, and returns their paths in the order
+    /// given.
+    ///
+    /// Files that the same command has left here before, that are unchanged, not written now and not among those
+    /// that this run has `read`, are removed.
+    ///
+    /// # Errors
+    /// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
+    /// the other variants where the folder or the disk refuses.
+    pub fn write<C: Content>(
+        self,
+        files: &[(&str, C)],
+        read: &[PathBuf],
+    ) -> Result<Vec<PathBuf>, OutputError> {
+        self.stage_files(files, read)?.write()
+    }
+
+    /// Stages a set of files as [`Folder::write`] would write them; they come in with [`Staged::write`], or with those of other
+    /// folders in [`write_together`].
+    ///
+    /// # Errors
+    /// As [`Folder::write`].
+    pub fn stage_files<C: Content>(
+        self,
+        files: &[(&str, C)],
+        read: &[PathBuf],
+    ) -> Result<Staged, OutputError> {
+        self.put(files, Some(read))
+    }
+
+    /// The same, but files of an earlier run that are not written now stay.
+    ///
+    /// # Errors
+    /// As [`Folder::write`].
+    pub fn write_more<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, OutputError> {
+        self.put(files, None)?.write()
+    }
+
+    fn put<C: Content>(
+        self,
+        files: &[(&str, C)],
+        read: Option<&[PathBuf]>,
+    ) -> Result<Staged, OutputError> {
+        // Nothing is touched before every name is known to be free or our own.
+        let dir = self.dir.clone();
+        let earlier = Manifest::read(&dir)?;
+        for (name, _) in files {
+            let path = dir.join(name);
+            if !Manifest::is_plain(name) {
+                return Err(OutputError::Foreign { path });
+            }
+            if fs::symlink_metadata(&path).is_ok() && !earlier.holds(&dir, name) {
+                return Err(OutputError::Foreign { path });
+            }
+        }
+        let is_read = |name: &str| {
+            let place = fs::canonicalize(dir.join(name)).ok();
+            read.is_some_and(|read| read.iter().any(|file| fs::canonicalize(file).ok() == place))
+        };
+        let stale: Vec<String> = earlier
+            .names_of(self.by)
+            .filter(|name| read.is_some() && files.iter().all(|(new, _)| new != name))
+            .filter(|name| earlier.holds(&dir, name) && !is_read(name))
+            .map(str::to_owned)
+            .collect();
+
+        // Stage everything on the disk, beside its place.
+        let stage = self.stage();
+        let mut stamps = Vec::with_capacity(files.len());
+        for (name, content) in files {
+            stamps.push(((*name).to_owned(), stage_file(stage, &dir, name, content)?));
+        }
+        let new = Manifest::of(self.by, stamps);
+        let both = earlier.with(&new);
+        // files that went were ours, and files that came are: what stays is listed as it was
+        let sealed = read.is_some() || earlier.is_sealed();
+        let own = earlier.without(&stale).replaced_by(&new, sealed);
+        stage_file(stage, &dir, "both", &both.text()?.as_bytes())?;
+        stage_file(stage, &dir, "sealed", &own.text()?.as_bytes())?;
+
+        let names = files.iter().map(|(name, _)| (*name).to_owned()).collect();
+        Ok(Staged { folder: self, names, stale })
+    }
+}
+
+/// Files on the disk beside their places, ready to come in.
+#[derive(Debug)]
+pub struct Staged {
+    folder: Folder,
+    names: Vec<String>,
+    /// Files of an earlier run that go.
+    stale: Vec<String>,
+}
+
+impl Staged {
+    /// Moves the files in and returns their paths, in the order given.
+    ///
+    /// # Errors
+    /// Where the disk refuses; the folder is then as it was.
+    pub fn write(self) -> Result<Vec<PathBuf>, OutputError> {
+        let mut paths = write_together(vec![self])?;
+        Ok(paths.pop().unwrap_or_default())
+    }
+
+    /// Moves in, the list first: a cut in power from here on leaves only files that it knows.
+    fn move_in(&mut self) -> Result<Option<Moves>, OutputError> {
+        let Some(stage) = self.folder.stage.take() else { return Ok(None) };
+        let mut moves = Moves::new(&self.folder.dir, stage);
+        let moved = moves.put("both", MANIFEST).and_then(|()| {
+            for name in &self.names {
+                moves.put(name, name)?;
+            }
+            self.stale.iter().try_for_each(|name| moves.take(name))?;
+            moves.put("sealed", MANIFEST)
+        });
+        match moved {
+            Ok(()) => Ok(Some(moves)),
+            Err(fault) => Err(moves.undo(fault)),
+        }
+    }
+}
+
+/// Moves in the staged files of several folders, all or none, and returns their paths, folder by folder in the order given. A folder
+/// within another one comes before it.
+///
+/// # Errors
+/// Where the disk refuses; all folders are then as they were.
+pub fn write_together(mut staged: Vec<Staged>) -> Result<Vec<Vec<PathBuf>>, OutputError> {
+    let mut done = Vec::with_capacity(staged.len());
+    for one in &mut staged {
+        match one.move_in() {
+            Ok(moves) => done.extend(moves),
+            Err(fault) => {
+                return Err(done.into_iter().rev().fold(fault, |fault, moves| moves.undo(fault)));
+            }
+        }
+    }
+    let mut paths = Vec::with_capacity(staged.len());
+    for one in &mut staged {
+        one.folder.made = false;
+        let dir = &one.folder.dir;
+        let _ = File::open(dir).and_then(|folder| folder.sync_all());
+        paths.push(one.names.iter().map(|name| dir.join(name)).collect());
+    }
+    Ok(paths)
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        drop(self.stage.take());
+        if self.made {
+            // Only an empty folder goes, and only the one made for this run.
+            let _ = fs::remove_dir(&self.dir);
+        }
+    }
+}
+
+/// Claims a folder and writes a set of files into it, see [`Folder::write`].
+///
+/// # Errors
+/// As [`Folder::claim`] and [`Folder::write`].
+pub fn write(
+    dir: &Path,
+    by: &'static str,
+    files: &[(&str, &[u8])],
+) -> Result<Vec<PathBuf>, OutputError> {
+    Folder::claim(dir, by)?.write(files, &[])
+}
+
+/// Claims a folder and adds a set of files to it, see [`Folder::write_more`].
+///
+/// # Errors
+/// As [`Folder::claim`] and [`Folder::write_more`].
+pub fn add(
+    dir: &Path,
+    by: &'static str,
+    files: &[(&str, &[u8])],
+) -> Result<Vec<PathBuf>, OutputError> {
+    Folder::claim(dir, by)?.write_more(files)
+}
+
+/// Whether the files of a folder belong together: false where a run was cut off while it replaced them.
+#[must_use]
+pub fn is_sealed(dir: &Path) -> bool {
+    Manifest::read(dir).map_or(true, |list| list.is_sealed())
+}
+
+/// Hidden folders of a folder in which files are or were staged.
+fn stages(dir: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(dir) else { return Vec::new() };
+    let staged = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        name.starts_with(STAGE) && path.is_dir() && path.join(OWNER).is_file()
+    };
+    entries.filter_map(|entry| Some(entry.ok()?.path())).filter(staged).collect()
+}
+
+/// Who writes into a folder, as far as that is known.
+fn owner(dir: &Path) -> String {
+    let read = |stage: &PathBuf| fs::read_to_string(stage.join(OWNER)).ok();
+    stages(dir).iter().find_map(read).unwrap_or_else(|| "another run".into())
+}
+
+/// Makes the folder; true if it was not there before.
+fn make(dir: &Path) -> Result<bool, OutputError> {
+    match fs::metadata(dir) {
+        Ok(found) if found.is_dir() => Ok(false),
+        Ok(_) => Err(OutputError::NotAFolder { path: dir.into() }),
+        Err(_) => match fs::create_dir_all(dir) {
+            Ok(()) => Ok(true),
+            Err(e) if matches!(e.kind(), ErrorKind::NotADirectory | ErrorKind::AlreadyExists) => {
+                Err(OutputError::NotAFolder { path: dir.into() })
+            }
+            Err(e) => Err(OutputError::io("make the folder", dir, e)),
+        },
+    }
+}
+
+fn stage_file<C: Content>(
+    stage: &Path,
+    dir: &Path,
+    name: &str,
+    content: &C,
+) -> Result<Stamp, OutputError> {
+    let write = |file: File| {
+        let mut to = Stamping::new(BufWriter::new(&file));
+        content.write(&mut to)?;
+        to.flush()?;
+        let stamp = to.stamp();
+        file.sync_all()?;
+        Ok(stamp)
+    };
+    File::create_new(stage.join(format!("new-{name}")))
+        .and_then(write)
+        .map_err(|e| OutputError::io("write", &dir.join(name), e))
+}
+
+/// Files moved into the folder so far, and what was there before each.
+struct Moves {
+    dir: PathBuf,
+    stage: TempDir,
+    /// Name, and whether an earlier file of that name is kept in the stage.
+    done: Vec<(String, bool)>,
+}
+
+impl Moves {
+    fn new(dir: &Path, stage: TempDir) -> Self {
+        Moves { dir: dir.into(), stage, done: Vec::new() }
+    }
+
+    /// Renames a staged file to its place; the earlier file, if any, stays kept in the stage.
+    fn put(&mut self, staged: &str, name: &str) -> Result<(), OutputError> {
+        let place = self.dir.join(name);
+        let fault = |e| OutputError::io("write", &place, e);
+        let kept = self.keep(name).map_err(fault)?;
+        fs::rename(self.stage.path().join(format!("new-{staged}")), &place).map_err(fault)?;
+        self.done.push((name.to_owned(), kept));
+        Ok(())
+    }
+
+    /// Removes a stale file, keeping it in the stage.
+    fn take(&mut self, name: &str) -> Result<(), OutputError> {
+        let place = self.dir.join(name);
+        let fault = |e| OutputError::io("remove", &place, e);
+        let kept = self.keep(name).map_err(fault)?;
+        fs::remove_file(&place).map_err(fault)?;
+        self.done.push((name.to_owned(), kept));
+        Ok(())
+    }
+
+    /// Keeps a file under a second name, by link or, where the disk has no links, by copy.
+    fn keep(&self, name: &str) -> io::Result<bool> {
+        let (place, old) = (self.dir.join(name), self.stage.path().join(format!("old-{name}")));
+        if !place.is_file() || old.exists() {
+            return Ok(false);
+        }
+        fs::hard_link(&place, &old).or_else(|_| fs::copy(&place, &old).map(drop))?;
+        Ok(true)
+    }
+
+    /// Brings the earlier files back; if even that fails, they stay in the stage, which the error names.
+    fn undo(self, fault: OutputError) -> OutputError {
+        let mut failed = false;
+        for (name, kept) in self.done.iter().rev() {
+            let place = self.dir.join(name);
+            let back = if *kept {
+                fs::rename(self.stage.path().join(format!("old-{name}")), &place)
+            } else {
+                fs::remove_file(&place)
+            };
+            failed |= back.is_err();
+        }
+        if failed {
+            let kept = self.stage.keep();
+            // without its owner no later run takes it for one that may be cleared
+            let _ = fs::remove_file(kept.join(OWNER));
+            OutputError::Torn { path: self.dir, kept, cause: Box::new(fault) }
+        } else {
+            fault
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "folder_tests.rs"]
+mod tests;

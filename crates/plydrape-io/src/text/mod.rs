@@ -1,0 +1,4 @@
+//! Results as tables for people.
+
+pub mod strategy;
+pub mod table;

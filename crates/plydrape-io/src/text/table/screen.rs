@@ -1,0 +1,179 @@
+//! A result on one screen, and the rest of it.
+
+use super::ink::{Ink, Tone};
+use super::{WIDTH, beside, errors, limited_by, limits, model_name, report, significant, steps};
+use super::{limiting, steps_table, verdict_text};
+use crate::result::ResultFile;
+use crate::result::sheet::{ended, overstrained};
+use crate::store::shown;
+use plydrape::layup::Model;
+use plydrape::measure::Name;
+use plydrape::outcome::Summary;
+use plydrape::ply::Grid;
+use std::time::Duration;
+
+/// Most limits that hold on a screen.
+const LIMITS: usize = 12;
+
+/// A result on one screen of at most forty lines: title and size; `found`, two lines or less that say what was found and how long that
+/// took, as [`draped`] does of a simulated drape; at most ten steps; the limits, the closest first; the verdict and its margins. More lines are
+/// there only where more than twelve limits do not hold.
+#[must_use]
+pub fn screen(result: &ResultFile, found: &str, ink: Ink) -> String {
+    let summary = &result.summary;
+    let steps = steps::short(summary, &result.steps);
+    let limits = limits::limits(&summary.limits, summary.sample.as_ref(), LIMITS, ink);
+    let parts =
+        [heading(result) + "\n" + found.trim_end() + "\n", steps, limits, verdict(result, ink)];
+    parts.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join("\n")
+}
+
+/// What does not fit a screen: all steps, all limits, what limits the time of a planned motion, what the model says beside its measures, and
+/// what the other model says if it was asked.
+#[must_use]
+pub fn details(result: &ResultFile) -> String {
+    let summary = &result.summary;
+    let parts = [
+        steps_table(result),
+        limits::limits(&summary.limits, summary.sample.as_ref(), usize::MAX, Ink::Plain),
+        limited_by(result),
+        report::report(result),
+        beside::details(result),
+    ];
+    parts.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join("\n")
+}
+
+/// Title and size in one line, as in `Dome: 4 × 4 grippers, 90 steps, a sheet of 2601 nodes`.
+#[must_use]
+pub fn heading(result: &ResultFile) -> String {
+    let ply = &result.scene.ply;
+    let grippers = match ply.grid {
+        Grid::NONE => format!("{} grippers", ply.grippers()),
+        Grid { nu, nv } => format!("{nu} × {nv} grippers"),
+    };
+    let steps = match result.summary.steps_planned {
+        1 => "1 step".to_owned(),
+        steps => format!("{steps} steps"),
+    };
+    let model = match (&result.summary.sheet, result.model()) {
+        (Some(report), _) => format!("a sheet of {} nodes", report.nodes),
+        (None, Model::Sheet) => "a sheet".into(),
+        (None, Model::Catenaries) => match ply.lines().catenaries() {
+            1 => "1 catenary".into(),
+            catenaries => format!("{catenaries} catenaries"),
+        },
+    };
+    let size = format!("{grippers}, {steps}, {model}");
+    let room = WIDTH.saturating_sub(size.chars().count() + 2);
+    format!("{}: {size}", shown::excerpt(&result.scene.title, room))
+}
+
+/// What a simulated drape was and how long it took, in two lines.
+#[must_use]
+pub fn draped(result: &ResultFile, took: Duration) -> String {
+    let (seconds, model) = (took.as_secs_f64(), model_name(result.model()));
+    let duration = result.steps.last().map_or(0.0, |step| step.time);
+    format!("draped by {model} in {seconds:.1} s\nmotion of {duration:.1} s")
+}
+
+/// The verdict in a line, why, and its margins: the errors that the motion tolerates, the largest load and pull of grippers with their limits; last
+/// a line of the model that does not decide, if it was asked.
+#[must_use]
+pub fn verdict(result: &ResultFile, ink: Ink) -> String {
+    let summary = &result.summary;
+    let model = model_name(summary.model);
+    let (word, tone) = match (summary.accepted_without_errors(), summary.accepted()) {
+        (true, true) => ("accepted", Tone::Good),
+        (true, false) => ("accepted without errors", Tone::Bad),
+        (false, _) => ("not accepted", Tone::Bad),
+    };
+    let worst = limiting(&summary.limits).map(|worst| format!(": {}", verdict_text(worst)));
+    let line = format!("{word} by {model}{}", worst.unwrap_or_default());
+    let mut text = ink.tinted(&shown::excerpt(&line, WIDTH), tone) + "\n";
+    let why = ended(summary).into_iter().chain(overstrained(summary).into_iter().flatten());
+    for line in why.chain([forces(summary)]).filter(|line| !line.is_empty()) {
+        text += &(shown::excerpt(&line, WIDTH) + "\n");
+    }
+    text + &errors::errors(result) + &beside::line(result)
+}
+
+/// The largest load and the largest pull of grippers, each with its limit; empty where the model knows none.
+fn forces(summary: &Summary) -> String {
+    let force = |name: Name, words: &str| {
+        let value = significant(summary.worst.value(name)?);
+        let limit = summary.limits.iter().find(|verdict| verdict.name == name);
+        Some(match limit {
+            Some(limit) => format!("{words} {value} N (limit {} N)", significant(limit.limit)),
+            None => format!("{words} {value} N (no limit)"),
+        })
+    };
+    let both = [
+        force(Name::GripperLoad, "largest load of a gripper"),
+        force(Name::GripperPull, "largest pull"),
+    ];
+    both.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::measure::{Verdict, Worst};
+    use plydrape::outcome::Status;
+
+    fn verdict_of(name: Name, value: f64, limit: f64) -> Verdict {
+        let at = "very far away ".repeat(20);
+        Verdict::of(name, Worst { value, at, place: None }, limit, Some(90))
+    }
+
+    fn widest(text: &str) -> usize {
+        text.lines().map(|line| line.chars().count()).max().unwrap_or(0)
+    }
+
+    /// Ninety steps and a verdict on every limit that there is are forty lines of a hundred letters, with room for the folder.
+    #[test]
+    fn a_result_fits_a_screen() {
+        let mut result = sample::sheet(4, 4, 90);
+        result.scene.title = "A long name ".repeat(20);
+        let all = Name::ALL.iter().map(|name| verdict_of(*name, 0.1, 1.0));
+        result.summary.limits = all.filter(|verdict| verdict.ok).collect();
+        assert!(result.summary.limits.len() > 30);
+        let text = screen(&result, "path plan\nmotion of 3 s", Ink::Plain);
+        assert!(text.lines().count() < 40, "{} lines\n{text}", text.lines().count());
+        assert!(widest(&text) <= 100, "{text}");
+        assert!(
+            text.contains("4 × 4 grippers, 90 steps, a sheet of 9 nodes\npath plan\n"),
+            "{text}"
+        );
+        let rest = details(&result);
+        assert!(rest.lines().count() > 90 + result.summary.limits.len() && widest(&rest) <= 100);
+    }
+
+    /// Load and pull stand beside their limits, or the words that they have none.
+    #[test]
+    fn margins_say_which_force_has_no_limit() {
+        let mut result = sample::sheet(4, 2, 3);
+        result.summary.limits = vec![verdict_of(Name::GripperLoad, 0.5, 10.0)];
+        let text = verdict(&result, Ink::Plain);
+        let wanted = "accepted by the sheet\n\
+            largest load of a gripper 0.5 N (limit 10 N), largest pull 0.4 N (no limit)\n";
+        assert_eq!(text, wanted);
+    }
+
+    /// A sheet that is not at rest keeps its limits in vain, and says so.
+    #[test]
+    fn a_drape_without_an_end_says_how_it_ended() {
+        let mut result = sample::sheet(4, 2, 3);
+        result.summary.status = Status::NotAtRest;
+        let text = verdict(&result, Ink::Plain);
+        let wanted = "not accepted by the sheet\nthe sheet is not at rest at the end\n";
+        assert!(text.starts_with(wanted), "{text}");
+        result.summary.limits = vec![verdict_of(Name::Height, 1.2, 0.5)];
+        let text = verdict(&result, Ink::Plain);
+        assert!(
+            text.starts_with("not accepted by the sheet: height 1.2 mm against 0.5 mm in"),
+            "{text}"
+        );
+        assert!(widest(&text) <= 100);
+    }
+}

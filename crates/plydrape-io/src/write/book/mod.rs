@@ -1,0 +1,141 @@
+//! The results of a planned book: `book.json` and one report over all of its plies, beside a folder of results for each ply.
+//!
+//! `book.json` is one JSON object with `format` ("plydrape-book"), `version`, `program`, `title`, `accepted`, `interrupted` and `plies`; what stands
+//! there of each ply is [`PlyRecord`].
+
+mod drawing;
+mod report;
+mod table;
+
+pub use table::table;
+
+use crate::scene::{Book, BookPly};
+use crate::store::json;
+use crate::text::table::{closest, limiting, measure_text};
+use crate::{Content, Folder, OutputError, PROGRAM, ResultFile, Staged};
+use plydrape::measure::Verdict;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// The names of the files of a book beside the folders of its plies.
+pub const NAMES: [&str; 2] = ["book.json", "report.html"];
+
+/// Version of `book.json`; it grows when a key changes its meaning.
+const VERSION: u32 = 1;
+
+/// How one ply of a book was planned.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlyRecord {
+    /// Its name.
+    pub name: String,
+    /// Folder of its results, beside `book.json`.
+    pub folder: String,
+    /// Numbers of the plies that it lies on, counted from 1.
+    pub lies_on: Vec<usize>,
+    /// Its thickness (m), if the book says it.
+    pub thickness: Option<f64>,
+    /// Whether its plan keeps all limits.
+    pub accepted: bool,
+    /// The limit that is exceeded most; of an accepted plan the one that is nearest to not holding.
+    pub worst: Option<Verdict>,
+    /// How long its motion takes (s).
+    pub motion_s: f64,
+    /// Drapes of its search.
+    pub evaluations: usize,
+    /// The rings in plan within which it lies, by its ideal drape: x and y (m).
+    pub region: Vec<Vec<[f64; 2]>>,
+    /// Direction of the warp in the middle of the ply, in plan from x towards y (rad).
+    pub warp_heading: Option<f64>,
+}
+
+impl PlyRecord {
+    /// Of a ply of a book and its planned result.
+    #[must_use]
+    pub fn of(book: &Book, index: usize, result: &ResultFile) -> Self {
+        let ply: &BookPly = &book.plies[index];
+        let limits = &result.summary.limits;
+        let worst = limiting(limits).or_else(|| closest(limits)).cloned();
+        PlyRecord {
+            name: ply.name.clone(),
+            folder: ply.folder(index),
+            lies_on: ply.lies_on.iter().map(|n| n + 1).collect(),
+            thickness: ply.scene.thickness,
+            accepted: result.summary.accepted(),
+            worst,
+            motion_s: result.steps.last().map_or(0.0, |step| step.time),
+            evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),
+            region: ply.region.clone(),
+            warp_heading: drawing::warp_heading(ply),
+        }
+    }
+
+    /// Its worst limit as text.
+    #[must_use]
+    pub fn worst_text(&self) -> String {
+        self.worst.as_ref().map_or_else(|| "–".into(), measure_text)
+    }
+
+    /// What it lies on, as text: the numbers of plies, or the mold.
+    #[must_use]
+    pub fn lies_on_text(&self) -> String {
+        if self.lies_on.is_empty() {
+            return "the mold".into();
+        }
+        let numbers: Vec<String> = self.lies_on.iter().map(usize::to_string).collect();
+        numbers.join(", ")
+    }
+}
+
+#[derive(Serialize)]
+struct Written<'a> {
+    format: &'static str,
+    version: u32,
+    program: &'static str,
+    title: &'a str,
+    accepted: bool,
+    interrupted: bool,
+    plies: &'a [PlyRecord],
+}
+
+/// `book.json` as text.
+///
+/// # Errors
+/// [`json::JsonError`] if a number is not finite.
+pub fn text(
+    book: &Book,
+    plies: &[PlyRecord],
+    interrupted: bool,
+) -> Result<String, json::JsonError> {
+    json::of(&Written {
+        format: "plydrape-book",
+        version: VERSION,
+        program: PROGRAM,
+        title: &book.title,
+        accepted: plies.iter().all(|ply| ply.accepted),
+        interrupted,
+        plies,
+    })
+}
+
+/// `report.html` of a book: a page for any browser, without a network. Same plans, same bytes.
+#[must_use]
+pub fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> String {
+    report::html(book, plies, interrupted)
+}
+
+/// Stages the files of a book; they come in together with those of its plies, see [`crate::store::folder::write_together`].
+///
+/// # Errors
+/// [`OutputError`] as for [`Folder::write`].
+pub fn stage_into(
+    folder: Folder,
+    book: &Book,
+    plies: &[PlyRecord],
+    interrupted: bool,
+    read: &[PathBuf],
+) -> Result<Staged, OutputError> {
+    let (text, html) = (text(book, plies, interrupted)?, html(book, plies, interrupted));
+    let [text, html] = [text.as_bytes(), html.as_bytes()];
+    let files: [(&str, &dyn Content); 2] = [(NAMES[0], &text), (NAMES[1], &html)];
+    folder.stage_files(&files, read)
+}

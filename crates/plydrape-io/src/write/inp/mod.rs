@@ -1,0 +1,186 @@
+//! An input deck for CalculiX and Abaqus: the ply as shells, the grippers' motion, gravity and the mold.
+//!
+//! [`text`] makes it from a result file alone, whose grippers are those of the model that decides. It is a second opinion: the shells know
+//! nothing of what that model found of the ply. The parts:
+//!
+//! - `mesh`: the flat ply, quadratic shells S8R with nodes at the grippers;
+//! - `section`: one homogeneous layer with the ply's areal mass, bending rigidities and membrane stiffness;
+//! - `pose`: where the flat ply starts; `motion`: from there through all steps of the result;
+//! - `contact`: the mold as a rigid surface;
+//! - `header`: what the deck carries and what not, in words and numbers, as comments.
+//!
+//! Every keyword is one that both programs know. Where they differ, the deck writes what both take: the mold is made of
+//! S3 shells held in every node (CalculiX has no R3D3), the orthotropic stiffness is given as `ENGINEERING CONSTANTS`,
+//! increments are controlled by `*CONTROLS` and not by `STABILIZE`. CalculiX makes a brick of 20 nodes of each shell.
+//!
+//! **Sag beside the model's.** The paper's ply, 4 × 2 grippers 98 mm apart on cells of 100 mm, sags by 9.2 mm at the mid
+//! of its long edges where the catenary sags by 8.9 mm: the sheet hangs the inner part of its cells onto the middle of
+//! the edge, which draws the parabola towards a V, √(50² − 49²) = 9.9 mm deep. The shear stiffness decides how much.
+
+mod contact;
+mod header;
+mod mesh;
+mod motion;
+mod pose;
+mod section;
+mod text;
+
+use crate::OutputError;
+use crate::result::ResultFile;
+use contact::RigidMold;
+use mesh::Mesh;
+use motion::{HANG, Tracks, fabric};
+use pose::Pose;
+use section::{ShellSection, axes};
+use text::{Deck, number};
+
+/// Why a result has no deck.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum InpError {
+    /// There is nothing to move the grippers by.
+    #[error("the result has no steps, so there is no motion to write: simulate the scene again")]
+    NoSteps,
+    /// The ply is no rectangle between its grippers.
+    #[error(
+        "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline: take `vtk` for its sheet"
+    )]
+    Cut,
+    /// The flat ply cannot be laid between the first gripper positions.
+    #[error(
+        "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them: spread them in the scene and simulate it again"
+    )]
+    NoPlace,
+}
+
+impl From<InpError> for OutputError {
+    fn from(error: InpError) -> Self {
+        OutputError::Writer(error.into())
+    }
+}
+
+/// The deck of a result. Same result, same bytes.
+///
+/// # Errors
+/// [`InpError`] within [`OutputError`] if the result has no steps or its grippers start on one line; a number that is not
+/// finite is refused as in [`crate::store::json`].
+pub fn text(result: &ResultFile) -> Result<String, OutputError> {
+    result.check_finite()?;
+    let scene = &result.scene;
+    if scene.ply.cut.is_some() {
+        return Err(InpError::Cut.into());
+    }
+    let first = result.steps.first().ok_or(InpError::NoSteps)?;
+    let (flat, places): (Vec<_>, Vec<_>) =
+        first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();
+    let pose = Pose::fit(&flat, &places).ok_or(InpError::NoPlace)?;
+    let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
+    let section = ShellSection::new(scene);
+    let tracks = Tracks::new(result, &pose);
+    let weight = section.areal_mass * scene.settings.gravity;
+    let mold = RigidMold::new(result, weight, section.thickness);
+
+    let mut deck = Deck::default();
+    header::write(result, &mesh, &section, mold.as_ref(), &mut deck);
+    deck.line("*HEADING");
+    deck.line("Ply between grippers, by plydrape");
+    nodes(&mesh, &pose, mold.as_ref(), &mut deck);
+    elements(&mesh, &mut deck);
+    tracks.node_sets(&mesh, &mut deck);
+    middles(result, &mesh, &mut deck);
+    material(&section, scene.ply.warp, &pose, &mut deck);
+    if let Some(mold) = &mold {
+        mold.elements(mesh.nodes(), mesh.count[0] * mesh.count[1], &mut deck);
+        mold.pair(&mut deck);
+    }
+    tracks.amplitudes(&mut deck);
+
+    let gravity = format!("PLY, GRAV, {}, 0.0, 0.0, -1.0", number(scene.settings.gravity));
+    step("HANG", HANG, 1e-4, &mut deck);
+    deck.line("*DLOAD, AMPLITUDE=GRAVITY");
+    deck.line(&gravity);
+    tracks.boundary(&mut deck);
+    output(&mut deck);
+    if let Some(time) = tracks.lay_time() {
+        step("LAY", time, 1e-2, &mut deck);
+        output(&mut deck);
+    }
+    Ok(deck.text)
+}
+
+/// Nodes of the flat ply in its first place and, in the same block, which some readers ask for, of the mold.
+fn nodes(mesh: &Mesh, pose: &Pose, mold: Option<&RigidMold>, deck: &mut Deck) {
+    deck.line("*NODE");
+    for (k, place) in mesh.places().enumerate() {
+        deck.node(k + 1, pose.place(place));
+    }
+    if let Some(mold) = mold {
+        mold.nodes(mesh.nodes(), deck);
+    }
+}
+
+/// Elements of the ply.
+fn elements(mesh: &Mesh, deck: &mut Deck) {
+    deck.line("*ELEMENT, TYPE=S8R, ELSET=PLY");
+    for (k, nodes) in mesh.elements().enumerate() {
+        let mut ids = vec![k + 1];
+        ids.extend(nodes);
+        deck.list(&ids);
+    }
+}
+
+/// The nodes in the middle of the edges along u and along v, each set in the order of the model's edges.
+fn middles(result: &ResultFile, mesh: &Mesh, deck: &mut Deck) {
+    let grid = result.scene.ply.grid;
+    for (along, name) in ["MIDDLE_U", "MIDDLE_V"].into_iter().enumerate() {
+        let ids = (0..grid.nv).flat_map(|j| (0..grid.nu).map(move |i| [i, j]));
+        let nodes: Vec<usize> = ids.filter_map(|id| mesh.middle(id, along)).collect();
+        if !nodes.is_empty() {
+            deck.node_set(name, &nodes);
+        }
+    }
+}
+
+/// Fiber directions, moduli, density and thickness.
+fn material(section: &ShellSection, warp: plydrape::ply::Direction, pose: &Pose, deck: &mut Deck) {
+    deck.line("*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR");
+    deck.numbers(axes(warp).into_iter().flat_map(|axis| pose.turn(axis)));
+    deck.line("*MATERIAL, NAME=FABRIC");
+    deck.line("*ELASTIC, TYPE=ENGINEERING CONSTANTS");
+    let ([e1, e2, e3], [g12, g13, g23]) = (section.young(), section.shear_moduli());
+    deck.numbers([e1, e2, e3, 0.0, 0.0, 0.0, g12, g13]);
+    deck.numbers([g23]);
+    deck.line("*DENSITY");
+    deck.numbers([section.density()]);
+    deck.line("*SHELL SECTION, ELSET=PLY, MATERIAL=FABRIC, ORIENTATION=FIBRES");
+    deck.numbers([section.thickness]);
+}
+
+/// Opens a step of a given time (s) whose `first` increment is a share of it: increments may shrink to 10⁻⁷ of it and
+/// take more iterations than usual, since a slack sheet is hard to bring to rest. A flat one has no stiffness against its
+/// weight but its bending, so that hanging begins slowly.
+fn step(name: &str, time: f64, first: f64, deck: &mut Deck) {
+    deck.comment(name);
+    deck.line("*STEP, NLGEOM, INC=10000");
+    deck.line("*STATIC");
+    deck.numbers([first, 1.0, 1e-7, 0.1].map(|share| share * time));
+    deck.line("*CONTROLS, PARAMETERS=TIME INCREMENTATION");
+    deck.line("10, 20, 9, 30, 10, 4, , 10");
+    deck.line("0.25, 0.5, 0.75, 0.85, , , 1.5");
+}
+
+/// What is printed, and the end of the step.
+fn output(deck: &mut Deck) {
+    for set in ["GRIPPERS", "MIDDLE_U"] {
+        deck.line(&format!("*NODE PRINT, NSET={set}"));
+        deck.line("U");
+    }
+    deck.line("*NODE PRINT, NSET=GRIPPERS, TOTALS=YES");
+    deck.line("RF");
+    deck.line("*NODE FILE");
+    deck.line("U");
+    deck.line("*END STEP");
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
