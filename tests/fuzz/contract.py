@@ -33,7 +33,7 @@ WRITTEN = {
     "plan": SIMULATED | {"motion.csv", "plan.json"},
     "net": {"nodes.csv", "net.vtp", "mold.vtp"},
     "report": {"report.html"},
-    "study": {"study.parquet", "summary.json", "summary.html"},
+    "study": {"study.parquet", "summary.json"},
 }
 LONGEST_MESSAGE = 20_000
 # Below the message; or in its sentence, where a file cannot be made, or a study's scene is refused.

@@ -18,7 +18,7 @@ VARIED: dict[str, list[Any]] = {
     "ply.material.mass": [{"relative": [0.95, 1.05]}, {"from": "0.3 kg/m", "to": "0.32 kg/m"}],
     "grippers.height": [{"from": "60 mm", "to": "90 mm"}, {"mean": "75 mm", "deviation": "1 mm"}],
     "target.shear": [{"values": ["5 deg", "10 deg"]}],
-    "placement": [{"from": "-1 mm", "to": "1 mm"}, {"deviation": "0.02 mm"}],
+    "errors.gripper.position.bound": [{"from": "0.1 mm", "to": "1 mm"}, {"values": ["0.02 mm"]}],
 }
 
 

@@ -12,7 +12,7 @@ use std::process::{Command, ExitCode};
 /// Drape many scenes made of one: a grid or a random sample of its numbers.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The rows go to DIR/study.parquet, their distributions to DIR/summary.html. An interrupted study goes \
+The rows go to DIR/study.parquet, their distributions to DIR/summary.json. An interrupted study goes \
 on with the same command. It runs by the Python package of plydrape and its extra `study`; \
 PLYDRAPE_PYTHON names the Python that has it, python3 unless given. Exit codes: 0 done, 2 bad \
 input, 4 standard output could not be written, 130 interrupted.")]

@@ -4,15 +4,15 @@ A study file (or a dict with the same keys) names a scene, what varies and how, 
 scenarios there are. `run` drapes them all, on the cores of this machine or on a Dask cluster, and
 gives one row a scenario: its inputs, its measures, its version and any error.
 
-    definition.py   what a study file says, checked       (parameters.py, source.py,
-                                                           varied.py, keys.py, law.py)
-    sample.py       the inputs of every scenario          (placement.py, errors.py)
-    scenario.py     one scenario: its scene, its drape, its row
-    chunks.py       chunks of scenarios to workers        (local.py, worker.py, cluster.py)
-    folder.py       what is done stands on the disk       (table.py)
-    summary.py      distributions and what drives them    (page.py, figures.py)
+    definition.py   what a study file says, checked       (source.py, vary.py, keys.py)
+    sample.py       the inputs of every scenario
+    scenario.py     one scenario: its scene, its drape, its row     (errors.py)
+    workers.py      scenarios in processes of this machine or on a Dask cluster
+    folder.py       what is done is on the disk
+    summary.py      distributions and what drives them
+    run.py          from the definition to the rows and their summary     (outcome.py)
 
-Needs `pip install dask distributed pyarrow scipy`.
+Needs `pip install dask distributed pandas pyarrow scipy`.
 
 Examples
 --------

@@ -28,6 +28,9 @@ Exit codes:
   4    standard output could not be written: the rows are in their folder
   130  interrupted by Ctrl-C or SIGTERM: the same command goes on
 """
+# Kinds of errors that are printed; all are in summary.json.
+TROUBLES = 5
+NOTHING = "nothing was run or written"
 # Signals with these handlers are not for Python.
 UNHEARD = (signal.SIG_IGN, None)
 
@@ -152,7 +155,7 @@ def write(text: str, stream: TextIO) -> OSError | None:
 
 
 def report(outcome: Outcome, study: Study) -> str:
-    """What the command prints: counts, a table of the judged measures, files."""
+    """What the command prints: counts, a table of the judged measures, errors, files."""
     about = outcome.summary
     accepted = about["accepted"]
     lines = [
@@ -176,7 +179,7 @@ def report(outcome: Outcome, study: Study) -> str:
             f"{entry['unit']:<6}{100 * entry['exceeded']:>7.1f} %  {by}"
         )
     if accepted["share"] is None:
-        lines += ["", "nothing was draped: see the column `error`"]
+        lines += ["", "nothing was draped"]
     else:
         low, high = (100 * x for x in accepted["interval"])
         lines += [
@@ -184,11 +187,9 @@ def report(outcome: Outcome, study: Study) -> str:
             f"accepted {100 * accepted['share']:.1f} % of {about['draped']} drapes "
             f"(95 % interval {low:.1f} to {high:.1f} %)",
         ]
+    lines += [f"{x['count']} failed: {x['kind']}: {x['text']}" for x in about["errors"][:TROUBLES]]
     wrote = [f"wrote {outcome.folder}/{file}" for file in outcome.written]
-    before = f"{outcome.folder} was finished before: nothing was run or written"
-    if outcome.ran:
-        before = f"{outcome.folder}: rows that were missing are there, the other files as before"
-    return "\n".join([*lines, "", *(wrote or [before])])
+    return "\n".join([*lines, "", *(wrote or [f"{outcome.folder} was finished before: {NOTHING}"])])
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,23 +16,30 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 import plydrape
 
-from . import errors, parameters, sample, source
-from .error import StudyError
+from . import errors, sample, source
+from .error import StudyError, require
 from .keys import Value, nearest, put
 from .labels import shown
-from .law import Input
-from .placement import COLUMNS, Placement
 from .scenario import Motion, Task, build, message
-from .varied import inputs, placement
+from .vary import LARGEST, Input, inputs
 
 if TYPE_CHECKING:
-    from .sample import Row
+    from .workers import Row
 
 COMMANDS = ("simulate", "plan", "follow")
 SAMPLINGS = ("latin-hypercube", "sobol", "grid")
 KEYS = ("title", "scene", "command", "plan", "sampling", "samples", "max_scenarios", "seed", "vary")
+VARY = 'as in [vary] "grippers.height" = { from = "60 mm", to = "90 mm" }'
+# Scenarios of a study that does not say how many it may have: a slip of the pen is likelier.
+MOST = 1_000_000
+# Bytes of memory that a row takes at the end, when all rows become one table and its summary.
+ROW = 3000
+# Points that SciPy's Sobol sequence has, and inputs that it can vary.
+SOBOL_POINTS, SOBOL_INPUTS = 2**30, 21201
 
 
 @dataclass(frozen=True)
@@ -41,7 +49,7 @@ class Study:
     Attributes
     ----------
     title
-        For the page; that of the scene unless given.
+        That of the scene unless given.
     tables
         The scene as plain dicts and lists, its material expanded where that is varied.
     base
@@ -53,11 +61,9 @@ class Study:
     samples
         Number of scenarios; of a grid it follows from its numbers.
     seed
-        Of the sample and of the placement errors.
+        Of the sample.
     inputs
         What varies.
-    placement
-        How grippers err, or None.
     motion
         Of "follow": times (S,) in s and positions (S, G, 3) in m.
     files
@@ -91,7 +97,6 @@ class Study:
     samples: int
     seed: int
     inputs: tuple[Input, ...]
-    placement: Placement | None = None
     motion: Motion | None = None
     files: Mapping[str, str] = field(default_factory=dict)
     file: Path | None = None
@@ -162,13 +167,12 @@ class Study:
 
     def __len__(self) -> int:
         """Number of scenarios."""
-        return len(self.values)
+        return self.samples
 
     @property
     def names(self) -> list[str]:
         """Names of the columns of inputs: the varied keys, and those of errors."""
-        inputs = [x.key for x in self.inputs]
-        return inputs + list(COLUMNS if self.placement else ()) + errors.names(self.terms)
+        return [x.key for x in self.inputs] + errors.names(self.terms)
 
     @property
     def terms(self) -> tuple[str, ...]:
@@ -190,7 +194,6 @@ class Study:
             base=self.base,
             command=self.command,
             inputs=self.inputs,
-            placement=self.placement,
             motion=self.motion,
             terms=self.terms,
             seed=self.seed,
@@ -253,21 +256,13 @@ class Study:
             "sampling": self.sampling,
             "scenarios": len(self),
             "seed": self.seed,
-            "inputs": [
-                {
-                    "key": x.key,
-                    "unit": x.unit,
-                    "law": {"kind": type(x.law).__name__.lower(), **vars(x.law)},
-                    "points": x.points,
-                }
-                for x in self.inputs
-            ],
-            "placement": vars(self.placement) if self.placement else None,
+            "inputs": [vars(x) for x in self.inputs],
             "motion": self.motion.checksum if self.motion else None,
             "scene": self.tables,
             "files": dict(self.files),
         }
-        return parameters.plain(about)  # type: ignore[no-any-return]
+        plain = json.loads(json.dumps(about, default=str), parse_constant=str)
+        return dict(plain)
 
 
 def _study(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
@@ -283,6 +278,7 @@ def _study(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
 
 
 def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
+    require("scipy")
     # The keys themselves.
     for key in table:
         if key not in KEYS:
@@ -291,27 +287,25 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
                 help=f"its keys are {', '.join(KEYS)}{nearest(key, KEYS)}",
                 key=key,
             )
-    parameters.bounded(table)
-    command = parameters.one_of(table, "command", COMMANDS, "simulate")
-    sampling = parameters.one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
-    seed = parameters.whole(table, "seed", 0, least=0)
+    command = _one_of(table, "command", COMMANDS)
+    sampling = _one_of(table, "sampling", SAMPLINGS)
+    seed = _whole(table, "seed", 0, least=0)
     title = table.get("title")
     if title is not None and not isinstance(title, str):
         raise StudyError(
             f"`title` = {shown(title)} is no text", help="put it in quotes", key="title"
         )
 
-    # The scene, sound as it stands.
+    # The scene, sound as it is.
     tables, home = source.scene(table.get("scene"), base)
     varied = table.get("vary", {})
     if not isinstance(varied, Mapping):
         raise StudyError(f"`vary` = {shown(varied)} is no table", help=VARY, key="vary")
     tables = source.expanded(tables, home, varied)
-    motion = parameters.motion(table, command, base)
+    motion = _motion(table, command, base)
 
     # What varies.
     laws = inputs(varied, tables, command, sampling)
-    errs = placement(varied, command, sampling)
     real = command != "plan" and "errors" in tables
     if real and sampling == "grid":
         raise StudyError(
@@ -319,19 +313,17 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
             help='use sampling = "latin-hypercube", or leave [errors] out of the scene',
             key="sampling",
         )
-    if not laws and errs is None and not real:
+    if not laws and not real:
         raise StudyError("`vary` names nothing that varies", help=VARY, key="vary")
-    samples = parameters.scenarios(table, sampling, laws)
     study = Study(
         title=title or str(tables.get("title", "")) or (file.stem if file else "Study"),
         tables=tables,
         base=str(home.resolve()),
         command=command,
         sampling=sampling,
-        samples=samples,
+        samples=_scenarios(table, sampling, laws),
         seed=seed,
         inputs=laws,
-        placement=errs,
         motion=motion,
         files=source.files(tables, home, laws),
         file=file,
@@ -340,7 +332,100 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
     return study
 
 
-VARY = 'as in [vary] "grippers.height" = { from = "60 mm", to = "90 mm" }'
+def _one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
+    """A name out of several, of which the first is the default."""
+    value = table.get(key, known[0])
+    if value not in known:
+        quoted = [f'"{name}"' for name in known]
+        raise StudyError(
+            f"`{key}` = {shown(value)} is not known",
+            help=f"it is one of {', '.join(quoted)}{nearest(str(value), known)}",
+            key=key,
+        )
+    return str(value)
+
+
+def _whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> int:
+    """A whole number; `usual` is None where it has to be given."""
+    value = table.get(key, usual)
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= LARGEST:
+        raise StudyError(
+            f"`{key}` is missing" if value is None else f"`{key}` = {shown(value)} does not count",
+            help=f"write a whole number of {least} or more, as in {key} = {max(least, 256)}; "
+            f"the largest is {LARGEST}",
+            key=key,
+        )
+    return value
+
+
+def _scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) -> int:
+    """Number of scenarios: as written, or of a grid as follows. Nothing is made yet."""
+    most = _whole(table, "max_scenarios", MOST, least=1)
+    if sampling == "grid":
+        if "samples" in table:
+            raise StudyError(
+                f"`samples` = {shown(table['samples'])} says nothing to a grid",
+                help="remove it: a grid has every combination of its numbers",
+                key="samples",
+            )
+        samples, of = math.prod(x.count for x in laws), "the grid"
+        remedy = "give fewer points or values"
+    else:
+        samples = _whole(table, "samples", None, least=1)
+        of, remedy = f"`samples` = {samples}", "write fewer"
+    if samples > most:
+        number = str(samples) if samples <= LARGEST else f"about 1e{len(str(samples)) - 1}"
+        raise StudyError(
+            f"{of} makes {number} scenarios, which is more than {most}; their rows would take "
+            f"about {_size(samples * ROW)} of memory",
+            help=f"{remedy}, or allow them by max_scenarios = {min(samples, LARGEST)}",
+            key="vary" if sampling == "grid" else "samples",
+        )
+    if sampling == "sobol" and (samples > SOBOL_POINTS or len(laws) > SOBOL_INPUTS):
+        raise StudyError(
+            f"a Sobol sequence has no {samples} points of {len(laws)} numbers: it ends at "
+            f"{SOBOL_POINTS} points and {SOBOL_INPUTS} numbers",
+            help='use sampling = "latin-hypercube"',
+            key="samples",
+        )
+    return samples
+
+
+def _size(count: int) -> str:
+    """Bytes in a unit that makes their number small.
+
+    Examples
+    --------
+    >>> _size(3_000), _size(3 * 10**15), _size(10**40)
+    ('3 kB', '3 PB', 'more than 1000 EB')
+
+    """
+    for power, unit in enumerate(("B", "kB", "MB", "GB", "TB", "PB", "EB")):
+        if count < 1000 ** (power + 1):
+            return f"{count / 1000**power:.3g} {unit}"
+    return "more than 1000 EB"
+
+
+def _motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
+    """The motion of the plan that is followed, or None with other commands."""
+    plan = table.get("plan")
+    if command != "follow":
+        if plan is None:
+            return None
+        raise StudyError(
+            f'`plan` = {shown(plan)} goes with command = "follow" only, and this is {command!r}',
+            help="remove it, or follow the plan",
+            key="plan",
+        )
+    if not isinstance(plan, str | os.PathLike):
+        raise StudyError(
+            "`plan` is missing: what is to be followed?",
+            help='name a finished plan: plan = "scene.plan/result.json"',
+            key="plan",
+        )
+    path = base / plan
+    result = plydrape.Result.read(str(path / "result.json" if path.is_dir() else path))
+    return Motion(np.array(result.times), np.array(result.commanded))
 
 
 def _probe(study: Study) -> None:
@@ -359,13 +444,12 @@ def _probe(study: Study) -> None:
                 help="give the plan of this scene, or of one with the same array",
                 key="plan",
             ) from error
-    mold = scene.mold
     for x in study.inputs:
         faults: list[tuple[Value, plydrape.PlydrapeError]] = []
-        for value in x.probes():
+        mold = None if x.key.startswith("mold.") else scene.mold
+        for value in x.at([0.5, 1e-9, 1.0 - 1e-9]):
             try:
-                tables = put(study.tables, x.key, x.written(value))
-                build(tables, study.base, None if x.key.startswith("mold.") else mold)
+                build(put(study.tables, x.key, x.written(value)), study.base, mold)
                 break
             except plydrape.PlydrapeError as fault:
                 faults.append((x.written(value), fault))

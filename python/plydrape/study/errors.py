@@ -64,9 +64,16 @@ def names(of: Iterable[str]) -> list[str]:
     ]
 
 
-def units(of: Iterable[str]) -> dict[str, str]:
-    """Units of those columns that have one."""
-    return {name: TERMS[term][1] for term in of if TERMS[term][1] for name in names([term])}
+def unit(column: str) -> str:
+    """The unit of a column of a term; empty of another column.
+
+    Examples
+    --------
+    >>> unit("errors.pick_up.offset.u"), unit("errors.material.length"), unit("accepted")
+    ('m', '', '')
+
+    """
+    return next((unit for term, (_, unit, _) in TERMS.items() if column in names([term])), "")
 
 
 def columns(of: Iterable[str], draw: Mapping[str, Any]) -> dict[str, float]:

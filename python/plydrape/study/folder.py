@@ -2,16 +2,14 @@
 
     study.results/
         study.json        what the study is: definition, check sum, version of plydrape
-        rows/             one part-FIRST-LAST.parquet for each finished run of scenarios
+        rows/             one part-FIRST.parquet for the scenarios of each second or so
         study.parquet     all rows in order            } when all are done
-        summary.json      the figures of the page      }
-        summary.html      the page                     }
+        summary.json      their summary                }
 
 Every file is written whole or not at all: under a hidden name, brought to the disk, renamed.
-What stands in `rows/` is what is done; nothing else is remembered. What the name of a part says is
-compared with its rows, here and in `run.py`. A file of the finished study that exists is never
-written over. Only one process at a time may work in the folder. A folder that holds anything else
-is refused.
+What is in `rows/` is done; nothing else is remembered. What the name of a part says is compared
+with its rows, and the rows with the study. Only one process at a time may work in the folder. A
+folder that holds anything else is refused.
 """
 
 from __future__ import annotations
@@ -21,19 +19,29 @@ import errno
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping
-from itertools import pairwise
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import plydrape
 
 from .definition import Study
 from .error import StudyError
+from .scenario import Line, unit
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 NAME = "study.json"
-PART = re.compile(r"part-(?P<first>\d+)-(?P<last>\d+)\.parquet")
+LOCK = ".lock"
+# The files of a finished study.
+FINISHED = ("study.parquet", "summary.json")
+PART = re.compile(r"part-(\d+)\.parquet")
+# What closes a row; everything else is in the order in which it was measured.
+LAST = ("seed", "version", "error", "error_kind")
 OTHER = "choose another folder with -o, or move this one away"
+REMOVE = "remove it: its scenarios are then run again"
+# What the system says where room is lacking: no space, quota, largest file.
+FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 class Folder:
@@ -65,7 +73,7 @@ class Folder:
             if manifest.is_file():
                 self._compare(study)
             else:
-                whole(manifest, text(described(study)))
+                write(manifest, text(described(study)))
             for rest in self.rows.glob(".*.tmp"):
                 rest.unlink()
         except OSError as error:
@@ -75,10 +83,10 @@ class Folder:
     def _compare(self, study: Study) -> None:
         """Refuses a folder whose rows are not of this study."""
         earlier = read_manifest(self.path)
-        if earlier.get("program") != f"plydrape {plydrape.__version__}":
+        program = f"plydrape {plydrape.__version__}"
+        if earlier.get("program") != program:
             raise StudyError(
-                f"`{self.path}` was begun with {earlier.get('program')}, and this is "
-                f"plydrape {plydrape.__version__}",
+                f"`{self.path}` was begun with {earlier.get('program')}, and this is {program}",
                 help=f"go on with that version, or {OTHER}",
             )
         if earlier.get("checksum") != study.checksum:
@@ -104,58 +112,34 @@ class Folder:
                 help="wait for it, or end it",
             ) from error
 
-    def parts(self) -> list[tuple[int, int, Path]]:
-        """Finished runs of scenarios: first, stop and file, in order.
+    def parts(self, columns: list[str] | None = None) -> list[tuple[Path, pa.Table]]:
+        """Finished rows, or some of their columns, by the file that has them.
 
         Raises
         ------
         StudyError
-            Two of them hold the same scenario, or the name of one holds none.
+            One is damaged, has other scenarios than its name says, or those of another one.
 
         """
-        found = sorted(_parts(self.rows))
-        for first, stop, path in found:
-            if stop <= first:
-                raise StudyError(
-                    f"`{path}`: the name ends with a scenario before its first", help="remove it"
-                )
-        for (_, stop, path), (first, _, other) in pairwise(found):
-            if first < stop:
-                raise StudyError(
-                    f"`{path}` and `{other.name}` hold the same scenarios",
-                    help="remove one of them",
-                )
+        found: list[tuple[Path, pa.Table]] = []
+        holders: dict[int, Path] = {}
+        for path in sorted(p for p in self.rows.glob("*.parquet") if PART.fullmatch(p.name)):
+            rows = read_part(path, columns)
+            for scenario in rows["scenario"].to_pylist():
+                if scenario in holders:
+                    raise StudyError(
+                        f"`{path}` and `{holders[scenario].name}` hold the same scenario, "
+                        f"{scenario}",
+                        help="remove one of them",
+                    )
+                holders[scenario] = path
+            found.append((path, rows))
         return found
 
-    def keep(self, first: int, rows: int, content: bytes) -> None:
+    def keep(self, rows: list[Line], study: Study) -> None:
         """Writes the part file of finished scenarios."""
-        whole(self.rows / f"part-{first:06}-{first + rows - 1:06}.parquet", content)
-
-    def missing(self) -> list[str]:
-        """The files of the finished study that are not there."""
-        return [name for name in FINISHED if not os.path.lexists(self.path / name)]
-
-    def finish(self, contents: Mapping[str, bytes]) -> list[str]:
-        """Writes files of the finished study; the names of those that were not there before.
-
-        Raises
-        ------
-        StudyError
-            One is there, and not what the rows give.
-
-        """
-        for name, content in contents.items():
-            path = self.path / name
-            if os.path.lexists(path) and not same(path, content):
-                raise StudyError(
-                    f"`{path}` is not what the rows give: it was changed, or made of earlier "
-                    "rows; so it stays",
-                    help="move it away and run the same command again: all rows are finished",
-                )
-        absent = [name for name in contents if name in self.missing()]
-        for name in absent:
-            whole(self.path / name, contents[name])
-        return absent
+        rows = sorted(rows, key=lambda row: int(row["scenario"] or 0))
+        write(self.rows / f"part-{rows[0]['scenario']:06}.parquet", content(table(rows, study)))
 
     def close(self) -> None:
         """Lets others in."""
@@ -163,41 +147,96 @@ class Folder:
             self._lock.close()
 
 
-LOCK = ".lock"
-# The files of a finished study.
-FINISHED = ("study.parquet", "summary.json", "summary.html")
-# What the system says where room is lacking: no space, quota, largest file.
-FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+def read_part(path: Path, columns: list[str] | None = None) -> pa.Table:
+    """The rows of a part file, or some of their columns.
 
-
-def _parts(rows: Path) -> Iterator[tuple[int, int, Path]]:
-    for path in rows.glob("*.parquet") if rows.is_dir() else ():
-        if name := PART.fullmatch(path.name):
-            yield int(name["first"]), int(name["last"]) + 1, path
-
-
-def missing(parts: list[tuple[int, int, Path]], total: int) -> list[tuple[int, int]]:
-    """The ranges of scenarios, first and stop, that no part holds.
-
-    Examples
-    --------
-    >>> missing([(2, 4, Path("a"))], 6)
-    [(0, 2), (4, 6)]
+    Raises
+    ------
+    StudyError
+        It is damaged, or begins with another scenario than its name says.
 
     """
-    gaps, at = [], 0
-    for first, stop, _ in parts:
-        gaps.append((at, first))
-        at = stop
-    gaps.append((at, total))
-    return [(first, stop) for first, stop in gaps if first < stop]
+    import pyarrow.parquet as pq
+
+    try:
+        rows = pq.ParquetFile(path).read(columns)
+        scenarios = rows["scenario"].to_pylist()
+        absent = [name for name in LAST if not columns and name not in rows.column_names]
+        if absent:
+            raise KeyError(f"it has no column {absent[0]}")
+        if not scenarios or None in scenarios:
+            raise ValueError("it has no rows, or one without a scenario")
+    except MemoryError:
+        raise
+    except Exception as error:
+        raise StudyError(f"`{path}` cannot be read: {error}", help=REMOVE) from error
+    name = PART.fullmatch(path.name)
+    if name is None or int(name[1]) != scenarios[0]:
+        raise StudyError(
+            f"`{path}` begins with scenario {scenarios[0]}, and not as its name says", help=REMOVE
+        )
+    return rows
+
+
+def table(rows: list[Line], study: Study) -> pa.Table:
+    """Rows as a table; a column's unit is in its field's metadata as `unit`."""
+    import pyarrow as pa
+
+    names = list(dict.fromkeys(name for row in rows for name in row if name not in LAST))
+    # Columns that may be empty have their types all the same.
+    types = dict.fromkeys(("stopped", "error", "error_kind"), pa.string())
+    columns = {
+        name: pa.array([row.get(name) for row in rows], types.get(name)) for name in (*names, *LAST)
+    }
+    units = {name: unit(name, study.inputs) for name in columns}
+    fields = [
+        pa.field(name, column.type, metadata={"unit": units[name]} if units[name] else None)
+        for name, column in columns.items()
+    ]
+    return pa.Table.from_arrays(list(columns.values()), schema=pa.schema(fields))
+
+
+def joined(tables: list[pa.Table]) -> pa.Table:
+    """Parts as one table in the order of its scenarios.
+
+    A part whose scenarios all failed lacks the measures; they are empty there.
+
+    Raises
+    ------
+    StudyError
+        A column has different types in them.
+
+    """
+    import pyarrow as pa
+
+    # Columns are in the order of the first part with the most of them.
+    fullest = max(tables, key=lambda part: part.num_columns)
+    try:
+        whole = pa.concat_tables([fullest.slice(0, 0), *tables], promote_options="permissive")
+    except pa.ArrowException as error:
+        raise StudyError(
+            f"the parts in `rows` do not fit together: {error}",
+            help="remove those that are not of this study: their scenarios are then run again",
+        ) from error
+    first = [name for name in whole.column_names if name not in LAST]
+    return whole.select([*first, *LAST]).sort_by("scenario").combine_chunks()
+
+
+def content(rows: pa.Table) -> bytes:
+    """The table as the bytes of a Parquet file; the same table, the same bytes."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    sink = pa.BufferOutputStream()
+    pq.write_table(rows, sink, compression="zstd")
+    return bytes(memoryview(sink.getvalue()))
 
 
 def described(study: Study) -> dict[str, Any]:
     """The content of study.json."""
     return {
         "format": "plydrape-study",
-        "version": 1,
+        "version": 2,
         "program": f"plydrape {plydrape.__version__}",
         "checksum": study.checksum,
         "definition": study.described(),
@@ -217,12 +256,8 @@ def read_manifest(path: Path) -> dict[str, Any]:
         manifest = json.loads((path / NAME).read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         raise StudyError(f"`{path}` is no study's folder: it has no {NAME}", help=OTHER) from error
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise StudyError(f"`{path / NAME}` cannot be read: {error}", help=OTHER) from error
-    except RecursionError as error:
-        raise StudyError(
-            f"`{path / NAME}` cannot be read: it is nested too deep", help=OTHER
-        ) from error
     if not isinstance(manifest, dict) or manifest.get("format") != "plydrape-study":
         raise StudyError(f"`{path / NAME}` is no study of plydrape", help=OTHER)
     definition = manifest.get("definition")
@@ -240,16 +275,16 @@ def differing(earlier: Any, now: Any, path: str = "") -> list[str]:
     ['`seed`']
 
     """
-    if isinstance(earlier, dict) and isinstance(now, dict):
-        found: list[str] = []
-        for key in [*now, *(key for key in earlier if key not in now)]:
-            inner = f"{path}.{key}" if path else key
-            if key not in now or key not in earlier:
-                found.append(f"`{inner}`")
-            else:
-                found += differing(earlier[key], now[key], inner)
-        return found[:5]
-    return [] if earlier == now else [f"`{path}`"]
+    if not (isinstance(earlier, dict) and isinstance(now, dict)):
+        return [] if earlier == now else [f"`{path}`"]
+    found: list[str] = []
+    for key in dict.fromkeys([*now, *earlier]):
+        inner = f"{path}.{key}" if path else key
+        if key in now and key in earlier:
+            found += differing(earlier[key], now[key], inner)
+        else:
+            found.append(f"`{inner}`")
+    return found[:5]
 
 
 def text(value: Any) -> bytes:
@@ -257,15 +292,7 @@ def text(value: Any) -> bytes:
     return (json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
 
 
-def same(path: Path, content: bytes) -> bool:
-    """Whether a file has this content; False where it cannot be read."""
-    try:
-        return path.stat().st_size == len(content) and path.read_bytes() == content
-    except OSError:
-        return False
-
-
-def whole(path: Path, content: bytes) -> None:
+def write(path: Path, content: bytes) -> None:
     """Writes a file whole or not at all; it may replace an earlier one.
 
     Raises

@@ -89,7 +89,10 @@ def quantity(value: object) -> tuple[float, str] | None:
     if isinstance(value, bool):
         return None
     if isinstance(value, int | float):
-        return float(value), ""
+        try:
+            return float(value), ""
+        except OverflowError:
+            return None
     if isinstance(value, str) and len(value) <= LONGEST and (found := QUANTITY.fullmatch(value)):
         return float(found["number"]), found["unit"] or ""
     return None

@@ -9,11 +9,6 @@ from plydrape._plydrape import measures
 
 # Most characters of a value in a message.
 MOST = 80
-# Names of columns that are neither their key with spaces nor those of a measure.
-NAMES = {
-    "placement.rms": "placement error, rms",
-    "placement.largest": "placement error, largest",
-}
 # What is measured, by the name of its limit and by its key in a step.
 BY_NAME = {measure.name: measure for measure in measures()}
 BY_KEY = {measure.key: measure for measure in measures()}
@@ -63,8 +58,7 @@ def name(key: str) -> str:
     part, _, rest = key.partition("_")
     if part in ("worst", "final") and rest in BY_KEY:
         return f"{part} {BY_KEY[rest].label}"
-    key = key.removeprefix("value_")
-    return NAMES.get(key, key if "." in key else key.replace("_", " "))
+    return key if "." in key else key.removeprefix("value_").replace("_", " ")
 
 
 def is_least(limit: str) -> bool:

@@ -1,4 +1,4 @@
-"""The rows of a study, and their statistics."""
+"""The rows of a study, and their summary."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .error import StudyError, require
+from .folder import LAST, Folder, joined, read_manifest
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -34,16 +35,13 @@ class Outcome:
 
     """
 
-    def __init__(
-        self, rows: pa.Table, title: str, folder: Path | None, inputs: list[str] | None = None
-    ) -> None:
+    def __init__(self, rows: pa.Table, title: str, folder: Path | None) -> None:
         """Takes rows in the order of their scenarios."""
         self._rows = rows
         self.title = title
         self.folder = folder
         self.ran = 0
         self.written: list[str] = []
-        self._inputs = inputs
 
     def __repr__(self) -> str:
         """In a line: `<plydrape.study.Outcome 256 rows, 12.5 % accepted>`."""
@@ -52,7 +50,7 @@ class Outcome:
         return f"<plydrape.study.Outcome {self._rows.num_rows} rows, {accepted}>"
 
     def table(self) -> pa.Table:
-        """All rows, one a scenario. Units are in the fields' metadata: `table.units(rows)`.
+        """All rows, one a scenario. Units are in the metadata of the fields as `unit`.
 
         Returns
         -------
@@ -76,8 +74,6 @@ class Outcome:
     @property
     def inputs(self) -> list[str]:
         """Names of the columns of inputs."""
-        if self._inputs is not None:
-            return self._inputs
         names = self._rows.column_names
         end = next((i for i, name in enumerate(names) if name == "accepted"), len(names))
         return [name for name in names[:end] if name not in ("scenario", *LAST)]
@@ -102,9 +98,6 @@ class Outcome:
         None where either is constant.
         """
         return {name: entry["correlations"] for name, entry in self.summary["measures"].items()}
-
-
-LAST = ("seed", "version", "error", "error_kind")
 
 
 def read(folder: str | os.PathLike[str]) -> Outcome:
@@ -137,15 +130,10 @@ def read(folder: str | os.PathLike[str]) -> Outcome:
     1.0
 
     """
-    require("scipy", "pyarrow")
-    from . import table
-    from .folder import Folder, read_manifest
-    from .run import read_part
-
+    require("scipy", "pyarrow", "pandas")
     path = Path(folder)
     definition = read_manifest(path)["definition"]
     parts = Folder(path).parts()
     if not parts:
         raise StudyError(f"`{path}` has no rows yet", help="run the study")
-    rows = table.joined([read_part(*part) for part in parts])
-    return Outcome(rows, definition["title"], path)
+    return Outcome(joined([rows for _, rows in parts]), definition["title"], path)

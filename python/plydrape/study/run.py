@@ -1,31 +1,31 @@
-"""Runs a study: from its definition to its rows, summary and page."""
+"""Runs a study: from its definition to its rows and their summary."""
 
 from __future__ import annotations
 
+import contextlib
 import os
+import sys
 import tempfile
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
-from .chunks import Executor, run_chunks
 from .definition import Study
 from .error import StudyError, require
-from .folder import FINISHED, Folder, missing, text
-from .outcome import LAST, Outcome
-from .progress import Progress
-from .scenario import Batch
+from .folder import FINISHED, REMOVE, Folder, content, joined, text, write
+from .outcome import Outcome
+from .scenario import Line
 
 # Processes of one machine; a slip of the pen is likelier than more.
 MOST_WORKERS = 1024
-REMOVE = "remove it: the scenarios that its name says are then run again"
 
 
 def run(
     study: str | os.PathLike[str] | Mapping[str, Any] | Study,
     *,
     output: str | os.PathLike[str] | None = None,
-    scheduler: str | None = None,
+    scheduler: Any = None,
     workers: int | None = None,
     progress: bool = True,
     every: float = 1.0,
@@ -33,21 +33,23 @@ def run(
     """Runs every scenario of a study that has no row yet.
 
     The same study gives the same rows, whatever runs it and however often it was interrupted. A
-    finished study is only read; `ran` of the outcome is then 0.
+    finished study is only read; `ran` of the outcome is then 0. Processes of this machine import
+    the script that calls this: such a script does it below `if __name__ == "__main__":`.
 
     Parameters
     ----------
     study : str or path or mapping or Study
-        a study file, a dict with its keys, or a `Study`.
+        A study file, a dict with its keys, or a `Study`.
     output : str or path, optional
         Folder of the rows; `NAME.results` beside the file NAME.toml unless given. A study
         without a file keeps its rows in memory.
-    scheduler : str, optional
-        Address of a Dask scheduler; processes of this machine unless given.
+    scheduler : str or cluster, optional
+        Address of a Dask scheduler, or what else `distributed.Client` takes, such as a
+        `LocalCluster`; processes of this machine unless given.
     workers : int, optional
         Number of such processes; one a core unless given.
     progress : bool, default True
-        a bar on standard error, if that is a terminal.
+        A line on standard error, if that is a terminal.
     every : float, default 1.0
         Seconds of work after which rows are written.
 
@@ -72,22 +74,25 @@ def run(
     >>> plydrape.study.run("study.toml", output="rows")  # doctest: +SKIP
 
     """
-    require("scipy", "pyarrow", *(["distributed"] if scheduler else []))
+    require("scipy", "pyarrow", "pandas", *(["distributed"] if scheduler else []))
     if not isinstance(study, Study):
         study = Study.of(study) if isinstance(study, Mapping) else Study.read(study)
-    if workers is not None and workers < 1:
-        raise StudyError(f"{workers} workers can do nothing", help="give 1 or more")
-    if workers is not None and workers > MOST_WORKERS:
+    if workers is not None and not 1 <= workers <= MOST_WORKERS:
         raise StudyError(
-            f"{workers} workers are more than one machine can have",
-            help=f"give {MOST_WORKERS} or fewer, or the address of a Dask scheduler",
+            f"{workers} workers are not possible on one machine",
+            help=f"give 1 to {MOST_WORKERS}, or the address of a Dask scheduler",
         )
-    if output is None and study.file is None:
-        with tempfile.TemporaryDirectory(prefix="plydrape-study-") as hidden:
-            outcome = _run(study, Path(hidden), scheduler, workers, progress, every)
-            return Outcome(outcome.table(), outcome.title, None)
-    path = Path(output) if output is not None else beside(study)
-    return _run(study, path, scheduler, workers, progress, every)
+    with contextlib.ExitStack() as stack:
+        memory = output is None and study.file is None
+        if memory:
+            output = stack.enter_context(tempfile.TemporaryDirectory(prefix="plydrape-study-"))
+        folder = Folder(Path(output) if output is not None else beside(study))
+        stack.callback(folder.close)
+        folder.begin(study)
+        outcome = _run(study, folder, scheduler, workers or cores(), progress, every)
+        if memory:
+            outcome.folder = None
+        return outcome
 
 
 def beside(study: Study) -> Path:
@@ -97,128 +102,53 @@ def beside(study: Study) -> Path:
 
 
 def _run(
-    study: Study,
-    path: Path,
-    scheduler: str | None,
-    workers: int | None,
-    progress: bool,
-    every: float,
+    study: Study, folder: Folder, scheduler: Any, workers: int, progress: bool, every: float
 ) -> Outcome:
-    from . import page, table
+    from .workers import here, on_cluster
 
-    folder = Folder(path)
-    try:
-        folder.begin(study)
-        parts = folder.parts()
-        if parts and parts[-1][1] > len(study):
-            raise StudyError(
-                f"`{parts[-1][2]}`: the study has {len(study)} scenarios, which count from 0",
-                help="remove it: it is not of this study",
-            )
-        todo = missing(parts, len(study))
-        left = sum(stop - first for first, stop in todo)
-        for part in parts if left else []:
-            compare(read_part(*part, columns=known(study)), *part, study)
-        bar = Progress(len(study), len(study) - left, progress)
+    # What is done.
+    known = ["scenario", "seed", "version", *(x.key for x in study.inputs)]
+    done: set[int] = set()
+    for path, rows in folder.parts(known):
+        compare(rows, path, study, known)
+        done.update(rows["scenario"].to_pylist())
+    todo = [k for k in range(len(study)) if k not in done]
 
-        def keep(batch: Batch) -> None:
-            rows = table.table(batch.rows, batch.units, study.inputs)
-            folder.keep(batch.first, len(batch.rows), table.content(rows))
-            bar.add(len(batch.rows), sum(row["error"] is not None for row in batch.rows))
-
-        if left:
-            executor = _executor(study, scheduler, min(workers or cores(), left))
+    # What is left.
+    if todo:
+        common = (study.task, study.values, todo)
+        if scheduler is None:
+            lines = here(*common, min(workers, len(todo)), every)
+        else:
+            lines = on_cluster(*common, scheduler, every)
+        batch: list[Line] = []
+        last = time.monotonic()
+        with contextlib.closing(lines), Progress(len(study), len(done), progress) as bar:
             try:
-                run_chunks(executor, study.task, study.values, todo, keep, every)
+                for line in lines:
+                    if line is not None:
+                        batch.append(line)
+                        bar.add(line["error"] is not None)
+                    if batch and time.monotonic() - last >= every:
+                        batch, ended = [], batch
+                        folder.keep(ended, study)
+                        last = time.monotonic()
             finally:
-                executor.close()
-                bar.close()
+                if batch:
+                    folder.keep(batch, study)
 
-        tables = []
-        for part in folder.parts():
-            tables.append(read_part(*part))
-            compare(tables[-1], *part, study)
-        rows = table.joined(tables)
-        outcome = Outcome(rows, study.title, path)
-        make: dict[str, Callable[[], bytes]] = {
-            "study.parquet": lambda: table.content(rows),
-            "summary.json": lambda: text(outcome.summary),
-            "summary.html": lambda: page.html(outcome, study).encode(),
-        }
-        # What a finished study has is left as it is, with what its user may have added.
-        names = FINISHED if left else folder.missing()
-        outcome.ran = left
-        outcome.written = folder.finish({name: make[name]() for name in names})
-        return outcome
-    finally:
-        folder.close()
+    # What they say. A finished study is left as it is, with what its user may have added.
+    outcome = Outcome(joined([rows for _, rows in folder.parts()]), study.title, folder.path)
+    outcome.ran = len(todo)
+    for name in FINISHED:
+        if todo or not os.path.lexists(folder.path / name):
+            table = name == "study.parquet"
+            write(folder.path / name, content(outcome.table()) if table else text(outcome.summary))
+            outcome.written.append(name)
+    return outcome
 
 
-def read_part(first: int, stop: int, path: Path, columns: list[str] | None = None) -> Any:
-    """The rows of a part file, which are those of the scenarios that its name says.
-
-    Parameters
-    ----------
-    first : int
-        The first scenario.
-    stop : int
-        The one behind the last.
-    path : Path
-        The file.
-    columns : list of str, optional
-        Those that are read, if the file has them; all unless given.
-
-    Raises
-    ------
-    StudyError
-        It is damaged, or holds other scenarios.
-
-    """
-    from . import table
-
-    try:
-        rows = table.read(path, columns)
-        held = rows["scenario"].to_pylist()
-        absent = [name for name in LAST if not columns and name not in rows.column_names]
-        if absent:
-            raise KeyError(f"it has no column {absent[0]}")
-    except MemoryError:
-        raise
-    except Exception as error:
-        raise StudyError(f"`{path}` cannot be read: {error}", help=REMOVE) from error
-    if len(held) != stop - first or held != list(range(first, stop)):
-        expected = (
-            f"the scenarios {first} to {stop - 1}" if stop - first > 1 else f"scenario {first}"
-        )
-        raise StudyError(
-            f"`{path}` should hold {expected}, as its name says, and holds {ranged(held)}",
-            help=REMOVE,
-        )
-    return rows
-
-
-def ranged(held: list[int]) -> str:
-    """The scenarios of a part as text.
-
-    Examples
-    --------
-    >>> ranged([24, 25, 26]), ranged([7])
-    ('24 to 26', '7')
-
-    """
-    if not held or None in held:
-        return "rows without a scenario" if held else "no rows"
-    if held == list(range(held[0], held[0] + len(held))):
-        return f"{held[0]} to {held[-1]}" if len(held) > 1 else str(held[0])
-    return f"{len(held)} rows between {min(held)} and {max(held)}"
-
-
-def known(study: Study) -> list[str]:
-    """The columns that are known before anything runs."""
-    return ["scenario", "seed", "version", *(x.key for x in study.inputs)]
-
-
-def compare(rows: Any, first: int, stop: int, path: Path, study: Study) -> None:
+def compare(rows: Any, path: Path, study: Study, known: list[str]) -> None:
     """Compares what a part holds with what is known of its scenarios.
 
     Raises
@@ -227,22 +157,18 @@ def compare(rows: Any, first: int, stop: int, path: Path, study: Study) -> None:
         The part is of another study.
 
     """
-    begun = [study.task.begun(k, study.values[k]) for k in range(first, stop)]
-    for name in known(study):
+    scenarios = rows["scenario"].to_pylist()
+    if not 0 <= min(scenarios) <= max(scenarios) < len(study):
+        raise StudyError(
+            f"`{path}` is not of this study: it has {len(study)} scenarios, which count from 0",
+            help=REMOVE,
+        )
+    begun = [study.task.begun(k, study.values[k]) for k in scenarios]
+    for name in known:
         if name not in rows.column_names or rows[name].to_pylist() != [row[name] for row in begun]:
             raise StudyError(
                 f"`{path}` is not of this study: the column `{name}` is another", help=REMOVE
             )
-
-
-def _executor(study: Study, scheduler: str | None, workers: int) -> Executor:
-    if scheduler is not None:
-        from .cluster import Cluster
-
-        return Cluster(study.task, scheduler)
-    from .local import Local
-
-    return Local(study.task, workers)
 
 
 def cores() -> int:
@@ -250,3 +176,43 @@ def cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+class Progress:
+    """A line on standard error while a study runs; nothing where that is no terminal."""
+
+    def __init__(self, total: int, done: int, shown: bool, stream: TextIO | None = None) -> None:
+        """`done` were done in an earlier run."""
+        self._stream = stream or sys.stderr
+        self._shown = shown and self._stream.isatty()
+        self._total, self._before, self._done, self._failed = total, done, done, 0
+        self._start = self._last = time.monotonic()
+
+    def __enter__(self) -> Progress:
+        """Shows how many were done before."""
+        self._draw()
+        return self
+
+    def add(self, failed: bool) -> None:
+        """One more is done."""
+        self._done += 1
+        self._failed += failed
+        if time.monotonic() - self._last > 0.1 or self._done == self._total:
+            self._draw()
+
+    def __exit__(self, *_: object) -> None:
+        """Clears the line."""
+        if self._shown:
+            print("\r\x1b[K", end="", file=self._stream, flush=True)
+
+    def _draw(self) -> None:
+        if not self._shown:
+            return
+        self._last = time.monotonic()
+        text = f"{self._done} of {self._total} scenarios"
+        if new := self._done - self._before:
+            left = (self._last - self._start) / new * (self._total - self._done)
+            text += f", {left // 60:.0f}:{left % 60:02.0f} left"
+        if self._failed:
+            text += f", {self._failed} failed"
+        print(f"\r\x1b[K{text}", end="", file=self._stream, flush=True)

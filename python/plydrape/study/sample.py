@@ -1,8 +1,7 @@
 """Which scenarios a study has: a grid, a Latin hypercube or a Sobol sequence.
 
 The table of inputs is a pure function of the definition and its seed. Workers get rows of it and
-draw nothing themselves, but for placement errors (`placement.py`), which have a generator of
-their own for each scenario.
+draw nothing themselves; errors of the scene are drawn by the scene (`errors.py`).
 
 Source: scipy.stats.qmc.
 """
@@ -15,12 +14,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .keys import Value
-
 if TYPE_CHECKING:
     from .definition import Study
-
-Row = tuple[Value, ...]
+    from .workers import Row
 
 
 def values(study: Study) -> list[Row]:
@@ -30,10 +26,11 @@ def values(study: Study) -> list[Row]:
     """
     if study.sampling == "grid":
         return list(itertools.product(*(x.grid() for x in study.inputs)))
-    unit = cube(study.sampling, len(study.inputs), study.samples, study.seed)
-    return [
-        tuple(x.law.at(float(u)) for x, u in zip(study.inputs, row, strict=True)) for row in unit
-    ]
+    if not study.inputs:
+        return [()] * study.samples
+    points = cube(study.sampling, len(study.inputs), study.samples, study.seed)
+    columns = [x.at(u) for x, u in zip(study.inputs, points.T, strict=True)]
+    return list(zip(*columns, strict=True))
 
 
 def cube(sampling: str, dimensions: int, samples: int, seed: int) -> np.ndarray:
@@ -47,12 +44,8 @@ def cube(sampling: str, dimensions: int, samples: int, seed: int) -> np.ndarray:
     """
     from scipy.stats import qmc
 
-    if dimensions == 0:
-        return np.empty((samples, 0))
-    generator = np.random.default_rng(seed)
-    if sampling == "sobol":
-        with warnings.catch_warnings():
-            # It balances powers of two; the guide says so, and other numbers are allowed.
-            warnings.simplefilter("ignore", UserWarning)
-            return np.asarray(qmc.Sobol(dimensions, scramble=True, rng=generator).random(samples))
-    return np.asarray(qmc.LatinHypercube(dimensions, rng=generator).random(samples))
+    design = qmc.Sobol if sampling == "sobol" else qmc.LatinHypercube
+    with warnings.catch_warnings():
+        # Sobol balances powers of two; the guide says so, and other numbers are allowed.
+        warnings.simplefilter("ignore", UserWarning)
+        return np.asarray(design(dimensions, rng=np.random.default_rng(seed)).random(samples))

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import hashlib
 import math
-import time
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -18,20 +17,15 @@ import numpy as np
 
 import plydrape
 
-from . import errors as cell
-from .error import StudyError
+from . import errors
 from .keys import SCENE, Tables, Value, put
-from .labels import BY_KEY, is_least
-from .law import Input
-from .placement import Placement
+from .labels import BY_KEY, BY_NAME, is_least
+from .vary import Input
 
 Numbers = np.ndarray[Any, Any]
 
 # What a row may hold; None is an empty field.
-Cell = float | int | str | bool | None
-Line = dict[str, Cell]
-
-
+Line = dict[str, float | int | str | bool | None]
 # Units of what a summary says beside its measures, by the end of its name.
 UNITS = {"mm": "mm", "deg": "deg", "n": "N", "j": "J"}
 
@@ -50,29 +44,6 @@ class Motion:
         return hashlib.sha256(b"".join(part.tobytes() for part in parts)).hexdigest()
 
 
-@dataclass
-class Batch:
-    """Rows of neighboring scenarios.
-
-    Attributes
-    ----------
-    first
-        Index of the first.
-    rows
-        One for each.
-    units
-        Of those columns that have one.
-    seconds
-        Time that the rows took.
-
-    """
-
-    first: int
-    rows: list[Line]
-    units: dict[str, str] = field(default_factory=dict)
-    seconds: float = 0.0
-
-
 @dataclass(frozen=True, eq=False)
 class Task:
     """Everything that the rows depend on; see `Study` for its attributes."""
@@ -81,69 +52,32 @@ class Task:
     base: str
     command: str
     inputs: tuple[Input, ...]
-    placement: Placement | None
     motion: Motion | None
     terms: tuple[str, ...]
     seed: int
     version: str
 
-    def batch(self, first: int, values: Sequence[Sequence[Value]]) -> Batch:
-        """The rows of the scenarios `first`, `first + 1`, …, given their inputs.
-
-        Raises
-        ------
-        StudyError
-            This process has another version of plydrape than the study's.
-
-        """
-        if plydrape.__version__ != self.version:
-            raise StudyError(
-                f"a worker has plydrape {plydrape.__version__}, the study {self.version}",
-                help="install the same version everywhere",
-            )
-        start = time.perf_counter()
-        batch = Batch(first, [])
-        for scenario, row in enumerate(values, start=first):
-            batch.rows.append(self.row(scenario, row, batch.units))
-        batch.seconds = time.perf_counter() - start
-        return batch
-
-    def row(self, scenario: int, values: Sequence[Value], units: dict[str, str]) -> Line:
-        """The row of one scenario; units of its columns are added to `units`."""
+    def row(self, scenario: int, values: Sequence[Value]) -> Line:
+        """The row of one scenario."""
         row = self.begun(scenario, values)
-        units.update({x.key: x.unit for x in self.inputs if x.unit})
         try:
-            scene = self.with_values(values)
-            # The placement errors are an input, on record also where the drape fails.
-            errors = self.errors(scenario, scene)
-            if self.placement is not None and errors is not None:
-                row.update(self.placement.columns(errors))
-                units.update(
-                    dict.fromkeys(self.placement.columns(errors), self.placement.unit or "m")
-                )
-            moved = self.moved(scene, errors)
-            if self.real(moved):
-                row.update(cell.columns(self.terms, moved.draw(scenario)))
-                units.update(cell.units(self.terms))
-                moved = moved.with_errors(scenario)
-            row.update(self.measured(moved, units))
+            scene = self.nominal(values)
+            # The errors are an input, on record also where the drape fails.
+            if self.real(scene):
+                row |= errors.columns(self.terms, scene.draw(scenario))
+                scene = scene.with_errors(scenario)
+            row |= self.measured(scene)
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # A panic of the extension is no Exception.
-            row.update(failed(type(error).__name__, message(error)))
+            row |= failed(type(error).__name__, message(error))
         return row
 
     def begun(self, scenario: int, values: Sequence[Value]) -> Line:
         """The part of a row that is known before anything runs."""
-        inputs = {x.key: value for x, value in zip(self.inputs, values, strict=True)}
-        return {
-            "scenario": scenario,
-            "seed": self.seed,
-            "version": self.version,
-            "error": None,
-            "error_kind": None,
-            **inputs,
-        }
+        row: Line = {"scenario": scenario, "seed": self.seed, "version": self.version}
+        row |= {"error": None, "error_kind": None}
+        return row | {x.key: value for x, value in zip(self.inputs, values, strict=True)}
 
     def scene(self, scenario: int, values: Sequence[Value]) -> plydrape.Scene:
         """The scene of one scenario.
@@ -154,20 +88,22 @@ class Task:
             It is refused.
 
         """
-        scene = self.with_values(values)
-        moved = self.moved(scene, self.errors(scenario, scene))
-        return moved.with_errors(scenario) if self.real(moved) else moved
+        scene = self.nominal(values)
+        return scene.with_errors(scenario) if self.real(scene) else scene
 
     def real(self, scene: plydrape.Scene) -> bool:
         """Whether the scenario is draped in a real cell and not in the nominal one."""
         return self.command != "plan" and scene.errors is not None
 
-    def with_values(self, values: Sequence[Value]) -> plydrape.Scene:
-        """The scene with its varied numbers, along its own motion."""
+    def nominal(self, values: Sequence[Value]) -> plydrape.Scene:
+        """The scene with its varied numbers, along its own motion or the one that is followed."""
         tables = self.tables
         for x, value in zip(self.inputs, values, strict=True):
             tables = put(tables, x.key, x.written(value))
-        return build(tables, self.base, self.mold)
+        scene = build(tables, self.base, self.mold)
+        if self.motion is None:
+            return scene
+        return scene.with_motion(self.motion.times, self.motion.positions)
 
     @cached_property
     def mold(self) -> plydrape.Mold | None:
@@ -176,29 +112,13 @@ class Task:
             return None
         return build(self.tables, self.base).mold
 
-    def errors(self, scenario: int, scene: plydrape.Scene) -> Numbers | None:
-        """The placement errors, shape (G, 3), in m; None where grippers do not err."""
-        if self.placement is None:
-            return None
-        positions = scene.positions if self.motion is None else self.motion.positions
-        return self.placement.errors(self.seed, scenario, np.shape(positions)[1])
-
-    def moved(self, scene: plydrape.Scene, errors: Numbers | None) -> plydrape.Scene:
-        """The scene along the motion that is followed, off by the errors."""
-        if self.motion is None and errors is None:
-            return scene
-        motion = self.motion or Motion(np.asarray(scene.times), np.asarray(scene.positions))
-        off = motion.positions if errors is None else motion.positions + errors
-        return scene.with_motion(motion.times, off)
-
-    def measured(self, scene: plydrape.Scene, units: dict[str, str]) -> Line:
+    def measured(self, scene: plydrape.Scene) -> Line:
         """Drapes, or plans, and reads off the measures."""
         if self.command == "plan":
             plan = plydrape.plan(scene, without_errors=scene.errors is None)
-            row = {"evaluations": int(plan.evaluations), "duration": float(plan.duration)}
-            units["duration"] = "s"
-            return row | measures(plan.result, units)
-        return measures(plydrape.simulate(scene), units)
+            row: Line = {"evaluations": int(plan.evaluations), "duration": float(plan.duration)}
+            return row | measures(plan.result)
+        return measures(plydrape.simulate(scene))
 
 
 def build(tables: Tables, base: str, mold: plydrape.Mold | None = None) -> plydrape.Scene:
@@ -216,62 +136,71 @@ def build(tables: Tables, base: str, mold: plydrape.Mold | None = None) -> plydr
     return plydrape.Scene(title=tables.get("title"), base=base, **known)
 
 
-def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
+def measures(result: plydrape.Result) -> Line:
     """All numbers of a result's summary, and what became of each limit.
 
     `worst_…` and `final_…` are those of all steps and of the last, `stopped` says why a drape ended
-    where no ply would have survived it. Of each limit there is
-    `value_…`, `limit_…` (both in the unit added to `units`), `ok_…`, and `margin_…`: what is
-    left of the limit as a share of it, negative where it is exceeded, None where it is zero. Where
-    the value is not finite, the limit is not kept and the drape not accepted. All of it is by the
-    model that decides; `sheet.…` and `catenaries.…` are what that alone says beside its measures.
+    where no ply would have survived it. Of each limit there is `value_…`, `limit_…`, `ok_…`, and
+    `margin_…`: what is left of the limit as a share of it, negative where it is exceeded, None
+    where it is zero. Where the value is not finite, the limit is not kept and the drape not
+    accepted. All of it is by the model that decides; `sheet.…` and `catenaries.…` are what that
+    alone says beside its measures.
     """
     summary = result.summary
-    limits = summary["limits"]
-    sound = {limit["name"]: math.isfinite(limit["value"]) for limit in limits}
+    sound = all(math.isfinite(limit["value"]) for limit in summary["limits"])
     row: Line = {
-        "accepted": result.accepted and all(sound.values()),
+        "accepted": result.accepted and sound,
         "converged": result.converged,
         "first_contact_step": result.first_contact_step,
     }
-    row |= plain(summary, "", units)
+    row |= plain(summary, "")
     for part in ("worst", "final"):
-        for key, value in summary[part].items():
-            if value is None:
-                continue
-            row[f"{part}_{key}"] = value
-            if BY_KEY[key].unit not in ("", "1"):
-                units[f"{part}_{key}"] = BY_KEY[key].unit
-    row |= judged(limits, units)
-    for model in ("sheet", "catenaries"):
-        row |= plain(summary.get(model, {}), f"{model}.", units)
-    return row
-
-
-def plain(values: dict[str, Any], model: str, units: dict[str, str]) -> Line:
-    """Those of a summary's values that a row can hold and does not have already."""
-    row: Line = {}
-    for key, value in values.items():
-        held = isinstance(value, bool | int | float | str) or value is None
-        if held and key not in ("accepted", "first_contact_step"):
-            row[f"{model}{key}"] = value
-            if unit := UNITS.get(key.rpartition("_")[2]):
-                units[f"{model}{key}"] = unit
-    return row
-
-
-def judged(limits: list[dict[str, Any]], units: dict[str, str]) -> Line:
-    """What became of each limit."""
-    row: Line = {}
-    for limit in limits:
+        measured = {key: value for key, value in summary[part].items() if value is not None}
+        row |= {f"{part}_{key}": value for key, value in measured.items()}
+    for limit in summary["limits"]:
         name, value, allowed = limit["name"], float(limit["value"]), float(limit["limit"])
         left = value - allowed if is_least(name) else allowed - value
         row[f"value_{name}"] = value
         row[f"limit_{name}"] = allowed
         row[f"ok_{name}"] = bool(limit["ok"]) and math.isfinite(value)
         row[f"margin_{name}"] = left / allowed if allowed else None
-        units[f"value_{name}"] = units[f"limit_{name}"] = str(limit["unit"])
+    for model in ("sheet", "catenaries"):
+        row |= plain(summary.get(model, {}), f"{model}.")
     return row
+
+
+def plain(values: dict[str, Any], model: str) -> Line:
+    """Those of a summary's values that a row can hold and does not have already."""
+    return {
+        f"{model}{key}": value
+        for key, value in values.items()
+        if (isinstance(value, bool | int | float | str) or value is None)
+        and key not in ("accepted", "first_contact_step")
+    }
+
+
+def unit(column: str, inputs: Iterable[Input]) -> str:
+    """The unit of a column; empty where it has none.
+
+    Examples
+    --------
+    >>> unit("worst_tilt_deg", ()), unit("limit_tilt", ()), unit("errors.pick_up.yaw", ())
+    ('deg', '°', 'rad')
+
+    """
+    for x in inputs:
+        if x.key == column:
+            return x.unit
+    part, _, rest = column.partition("_")
+    if part in ("worst", "final") and rest in BY_KEY:
+        return BY_KEY[rest].unit.removeprefix("1")
+    if part in ("value", "limit") and rest in BY_NAME:
+        return BY_NAME[rest].shown
+    if part in ("ok", "margin"):
+        return ""
+    if column == "duration":
+        return "s"
+    return errors.unit(column) or UNITS.get(column.rpartition("_")[2], "")
 
 
 def message(error: BaseException) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ from plydrape.errors import of_file
 from .error import StudyError, toml
 from .keys import SCENE, Tables, nearest
 from .labels import shown
-from .law import Choice, Input
+from .vary import Input
 
 SCENE_KEY = 'name one: scene = "scene.toml"'
 
@@ -51,42 +50,14 @@ def document(path: Path, kind: str) -> dict[str, Any]:
         ) from error
     except ValueError as error:  # Python converts no digits beyond a few thousands.
         raise StudyError(
-            f"the {kind} `{path}` has a whole number of too many digits{digits(text)}",
+            f"the {kind} `{path}` has a whole number of too many digits",
             help="write a number that a scene can have",
         ) from error
     except RecursionError as error:
         raise StudyError(
-            f"the {kind} `{path}` is nested too deep{brackets(text)}",
+            f"the {kind} `{path}` is nested too deep",
             help="look for brackets that are not closed",
         ) from error
-
-
-def digits(text: str) -> str:
-    """Where the first number stands that has more digits than any other that is meant."""
-    found = re.search(r"\d[\d_]{999}", text)
-    return place(text, found.start()) if found else ""
-
-
-def brackets(text: str) -> str:
-    """Where the brackets, also those within texts, are first open 100 times."""
-    depth = 0
-    for found in re.finditer(r"[\[{\]}]", text):
-        depth = depth + 1 if found[0] in "[{" else max(depth - 1, 0)
-        if depth == 100:
-            return place(text, found.start())
-    return ""
-
-
-def place(text: str, at: int) -> str:
-    r"""A place as the reader of TOML says it.
-
-    Examples
-    --------
-    >>> place("a = 1\nb = 22", 10)
-    ' (at line 2, column 5)'
-
-    """
-    return f" (at line {text.count(chr(10), 0, at) + 1}, column {at - text.rfind(chr(10), 0, at)})"
 
 
 def scene(choice: object, base: Path) -> tuple[dict[str, Any], Path]:
@@ -167,9 +138,8 @@ def files(tables: Tables, home: Path, inputs: Iterable[Input]) -> dict[str, str]
     """Check sums of the files that a scene names: molds, motions, positions, a material."""
     names = set(_named(tables, ""))
     for x in inputs:
-        if isinstance(x.law, Choice):
-            texts = (value for value in x.law.values if isinstance(value, str))
-            names |= {text for text in texts if os.path.isfile(home / text)}
+        texts = (number for number in x.numbers if isinstance(number, str))
+        names |= {text for text in texts if os.path.isfile(home / text)}
     return {name: _checksum(home / name) for name in sorted(names)}
 
 

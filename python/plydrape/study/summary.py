@@ -9,19 +9,72 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.compute as pc
 
-from . import table
+if TYPE_CHECKING:
+    import pandas as pd
+    import pyarrow as pa
+
+Numbers = np.ndarray[Any, Any]
 
 # Normal quantile of a two-sided 95 % interval.
 Z = 1.959963984540054
 QUANTILES = (0, 5, 25, 50, 75, 95, 100)
 # Columns that are no measures.
 ASIDE = ("scenario", "seed", "version", "error", "error_kind")
+# Names of grippers and numbers, which differ between errors of the same kind.
+VARYING = r"\bg\d+_\d+\b|(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.]*\d)"
+
+
+def summary(rows: pa.Table, inputs: list[str]) -> dict[str, Any]:
+    """All figures of a study as plain JSON values.
+
+    Parameters
+    ----------
+    rows : pa.Table
+        Rows of a study.
+    inputs : list of str
+        Its columns that are inputs.
+
+    """
+    metadata = {field.name: field.metadata or {} for field in rows.schema}
+    units = {name: about.get(b"unit", b"").decode() for name, about in metadata.items()}
+    frame = rows.to_pandas()
+    draped = frame[frame["error"].isna()]
+    accepted = verdicts(draped)
+    hits, count = int(accepted.sum()), len(draped)
+    causes = {name: x for name in inputs if (x := numbers(draped[name])) is not None}
+    measures = {}
+    for name in draped.columns:
+        if name in inputs or name in ASIDE or name.startswith(("limit_", "margin_", "ok_")):
+            continue
+        values = accepted.astype(float) if name == "accepted" else numbers(draped[name])
+        if values is None or not np.isfinite(values).any():
+            continue
+        related = {cause: correlation(x, values) for cause, x in causes.items()}
+        measures[name] = spread(values) | {
+            "unit": units[name],
+            "correlations": related,
+            "driver": driver(related, int(np.isfinite(values).sum())),
+        }
+        if name.startswith("value_"):
+            measures[name] |= judged(draped, name.removeprefix("value_"))
+    return {
+        "scenarios": len(frame),
+        "draped": count,
+        "failed": len(frame) - count,
+        "accepted": {
+            "count": hits,
+            "share": hits / count if count else None,
+            "interval": wilson(hits, count),
+        },
+        "chance": chance(count),
+        "inputs": {name: {"unit": units[name]} | spread(numbers(frame[name])) for name in inputs},
+        "measures": measures,
+        "errors": troubles(frame[frame["error"].notna()]),
+    }
 
 
 def wilson(hits: int, of: int) -> tuple[float, float] | None:
@@ -33,118 +86,55 @@ def wilson(hits: int, of: int) -> tuple[float, float] | None:
     [0.2366, 0.7634]
 
     """
+    from scipy import stats
+
     if of == 0:
         return None
-    share = hits / of
-    middle = share + Z * Z / (2 * of)
-    half = Z * math.sqrt(share * (1 - share) / of + Z * Z / (4 * of * of))
-    scale = 1 + Z * Z / of
-    return max(0.0, (middle - half) / scale), min(1.0, (middle + half) / scale)
+    interval = stats.binomtest(hits, of).proportion_ci(method="wilson")
+    return float(interval.low), float(interval.high)
 
 
-def summary(rows: pa.Table, inputs: list[str]) -> dict[str, Any]:
-    """All figures of the page as plain JSON values.
-
-    Parameters
-    ----------
-    rows : pa.Table
-        Rows of a study.
-    inputs : list of str
-        Its columns that are inputs.
-
-    """
-    count = rows.num_rows
-    draped = rows.filter(pc.is_null(rows["error"]))
-    hits = int(verdicts(draped).sum())
-    units = table.units(rows)
-    causes = {name: x for name in inputs if (x := numbers(draped, name)) is not None}
-    about = {}
-    for name in draped.column_names:
-        if name in inputs or name in ASIDE or name.startswith(("limit_", "margin_", "ok_")):
-            continue
-        values = verdicts(draped).astype(float) if name == "accepted" else numbers(draped, name)
-        if values is not None and np.isfinite(values).any():
-            about[name] = measure(name, values, causes, draped, units)
-    kinds = Counter(
-        (kind, pattern(text))
-        for kind, text in zip(listed(rows, "error_kind"), listed(rows, "error"), strict=True)
-        if text is not None
-    )
-    return {
-        "scenarios": count,
-        "draped": draped.num_rows,
-        "failed": count - draped.num_rows,
-        "accepted": {
-            "count": hits,
-            "share": hits / draped.num_rows if draped.num_rows else None,
-            "interval": wilson(hits, draped.num_rows),
-        },
-        "chance": chance(draped.num_rows),
-        "inputs": {
-            name: {"unit": units.get(name, "")} | spread(numbers(rows, name)) for name in inputs
-        },
-        "measures": about,
-        "errors": [
-            {"kind": kind, "text": text, "count": number}
-            for (kind, text), number in sorted(kinds.items(), key=lambda x: (-x[1], x[0]))
-        ],
-    }
-
-
-def measure(
-    name: str,
-    values: np.ndarray[Any, Any],
-    causes: dict[str, np.ndarray[Any, Any]],
-    draped: pa.Table,
-    units: dict[str, str],
-) -> dict[str, Any]:
-    """The figures of one measure."""
-    related = {cause: correlation(x, values) for cause, x in causes.items()}
-    about = spread(values) | {
-        "unit": units.get(name, ""),
-        "correlations": related,
-        "driver": driver(related, int(np.isfinite(values).sum())),
-    }
-    limit = name.removeprefix("value_")
-    if limit != name:
-        allowed = numbers(draped, f"limit_{limit}")
-        assert allowed is not None
-        kept = allowed[np.isfinite(allowed)]
-        about["limit"] = float(kept[0]) if kept.size and (kept == kept[0]).all() else None
-        oks = [ok for ok in kept_limit(draped, limit) if ok is not None]
-        about["exceeded"] = sum(not ok for ok in oks) / len(oks) if oks else None
-    return about
-
-
-def verdicts(draped: pa.Table) -> np.ndarray[Any, Any]:
+def verdicts(draped: pd.DataFrame) -> Numbers:
     """Which drapes are accepted: those that say so and break no limit."""
-    accepted = np.array([value is True for value in flags(draped, "accepted")], dtype=bool)
-    for name in draped.column_names:
+    if "accepted" not in draped:  # All scenarios failed.
+        return np.zeros(len(draped), bool)
+    accepted = (draped["accepted"] == True).to_numpy(bool)  # noqa: E712  None is not accepted
+    for name in draped.columns:
         if name.startswith("value_"):
-            kept = kept_limit(draped, name.removeprefix("value_"))
-            accepted &= np.array([ok is not False for ok in kept], dtype=bool)
+            accepted = accepted & (kept(draped, name.removeprefix("value_")) != 0.0)
     return accepted
 
 
-def kept_limit(draped: pa.Table, limit: str) -> list[bool | None]:
-    """Whether each drape keeps a limit: not with a value that is not finite; None where not judged.
+def kept(draped: pd.DataFrame, limit: str) -> Numbers:
+    """1 where a drape keeps a limit, 0 where not or where its value is not finite; else nan.
 
     Examples
     --------
-    >>> rows = {"value_slack": [0.1, math.nan, None], "ok_slack": [True, True, None]}
-    >>> kept_limit(pa.table(rows), "slack")
-    [True, False, None]
+    >>> import pandas as pd
+    >>> kept(pd.DataFrame({"value_slack": [0.1, np.inf], "ok_slack": [True, True]}), "slack")
+    array([1., 0.])
 
     """
-    values = draped[f"value_{limit}"].to_pylist()
-    oks = flags(draped, f"ok_{limit}") or [None] * len(values)
-    return [
-        ok if value is None or math.isfinite(value) else False
-        for value, ok in zip(values, oks, strict=True)
-    ]
+    oks = draped[f"ok_{limit}"].to_numpy(float)
+    values = draped[f"value_{limit}"].to_numpy(float)
+    # A value that is not a number is empty in a row that is not judged, or that says it keeps it.
+    return np.where(np.isfinite(values) | np.isnan(oks), oks, 0.0)
 
 
-def correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
+def judged(draped: pd.DataFrame, limit: str) -> dict[str, Any]:
+    """The limit, if all drapes have the same, and the share of those that exceed it."""
+    allowed = numbers(draped[f"limit_{limit}"])
+    assert allowed is not None
+    allowed = np.unique(allowed[np.isfinite(allowed)])
+    oks = kept(draped, limit)
+    oks = oks[~np.isnan(oks)]
+    return {
+        "limit": float(allowed[0]) if allowed.size == 1 else None,
+        "exceeded": float((oks == 0.0).mean()) if oks.size else None,
+    }
+
+
+def correlation(x: Numbers, y: Numbers) -> float | None:
     """Spearman's rank correlation; None where a column is constant or has under 3 numbers.
 
     Examples
@@ -162,7 +152,7 @@ def correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | Non
     return round(float(spearmanr(x, y).statistic), 12)
 
 
-def constant(x: np.ndarray[Any, Any]) -> bool:
+def constant(x: Numbers) -> bool:
     """Whether all numbers are the same but for rounding: its ranks would be noise."""
     return bool(np.ptp(x) <= 1e-12 * np.abs(x).max())
 
@@ -175,59 +165,35 @@ def chance(count: int) -> float:
 def driver(related: dict[str, float | None], count: int) -> str | None:
     """The input with the strongest correlation, if that is more than chance."""
     known = {name: abs(rho) for name, rho in related.items() if rho is not None}
-    if not known:
-        return None
-    name = max(known, key=lambda key: known[key])
-    return name if known[name] > chance(count) else None
+    name = max(known, key=lambda key: known[key], default=None)
+    return name if name is not None and known[name] > chance(count) else None
 
 
-def spread(values: np.ndarray[Any, Any] | None) -> dict[str, Any]:
+def spread(values: Numbers | None) -> dict[str, Any]:
     """Mean and percentiles; empty of no numbers."""
     if values is None or not np.isfinite(values).any():
         return {}
     values = values[np.isfinite(values)]
     percentiles = np.percentile(values, QUANTILES)
-    # Scaled, since the sum of the largest numbers overflows.
-    scale = float(np.abs(values).max()) if np.abs(values).max() > 1e290 else 1.0
-    mean = (values / scale).mean() * scale
     return {
         "count": int(values.size),
-        "mean": float(mean),
+        # Divided first, since the sum of the largest numbers overflows.
+        "mean": float((values / values.size).sum()),
         "percentiles": {str(q): float(p) for q, p in zip(QUANTILES, percentiles, strict=True)},
     }
 
 
-def pattern(text: str) -> str:
-    """An error's text without its numbers, so that the same trouble counts as one.
-
-    Examples
-    --------
-    >>> pattern("grippers g0_0 and g1_0 are 100.2 mm apart")
-    'grippers g·_· and g·_· are · mm apart'
-
-    """
-    import re
-
-    text = re.sub(r"\bg\d+_\d+\b", "g·_·", text)
-    return re.sub(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.]*\d)", "·", text)
+def troubles(failed: pd.DataFrame) -> list[dict[str, Any]]:
+    """Errors and how often they came, most often first; without numbers, so that like ones meet."""
+    texts = failed["error"].astype(str).str.replace(VARYING, "·", regex=True)
+    counts = Counter(zip(failed["error_kind"], texts, strict=True))
+    found = [{"kind": kind, "text": text, "count": n} for (kind, text), n in counts.items()]
+    return sorted(found, key=lambda trouble: (-trouble["count"], trouble["kind"], trouble["text"]))
 
 
-def numbers(rows: pa.Table, name: str) -> np.ndarray[Any, Any] | None:
+def numbers(column: pd.Series[Any]) -> Numbers | None:
     """A column as floats, nan where empty; booleans as 0 and 1; None of a column of text."""
-    if name not in rows.column_names:
+    try:
+        return column.to_numpy(float)
+    except (TypeError, ValueError):
         return None
-    column = rows[name]
-    if pa.types.is_string(column.type) or pa.types.is_null(column.type):
-        return None
-    values = [np.nan if value is None else float(value) for value in column.to_pylist()]
-    return np.array(values, dtype=float)
-
-
-def flags(rows: pa.Table, name: str) -> list[bool | None]:
-    """A column of booleans."""
-    return rows[name].to_pylist() if name in rows.column_names else []
-
-
-def listed(rows: pa.Table, name: str) -> list[Any]:
-    """A column as a list."""
-    return rows[name].to_pylist()  # type: ignore[no-any-return, unused-ignore]

@@ -17,8 +17,8 @@ class Deadly(Task):
 
     victim: int = -1
 
-    def row(self, scenario: int, values: Sequence[Value], units: dict[str, str]) -> Line:
+    def row(self, scenario: int, values: Sequence[Value]) -> Line:
         """The row, or the end."""
         if scenario == self.victim:
             os.kill(os.getpid(), signal.SIGKILL)
-        return super().row(scenario, values, units)
+        return super().row(scenario, values)

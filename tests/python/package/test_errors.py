@@ -9,7 +9,7 @@ import plydrape
 import pytest
 from plydrape.study import Study
 from plydrape.study.error import StudyError
-from plydrape.study.scenario import Motion, Task
+from plydrape.study.scenario import Motion, Task, unit
 
 SCENE: dict[str, Any] = {
     "ply": {"grippers": [3, 2], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
@@ -101,13 +101,12 @@ def test_draws_are_the_numbers_of_chacha_at_their_places() -> None:
 def test_a_study_drapes_the_draw_of_its_number() -> None:
     """Scenario n is `with_errors(n)` of the scene, in its scene, its motion and its row."""
     study = Study.of({"scene": {**SCENE, "errors": ERRORS}, "samples": 3})
-    units: dict[str, str] = {}
     for n in range(3):
         real = scene().with_errors(n)
         mine = study.scene(n)
         np.testing.assert_array_equal(mine.positions, real.positions)
         assert mine.ply.lengths.tolist() == real.ply.lengths.tolist()
-        row = study.task.row(n, study.values[n], units)
+        row = study.task.row(n, study.values[n])
         assert row["error"] is None
         draw = scene().draw(n)
         found = [row[f"errors.frame.position.{axis}"] for axis in "xyz"]
@@ -121,7 +120,7 @@ def test_a_study_drapes_the_draw_of_its_number() -> None:
         drape = plydrape.simulate(real)
         assert row["accepted"] == drape.accepted
         assert row["worst_force_n"] == drape.summary["worst"]["force_n"]
-    assert units["errors.frame.angle.x"] == "rad"
+    assert unit("errors.frame.angle.x", study.inputs) == "rad"
 
 
 def test_a_study_of_a_plan_follows_it_with_the_errors_of_the_cell() -> None:
@@ -135,21 +134,13 @@ def test_a_study_of_a_plan_follows_it_with_the_errors_of_the_cell() -> None:
     np.testing.assert_array_equal(mine.positions, higher.with_errors(4).positions)
 
 
-def test_placement_and_gripper_errors_have_the_same_law() -> None:
-    """Both give each coordinate of each gripper one normal number, the same in all steps."""
-    errors = {"gripper": {"position": {"deviation": "1 mm"}}}
-    nominal = scene(errors)
-    placed = Study.of(
-        {"scene": SCENE, "samples": 400, "vary": {"placement": {"deviation": "1 mm"}}}
-    )
-    old, new = [], []
-    for n in range(400):
-        old.append(placed.scene(n).positions - nominal.positions)
-        new.append(nominal.with_errors(n).positions - nominal.positions)
-    for moved in map(np.array, (old, new)):
-        np.testing.assert_allclose(moved, moved[:, :1] + 0 * moved, atol=1e-15)
-        # the root of the mean square of 7200 numbers is within 4/√14400 of the deviation
-        assert np.sqrt((moved[:, 0] ** 2).mean()) == pytest.approx(1e-3, rel=0.034)
+def test_gripper_errors_are_those_of_their_law() -> None:
+    """Each coordinate of each gripper has one normal number, the same in all steps."""
+    nominal = scene({"gripper": {"position": {"deviation": "1 mm"}}})
+    moved = np.array([nominal.with_errors(n).positions - nominal.positions for n in range(400)])
+    np.testing.assert_allclose(moved, moved[:, :1] + 0 * moved, atol=1e-15)
+    # the root of the mean square of 7200 numbers is within 4/√14400 of the deviation
+    assert np.sqrt((moved[:, 0] ** 2).mean()) == pytest.approx(1e-3, rel=0.034)
 
 
 def test_a_factor_scales_all_errors() -> None:

@@ -47,6 +47,6 @@ def test_the_wheel_installs_with_numpy_alone(tmp_path: Path) -> None:
     assert first == "sheet 22"
     wanted = [line.partition("pip install ")[2] for line in others]
     assert wanted[:2] == ["matplotlib", "pyvista"], others
-    assert wanted[2:] == ["scipy pyarrow", "cadquery-ocp-novtk"], others
+    assert wanted[2:] == ["scipy pyarrow pandas", "cadquery-ocp-novtk"], others
     installed = {path.name for path in (tmp_path / "clean").rglob("plydrape/*")}
     assert {"py.typed", "_plydrape.pyi"} <= installed

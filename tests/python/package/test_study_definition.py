@@ -35,13 +35,16 @@ REFUSED: list[tuple[dict[str, Any], list[str]]] = [
     ({"samples": 0}, ["`samples` = 0", "whole number of 1 or more"]),
     ({"samples": 2.5}, ["`samples` = 2.5"]),
     ({"samples": 10**12}, ["`samples` = 1000000000000", "3 PB", "max_scenarios = 1000000000000"]),
-    ({"samples": 10**5000}, ["`samples` is a whole number of about 5000 digits", "the largest"]),
+    (
+        {"samples": 10**5000},
+        ["`samples` = a int too long to show", "the largest is 9223372036854775807"],
+    ),
     ({"samples": 9, "max_scenarios": 8}, ["`samples` = 9", "more than 8", "max_scenarios = 9"]),
     ({"max_scenarios": 0}, ["`max_scenarios` = 0"]),
     ({"samples": 2**31, "max_scenarios": 2**31, "sampling": "sobol"}, ["no 2147483648 points"]),
-    ({"seed": 2**63}, ["`seed` is a whole number of about 19 digits", "9223372036854775807"]),
+    ({"seed": 2**63}, ["`seed` = 9223372036854775808", "the largest is 9223372036854775807"]),
     ({"seed": float("inf")}, ["`seed` = inf"]),
-    ({"title": nested(40)}, ["`title.0.0.", "more than 32 levels deep"]),
+    ({"title": nested(40)}, ["`title` = [[[", "is no text"]),
     ({"seed": -1}, ["`seed` = -1"]),
     ({"sampling": "sobel"}, ["'sobel'", "did you mean `sobol`"]),
     ({"command": "run"}, ["`command` = 'run'", '"simulate", "plan", "follow"']),
@@ -72,20 +75,14 @@ REFUSED: list[tuple[dict[str, Any], list[str]]] = [
     (vary(grippers__height={"from": 1e400, "to": 2}), ["`grippers.height`: inf is no number"]),
     (vary(grippers__height={"from": "1e400 mm", "to": "2 mm"}), ["'1e400 mm' is no number"]),
     (vary(grippers__height={"from": "9" * 5000 + " mm", "to": "2 mm"}), ["'999", "999 mm' is no"]),
-    (vary(grippers__height={"values": [10**400]}), ["`vary.grippers.height.values.0` is a whole"]),
+    (vary(grippers__height={"values": [10**400]}), ["`grippers.height`: 1000", "is no number"]),
     (vary(grippers__height={"from": "-1.7e308 m", "to": "1.7e308 m"}), ["1.8e308"]),
     (vary(grippers__height={"mean": "1e308 m", "deviation": "1e308 m"}), ["1.8e308"]),
     (vary(grippers__height={"relative": [1e308, 1.7e308]}), ["1e+308", "1.8e308"]),
     (vary(motion__steps={"from": 1, "to": 1e300}), ["`motion.steps`", "9007199254740992"]),
-    (vary(motion__steps={"from": 1, "to": 10**30}), ["`vary.motion.steps.to` is a whole number"]),
+    (vary(motion__steps={"from": 1, "to": 10**30}), ["`motion.steps`", "9007199254740992"]),
     (vary(motion__steps={"values": [10, 2**62]}), ["`motion.steps`", "9007199254740992"]),
-    (vary(placement={"deviation": "1e400 mm"}), ["`placement`: '1e400 mm' is no number"]),
-    (vary(placement={"from": "-1.7e308 m", "to": "1.7e308 m"}), ["`placement`", "10 km"]),
-    (vary(placement={"deviation": "1 s"}), ["`s`", "no length"]),
-    (vary(placement={"deviation": "1 mm", "axes": "yx"}), ["'yx' are no axes"]),
-    (vary(placement={"to": "1 mm"}), ["says no law"]),
-    (vary(placement={"from": "1 mm", "to": "-1 mm"}), ["is empty"]),
-    ({"command": "plan"} | vary(placement={"deviation": "1 mm"}), ["plan knows where", "follow"]),
+    (vary(placement={"deviation": "1 mm"}), ["`placement` is no key", "errors.gripper.position"]),
     (vary(ply__material={"values": ["krogh2018"]}, ply__material__mass=HEIGHT), ["within"]),
 ]
 
@@ -155,18 +152,18 @@ def test_an_absurd_number_of_scenarios_takes_no_memory(
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        (f"seed = {'9' * 5000}", "too many digits (at line 2, column 8)"),
-        (f"title = {'[' * 5000}{']' * 5000}", "nested too deep (at line 2, column 108)"),
-        (f"title = {'[' * 50}{']' * 50}", "more than 32 levels deep"),
+        (f"seed = {'9' * 5000}", "too many digits"),
+        (f"title = {'[' * 5000}{']' * 5000}", "nested too deep"),
+        (f"title = {'[' * 50}{']' * 50}", "is no text"),
         (f"[{'.'.join('a' * 5000)}]", "`a` is no key of a study"),
-        (f"[vary.{'.'.join('a' * 5000)}]", "more than 32 levels deep"),
+        (f"[vary.{'.'.join('a' * 5000)}]", "`scene` is missing"),
     ],
     ids=["digits", "brackets", "lists", "keys", "vary"],
 )
 def test_a_file_that_python_cannot_parse_is_one_message(
     tmp_path: Path, line: str, words: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Exit code 2 with the place; no traceback."""
+    """Exit code 2 with the file or the key; no traceback."""
     path = tmp_path / "study.toml"
     path.write_text(f"samples = 8\n{line}\n")
     assert main([str(path)]) == 2
@@ -175,7 +172,7 @@ def test_a_file_that_python_cannot_parse_is_one_message(
 
 
 def test_a_grid_says_what_it_needs() -> None:
-    """Points of a range; no number of samples, no errors that are drawn, nothing normal."""
+    """Points of a range; no number of samples, nothing normal."""
     for spec, words in (
         (HEIGHT, "add points = 5"),
         ({"deviation": "1 mm"}, "has no grid"),
@@ -184,8 +181,6 @@ def test_a_grid_says_what_it_needs() -> None:
     ):
         with pytest.raises(StudyError, match=words):
             grid(grippers__height=spec)
-    with pytest.raises(StudyError, match="`placement` has no grid"):
-        grid(placement={"deviation": "1 mm"})
     with pytest.raises(StudyError, match="`samples` = 24 says nothing to a grid"):
         study(sampling="grid", vary={"grippers.height": {"values": ["60 mm"]}})
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 from plydrape.study import StudyError
-from plydrape.study.folder import whole
+from plydrape.study.folder import write as write_whole
 from plydrape.study.run import run
 from studies import write
 
@@ -43,7 +43,7 @@ def test_a_file_that_cannot_be_written_ends_with_2_and_the_study_goes_on(tmp_pat
     results = tmp_path / "study.results"
     code, said = command(path, 10_000)
     assert code == 2 and "Traceback" not in said and said.count("×") == 1
-    assert "part-000000-000000.parquet` cannot be written: File too large" in said
+    assert "part-000000.parquet` cannot be written: File too large" in said
     assert "help: make room and run the same command again" in said
     assert sorted(p.name for p in results.rglob("*")) == [".lock", "rows", "study.json"]
 
@@ -55,7 +55,7 @@ def test_a_file_that_cannot_be_written_ends_with_2_and_the_study_goes_on(tmp_pat
     assert command(path) == (0, "")
     assert kept.items() <= {p.name: p.stat().st_mtime_ns for p in results.glob("rows/*")}.items()
     run(path, output=tmp_path / "whole", workers=1)
-    for name in ("study.parquet", "summary.json", "summary.html"):
+    for name in ("study.parquet", "summary.json"):
         assert (results / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
     assert pq.read_metadata(results / "study.parquet").num_rows == 40
 
@@ -67,7 +67,7 @@ def test_a_full_disk_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"before")
     (tmp_path / ".file.tmp").symlink_to(FULL)
     with pytest.raises(StudyError, match=r"file` cannot be written: No space left.*make room"):
-        whole(tmp_path / "file", b"after")
+        write_whole(tmp_path / "file", b"after")
     assert [p.name for p in tmp_path.iterdir()] == ["file"]
     assert (tmp_path / "file").read_bytes() == b"before"
 

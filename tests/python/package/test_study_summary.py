@@ -1,25 +1,22 @@
-"""Figures of the summary against SciPy and planted truths; the page shows them."""
+"""Figures of the summary against SciPy and planted truths."""
 
 from __future__ import annotations
 
 import json
 import math
-import re
-from html.parser import HTMLParser
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pytest
 from plydrape.study import Outcome, Study
-from plydrape.study.figures import Axis, edges, span
 from plydrape.study.run import run
 from plydrape.study.scenario import measures
-from plydrape.study.summary import correlation, pattern, spread, wilson
+from plydrape.study.summary import correlation, spread, troubles, wilson
 from scipy import stats
-from studies import PAPER, study, table
+from studies import study, table
 
 
 def planted(count: int, seed: int) -> Outcome:
@@ -88,7 +85,7 @@ def test_a_row_with_a_value_that_is_not_finite_is_not_accepted(value: float) -> 
                 "limits": [limit | {"value": given}],
             },
         )
-        row = measures(result, {})  # type: ignore[arg-type]
+        row = measures(result)  # type: ignore[arg-type]
         assert row["ok_tilt"] is wanted and row["accepted"] is wanted
 
 
@@ -96,7 +93,7 @@ def test_the_largest_numbers_have_a_mean() -> None:
     """Their sum overflows, and summary.json holds finite numbers alone."""
     assert spread(np.array([1.0e308, 1.7e308, 0.0]))["mean"] == pytest.approx(0.9e308)
     small = np.random.default_rng(1).normal(size=100)
-    assert spread(small)["mean"] == small.mean()
+    assert spread(small)["mean"] == pytest.approx(small.mean(), rel=1e-12)
 
 
 def test_noise_has_a_driver_about_as_often_as_chance_has_it() -> None:
@@ -145,73 +142,9 @@ def test_equal_troubles_count_as_one() -> None:
     outcome = run(made, workers=1)
     (trouble,) = outcome.summary["errors"]
     assert trouble["kind"] == "SceneError" and trouble["count"] == outcome.summary["failed"] > 15
-    assert pattern("H = -1.5e-3 N in step 12") == "H = · N in step ·"
+    texts = ["H = -1.5e-3 N in step 12", "g0_0 is off", "H = 7 N in step 3", "g12_1 is off"]
+    failed = pd.DataFrame({"error_kind": "SolverError", "error": [*texts, "H = 1 N in step 1"]})
+    found = [(trouble["text"], trouble["count"]) for trouble in troubles(failed)]
+    assert found == [("H = · N in step ·", 3), ("· is off", 2)]
     # Accepted is a share of those that were draped.
     assert outcome.summary["draped"] == 30 - trouble["count"]
-
-
-def test_a_histogram_divides_at_the_limit() -> None:
-    """No bar holds numbers of both sides, and every number is in a bar."""
-    values = np.random.default_rng(1).gamma(2.0, 1.0, 500)
-    low, high = span(values, 3.0)
-    marks = edges(values, low, high, 3.0)
-    assert min(abs(mark - 3.0) for mark in marks) < 1e-9
-    assert marks[0] <= low and marks[-1] >= high - 1e-12
-    assert np.histogram(values, marks)[0].sum() == ((values >= low) & (values <= high)).sum() == 500
-    assert Axis(-3.7e-6, 9.1e-6, 0, 1).ticks() == [0.0, 5e-6]
-
-
-class Page(HTMLParser):
-    """What a page asks for from elsewhere, its elements, and whether they are closed."""
-
-    VOID = ("meta", "br", "line", "rect", "circle", "wbr")
-
-    def __init__(self) -> None:
-        """Nothing is read yet."""
-        super().__init__()
-        self.outside: list[str] = []
-        self.seen: list[str] = []
-        self.open: list[str] = []
-        self.text = ""
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Notes links and the element."""
-        self.seen.append(tag)
-        self.outside += [v for k, v in attrs if v and re.search(r"//|url\(|\.(js|css)", v)]
-        if tag not in self.VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """An element without content."""
-        self.seen.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        """Closes the last that is open."""
-        assert self.open.pop() == tag
-
-    def handle_data(self, data: str) -> None:
-        """Collects what is read."""
-        self.text += data
-
-
-def test_the_page_is_one_file_without_script_or_network(tmp_path: Path) -> None:
-    """Its elements are closed, text is escaped, and it says what the summary says."""
-    made = study(30, title="Ply <b>& mold</b>")
-    outcome = run(made, output=tmp_path, workers=2)
-    text = (tmp_path / "summary.html").read_text()
-    page = Page()
-    page.feed(text)
-    assert page.open == [] and page.outside == []
-    assert "script" not in page.seen and "b>& mold</b" not in text.replace("&lt;b&gt;", "")
-    assert "@import" not in text and "http" not in text
-    assert "prefers-color-scheme: dark" in text
-    assert "Ply <b>& mold</b>" in page.text
-    # Each measure that moves has a histogram and a scatter; the limits are named.
-    for key, measure in outcome.summary["measures"].items():
-        if key.startswith("value_"):
-            assert key.removeprefix("value_").replace("_", " ") in page.text.lower()
-            if measure["driver"] is not None:
-                assert f'id="{key}"' in text
-    assert page.seen.count("svg") >= 12
-    assert f"{outcome.summary['accepted']['count']} of 30 drapes keep every limit" in page.text
-    assert str(PAPER.parent) not in page.text
