@@ -16,17 +16,27 @@ from studies import write
 
 resource = pytest.importorskip("resource")
 FULL = Path("/dev/full")
+# The command, with a part for each scenario, however fast the machine is.
+SINGLE = (
+    "import functools, sys; from plydrape.study import __main__ as command; "
+    "command.run = functools.partial(command.run, every=1e-9); sys.exit(command.main())"
+)
 
 
 def command(
-    path: Path, most: int = -1, stdout: int = subprocess.PIPE, stderr: int = subprocess.PIPE
+    path: Path,
+    most: int = -1,
+    stdout: int = subprocess.PIPE,
+    stderr: int = subprocess.PIPE,
+    single: bool = False,
 ) -> tuple[int, str]:
     """The exit code and what it says on standard error; no file grows beyond `most` bytes.
 
     It writes no compiled modules: Python 3.11 would leave half of one for every later process.
     """
+    module = ("-c", SINGLE) if single else ("-m", "plydrape.study")
     done = subprocess.run(
-        [sys.executable, "-m", "plydrape.study", str(path), "--workers", "1"],
+        [sys.executable, *module, str(path), "--workers", "1"],
         stdout=stdout,
         stderr=stderr,
         text=True,
@@ -48,7 +58,7 @@ def test_a_file_that_cannot_be_written_ends_with_2_and_the_study_goes_on(tmp_pat
     assert sorted(p.name for p in results.rglob("*")) == [".lock", "rows", "study.json"]
 
     # Enough for a part of a single scenario.
-    code, said = command(path, 55_000)
+    code, said = command(path, 55_000, single=True)
     assert code == 2 and "cannot be written: File too large" in said
     kept = {p.name: p.stat().st_mtime_ns for p in results.glob("rows/*")}
     assert kept and not list(results.rglob("*.tmp"))
