@@ -76,10 +76,12 @@ class Result:
         return numbers[:, 0, 0], numbers[:, :, 1:]
 
     def export(self, kind: str) -> Path:
-        """The files of one kind, made from the result file alone."""
+        """The files of one kind, made from the result file and the states of its sheet alone."""
         home = self.folder.parent / f"alone_{self.folder.name}_{kind}"
         home.mkdir()
-        (home / "result.json").write_bytes((self.folder / "result.json").read_bytes())
+        for file in (self.folder / "result.json", self.folder / "sheet.npz"):
+            if file.exists():
+                (home / file.name).write_bytes(file.read_bytes())
         options = ["--to", kind, "-o", str(home / kind), "--even-if-rejected"]
         run("export", str(home / "result.json"), *options)
         return home / kind
