@@ -244,7 +244,6 @@ fn a_dome_and_one_of_a_tenth_are_draped() {
 }
 
 #[test]
-#[ignore = "long: scripts/soak"]
 fn a_cylinder_is_draped_askew_to_both_sides() {
     let example = Example::of("05_cylinder");
     example_is_draped(&example, POSITION[0]);
@@ -254,7 +253,6 @@ fn a_cylinder_is_draped_askew_to_both_sides() {
 }
 
 #[test]
-#[ignore = "long: scripts/soak"]
 fn a_saddle_is_draped_and_a_turned_one_too() {
     let example = Example::of("06_saddle");
     example_is_draped(&example, POSITION[0]);
@@ -266,7 +264,6 @@ fn a_saddle_is_draped_and_a_turned_one_too() {
 }
 
 #[test]
-#[ignore = "long: scripts/soak"]
 fn a_mold_of_triangles_and_one_ten_times_as_large_are_draped() {
     let example = Example::of("08_stl_mold");
     example_is_draped(&example, POSITION[0]);
@@ -275,7 +272,6 @@ fn a_mold_of_triangles_and_one_ten_times_as_large_are_draped() {
 }
 
 #[test]
-#[ignore = "long: scripts/soak"]
 fn a_shallow_doubly_curved_mold_is_draped_from_two_heights() {
     let example = Example::of("10_shallow");
     example_is_draped(&example, POSITION[0]);
