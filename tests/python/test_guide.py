@@ -33,18 +33,7 @@ def left_out() -> list[tuple[str, Block]]:
     ]
 
 
-# what plans for a minute or more is left to scripts/soak
-LONG = {"bias", "planning", "plybook", "robot", "studies"}
-
-
-@pytest.mark.parametrize(
-    "chapter",
-    [
-        pytest.param(chapter, marks=[pytest.mark.soak] if chapter.stem in LONG else [])
-        for chapter in CHAPTERS
-    ],
-    ids=NAMES,
-)
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
 def test_a_chapter_does_what_it_says(chapter: Path, tmp_path: Path) -> None:
     """A reader who types the commands in their order gets these exit codes and this output."""
     reader = follower(tmp_path, binary())

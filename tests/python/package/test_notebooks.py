@@ -19,10 +19,6 @@ def test_there_are_notebooks() -> None:
     assert all(re.fullmatch(r"\d\d_[a-z_]+\.ipynb", name) for name in NOTEBOOKS)
 
 
-# it plans with errors
-LONG = "02_robust_plan.ipynb"
-
-
 @pytest.mark.parametrize("name", NOTEBOOKS)
 def test_a_notebook_is_kept_with_its_outputs(name: str) -> None:
     """Whoever looks at it on the web sees its numbers and pictures; it stays light."""
@@ -38,10 +34,7 @@ def test_a_notebook_is_kept_with_its_outputs(name: str) -> None:
     assert longest <= 130, longest
 
 
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=[pytest.mark.soak] if name == LONG else []) for name in NOTEBOOKS],
-)
+@pytest.mark.parametrize("name", NOTEBOOKS)
 def test_a_notebook_says_what_was_recorded(name: str) -> None:
     """Without an error or a warning, in its own folder; `scripts/notebooks` records it anew."""
     recorded = read(name)
