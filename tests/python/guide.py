@@ -8,8 +8,8 @@
   are left out. A command with nothing below it may print what it likes.
 - A block `{code-block}` with a `:caption:` is a file of that name.
 - Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those
-  that need a program which may be missing stand in a `console` block below
-  `<!-- needs: program program … -->`.
+  that need a program which may be missing, or a module of Python, stand in a `console` block below
+  `<!-- needs: program python:module … -->`.
 
     PLYDRAPE=target/checked/plydrape .venv/bin/python tests/python/guide.py docs/guide/planning.md
 
@@ -27,6 +27,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 
 FENCE = re.compile(r"^(?P<fence>`{3,})(?P<info>.*)$")
@@ -128,8 +129,13 @@ def take_caption(block: Block) -> None:
 
 
 def absent(block: Block) -> list[str]:
-    """Programs that the block needs and that are not on this machine."""
-    return [name for name in (block.needs or "").split() if shutil.which(name) is None]
+    """Programs, and modules of Python, that the block needs and that are not on this machine."""
+
+    def is_here(name: str) -> bool:
+        module = name.removeprefix("python:")
+        return (shutil.which(name) if module == name else find_spec(module)) is not None
+
+    return [name for name in (block.needs or "").split() if not is_here(name)]
 
 
 def matches(shown: list[str], printed: str) -> bool:

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import pyvista
 from program import run
+
+pyvista = pytest.importorskip("pyvista", reason="NOT TESTED: scripts/venv --heavy")
 
 ROOT = Path(__file__).parents[2]
 

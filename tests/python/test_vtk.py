@@ -13,6 +13,8 @@ import pytest
 import record
 from exported import RADIUS, SCENE, Numbers, Result, made, pieces
 from scipy.spatial.transform import Rotation
+
+pytest.importorskip("vtk", reason="NOT TESTED: scripts/venv --heavy")
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCommand, vtkStringArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader

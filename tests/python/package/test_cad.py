@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-pytest.importorskip("OCP", reason="NOT TESTED: pip install cadquery-ocp-novtk")
+pytest.importorskip("OCP", reason="NOT TESTED: scripts/venv --heavy")
 
 import plydrape
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Fuse

@@ -11,6 +11,8 @@ import numpy as np
 import plydrape
 import pytest
 
+pytest.importorskip("pyvista", reason="NOT TESTED: scripts/venv --heavy")
+
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 
 
