@@ -8,11 +8,14 @@ use std::process::Output;
 
 const STRATEGIES: [&str; 5] = ["straight", "all at once", "rolled", "from a point", "stepwise"];
 
-/// The paper's example with a mesh of 25 mm; `more` is written behind.
-fn coarse(folder: &Path, more: &str) -> PathBuf {
-    let text = std::fs::read_to_string(example("01_flat_sheared_mold")).unwrap();
-    let file = folder.join("flat.toml");
-    std::fs::write(&file, format!("{text}\n[sheet]\nmesh = \"25 mm\"\n{more}")).unwrap();
+/// One cell over a dome with a mesh of 25 mm; `more` is written behind.
+fn cell(folder: &Path, more: &str) -> PathBuf {
+    let file = folder.join("cell.toml");
+    let scene = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+                 [mold]\nkind = \"sphere\"\nradius = 1\nposition = [0, 0, -1]\n\
+                 [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"\n\
+                 [target]\nseed = \"middle\"\n[plan]\nsteps = 10\n[sheet]\nmesh = \"25 mm\"\n";
+    std::fs::write(&file, format!("{scene}{more}")).unwrap();
     file
 }
 
@@ -57,9 +60,9 @@ fn on_the_papers_example_straight_is_refused_for_its_height_and_a_front_accepted
 #[test]
 fn the_table_has_every_strategy() {
     let home = tempfile::tempdir().unwrap();
-    let scene = coarse(home.path(), "");
+    let scene = cell(home.path(), "");
     let output = run("plan", &scene, &["--compare"]);
-    let (printed, folder) = (text(&output.stdout), home.path().join("flat.compare"));
+    let (printed, folder) = (text(&output.stdout), home.path().join("cell.compare"));
     assert_eq!(files(&folder), ["comparison.csv"]);
     let csv = std::fs::read_to_string(folder.join("comparison.csv")).unwrap();
     let rows: Vec<Vec<String>> = csv.lines().map(cells).collect();
@@ -86,7 +89,7 @@ fn the_table_has_every_strategy() {
 #[test]
 fn without_an_accepted_strategy_the_exit_code_is_one() {
     let home = tempfile::tempdir().unwrap();
-    let scene = coarse(home.path(), "[limits]\ngripper_distance = \"10 m\"\n");
+    let scene = cell(home.path(), "[limits]\ngripper_distance = \"10 m\"\n");
     let output = run("plan", &scene, &["--compare"]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     let printed = text(&output.stdout);
@@ -100,7 +103,7 @@ fn without_an_accepted_strategy_the_exit_code_is_one() {
 #[test]
 fn options_of_a_search_are_refused_beside_compare() {
     let home = tempfile::tempdir().unwrap();
-    let scene = coarse(home.path(), "");
+    let scene = cell(home.path(), "");
     for flags in [
         &["--improve"][..],
         &["--time", "5min"],
@@ -113,7 +116,7 @@ fn options_of_a_search_are_refused_beside_compare() {
         assert_eq!(output.status.code(), Some(2), "{flags:?}");
         assert!(said.contains("--compare") && said.contains(flags[0]), "{said}");
     }
-    assert!(!home.path().join("flat.compare").exists());
+    assert!(!home.path().join("cell.compare").exists());
 }
 
 /// The cells of a line of a table whose texts may be quoted.
