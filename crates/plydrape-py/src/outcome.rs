@@ -121,14 +121,14 @@ pub fn outcome(
     })?;
     let found = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
     let (found, result) = found.map_err(|fault| error::sheet(&fault))?;
-    let [overstretch, tilt] =
-        [found.overstretch, found.tilt].map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
+    let [overstretch, tilt] = [found.last_step.overstretch, found.last_step.tilt]
+        .map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
     let rows = |quantities: &[Option<Quantity>]| Rows::of(quantities, grippers);
     let quantities = Quantities {
         grippers,
         overstretch: rows(&overstretch),
-        force: rows(&found.force),
-        shear: rows(&found.shear),
+        force: rows(&found.last_step.force),
+        shear: rows(&found.last_step.shear),
         tilt: rows(&tilt),
     };
     Ok(Outcome { result: Result(Arc::new(result)), quantities })

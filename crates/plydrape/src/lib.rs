@@ -46,27 +46,30 @@
 //!
 //! # Stages
 //!
-//! A folder is a stage of the method, and each uses only those above it; a test holds that order.
+//! A folder is a stage of the method, and each uses only those above it; a test holds that order. The upper stages are crates of their own,
+//! whose modules this crate hands on, so that a program needs this crate alone: `plydrape-layup` has what every model of the ply drapes,
+//! `plydrape-catenary` the paper's model. What decides is here.
 //!
-//! | stage | what it is |
-//! |---|---|
-//! | [`geometry`] | vectors, rotations, placements |
-//! | [`mold`] | the surface: its distance, closest point and paths along it |
-//! | [`material`], [`ply`] | laws of the woven ply; its outline, grippers, lines and cells |
-//! | [`net`] | the ideal drape: where every point of the fabric should end on the mold |
-//! | [`motion`] | positions step by step become smooth in time, within limits of speed, acceleration and jerk |
-//! | [`bodies`], [`tool`], [`clearance`] | what grippers and robot carry, the frame that carries them, how far all that stays from the rest |
-//! | [`layup`] | one ply and how it is laid: what every model of the ply drapes |
-//! | [`state`] | the ply after one step, as any model can say it |
-//! | [`catenary`], [`elastica`], [`equilibrium`], [`draping`] | the paper's model: one span, all forces and slopes, and the motion step by step with contact |
-//! | [`sheet`] | the whole ply as cloth: stretch, shear, bending, contact, friction, pads on mounts |
-//! | [`fit`] | material laws from measured tables |
-//! | [`measure`] | what is measured of a state or a motion, its limit, and the verdict |
-//! | [`errors`] | how far a real cell may be from its scene |
-//! | [`scene`] | a layup, its limits, and how its motion is planned |
-//! | [`outcome`] | the drape by the model that decides, and the verdict that follows from it |
-//! | [`planner`] | gripper trajectories, and limits that no trajectory can keep |
-//! | [`pick_up`] | where the ply was picked up, if not where it was planned |
+//! | crate | stage | what it is |
+//! |---|---|---|
+//! | `plydrape-layup` | [`geometry`] | vectors, rotations, placements |
+//! | | [`mold`] | the surface: its distance, closest point and paths along it |
+//! | | [`material`], [`ply`] | laws of the woven ply; its outline, grippers, lines and cells |
+//! | | [`net`] | the ideal drape: where every point of the fabric should end on the mold |
+//! | | [`motion`] | positions step by step become smooth in time, within limits of speed, acceleration and jerk |
+//! | | [`bodies`], [`tool`], [`clearance`] | what grippers and robot carry, the frame that carries them, how far all that stays from the rest |
+//! | | [`layup`] | one ply and how it is laid: what every model of the ply drapes |
+//! | | [`state`] | the ply after one step, as any model can say it |
+//! | `plydrape-catenary` | [`catenary`], [`elastica`] | one span in closed form; one strip of any sag |
+//! | | [`equilibrium`], [`draping`] | all forces and slopes, and the motion step by step with contact |
+//! | `plydrape` | [`fit`] | material laws from measured tables |
+//! | | [`sheet`] | the whole ply as cloth: stretch, shear, bending, contact, friction, pads on mounts |
+//! | | [`pick_up`] | where the ply was picked up, if not where it was planned |
+//! | | [`measure`] | what is measured of a state or a motion, its limit, and the verdict |
+//! | | [`errors`] | how far a real cell may be from its scene |
+//! | | [`scene`] | a layup, its limits, and how its motion is planned |
+//! | | [`outcome`] | the drape by the model that decides, and the verdict that follows from it |
+//! | | [`planner`] | gripper trajectories, and limits that no trajectory can keep |
 //!
 //! # Settings
 //!
@@ -75,65 +78,25 @@
 //! a map from measures to bounds, [`measure::Limits`]: `scene.limits.set(Name::Tilt, Some(0.5))`; without a bound of the scene each
 //! measure has its usual one, with its reason. The numerical settings of the sheet are in [`sheet::Tuning`].
 //!
-//! # One span of the catenaries
-//!
-//! A span of ply with horizontal force *H*, flexural rigidity *EI* and load *q* per horizontal length has the shape *z*(*x*) with
-//! *H z″ − EI z⁗ = q*, and *H* follows from its length. 100 mm of ply between two grippers 98 mm apart pull with 0.4173 N and sag by
-//! 8.7 mm:
-//!
-//! ```
-//! use plydrape::catenary::{EndCondition, Profile, Span};
-//!
-//! let span = Span {
-//!     run: 0.098,
-//!     rise: 0.0,
-//!     length: 0.1,
-//!     ends: [EndCondition::Free; 2],
-//!     weight: 0.3143 * 9.8,
-//!     flexural_rigidity: 9e-6,
-//!     axial_stiffness: f64::INFINITY,
-//! };
-//! let force = span.solve(None).force.expect("a span with slack hangs");
-//! let sag = -Profile::new(&span, force).station(0.5 * span.run).z;
-//! assert!((force - 0.41728).abs() < 1e-5 && (sag - 8.7022e-3).abs() < 1e-7);
-//! ```
-//!
 //! SI units throughout, z up, gravity along −z. Equations are numbered in `docs/theory` of the project. This crate reads and writes no
 //! files, `plydrape-io` does; with the feature `serde` its types can be written by serde.
 
-pub mod bodies;
-pub mod catenary;
-pub mod clearance;
-pub mod draping;
-pub mod elastica;
-pub mod equilibrium;
 pub mod errors;
 pub mod fit;
-pub mod geometry;
-pub mod layup;
-pub mod material;
 pub mod measure;
-pub mod mold;
-pub mod motion;
-pub mod net;
 pub mod outcome;
 pub mod pick_up;
 pub mod planner;
-pub mod ply;
 pub mod scene;
 pub mod sheet;
-pub mod state;
-mod stopwatch;
-pub mod tool;
 
-pub use equilibrium::Solver;
 pub use errors::Errors;
-pub use layup::{Layup, Settings, Target};
-pub use material::Material;
 pub use measure::Limits;
-pub use mold::Mold;
-pub use motion::Motion;
 pub use outcome::{ModelError, Outcome, simulate};
 pub use planner::{Planned, plan};
-pub use ply::Ply;
+pub use plydrape_catenary::{Solver, catenary, draping, elastica, equilibrium};
+pub use plydrape_layup::{
+    Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance, geometry, layup,
+    material, mold, motion, net, ply, state, stopwatch, tool,
+};
 pub use scene::{Plan, Scene};

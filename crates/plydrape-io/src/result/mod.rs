@@ -22,7 +22,7 @@ use plydrape::layup::{Model, Release, Settings, Target};
 use plydrape::measure::Limits;
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::outcome::{Outcome, Step, Summary};
+use plydrape::outcome::{Outcome, Step, Summary, attitudes};
 use plydrape::planner::{PlanRecord, Planned};
 use plydrape::ply::Ply;
 use plydrape::scene::Scene;
@@ -253,7 +253,7 @@ impl ResultFile {
         if let Some(turned) = self.motion.get() {
             return Ok(Some(turned));
         }
-        let turned = Turned { motion: plan.motion()?, attitudes: Attitudes::of(&self.steps)? };
+        let turned = Turned { motion: plan.motion()?, attitudes: attitudes(&self.steps)? };
         Ok(Some(self.motion.get_or_init(|| Arc::new(turned))))
     }
 }

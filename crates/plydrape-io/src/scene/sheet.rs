@@ -38,7 +38,7 @@ pub(super) fn fits(
             format!("{}; a coarser `mesh` has fewer nodes", fault.remedy()),
         )
     })?;
-    let coarse = mesh.max(TUNING.evaluation.mesh * pitch(ply));
+    let coarse = mesh.max(TUNING.mesh * pitch(ply));
     Ok(PlanSheets { nodes, coarse_nodes: around.nodes(coarse), keep: settings.sheet.keep })
 }
 

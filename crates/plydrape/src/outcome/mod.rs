@@ -26,7 +26,7 @@ pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
 pub use error::ModelError;
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
-pub use step::{Gripper, Step};
+pub use step::{Gripper, Step, attitudes};
 #[cfg(feature = "serde")]
 pub use summary::Unjudged;
 pub use summary::{CatenaryReport, Status, Summary};

@@ -1,7 +1,7 @@
 //! The same drape in another time: the places stay, and what is measured of the time is measured again.
 
 use super::{Drape, Step, Summary};
-use crate::layup::Layup;
+use crate::layup::{Layup, Model};
 use crate::measure::{
     Found, Limits, Name, Observation, Past, Scope, Verdict, Worst, last_numbers, worst_numbers,
 };
@@ -56,7 +56,7 @@ impl Summary {
         let duration = layup.motion.times.last().copied().unwrap_or(0.0);
         let mut past: Option<Past> = None;
         for (n, step) in steps.iter_mut().enumerate() {
-            let mut state = PlyState::of_grippers(self.model, step);
+            let mut state = step.state_of_grippers(self.model);
             let seen = Observation { layup, limits, state: &state, past: past.as_ref() };
             let mut found: Vec<(Name, Option<Found>)> =
                 names.iter().map(|name| (*name, name.measure().evaluate(&seen))).collect();
@@ -100,10 +100,10 @@ fn worst_verdict(name: Name, steps: &[Step], limit: f64) -> Option<Verdict> {
     Some(Verdict::of(name, worst.clone(), limit, Some(step)))
 }
 
-impl PlyState {
-    /// What a record keeps of a step: the grippers alone.
+impl Step {
+    /// What is kept of the state of the ply, by a model: the grippers alone.
     #[must_use]
-    pub(crate) fn of_grippers(model: crate::layup::Model, step: &Step) -> Self {
+    pub(crate) fn state_of_grippers(&self, model: Model) -> PlyState {
         let gripper = |gripper: &super::Gripper| GripperState {
             position: gripper.position,
             commanded: gripper.commanded,
@@ -115,12 +115,12 @@ impl PlyState {
         };
         PlyState {
             model,
-            step: step.step,
-            time: step.time,
+            step: self.step,
+            time: self.time,
             points: Vec::new(),
             lines: Vec::new(),
             cells: Vec::new(),
-            grippers: step.grippers.iter().map(gripper).collect(),
+            grippers: self.grippers.iter().map(gripper).collect(),
             unsolved: None,
         }
     }

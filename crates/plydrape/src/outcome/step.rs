@@ -103,17 +103,15 @@ impl Step {
     }
 }
 
-impl Attitudes {
-    /// Orientations of the grippers between the steps of a drape.
-    ///
-    /// # Errors
-    /// [`MotionError`] if there are no steps.
-    pub fn of(steps: &[Step]) -> Result<Attitudes, MotionError> {
-        let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
-        let quaternions: Vec<Vec<[f64; 4]>> = steps
-            .iter()
-            .map(|step| step.grippers.iter().map(|gripper| gripper.quaternion).collect())
-            .collect();
-        Attitudes::new(&times, &quaternions)
-    }
+/// Orientations of the grippers between the steps of a drape.
+///
+/// # Errors
+/// [`MotionError`] if there are no steps.
+pub fn attitudes(steps: &[Step]) -> Result<Attitudes, MotionError> {
+    let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
+    let quaternions: Vec<Vec<[f64; 4]>> = steps
+        .iter()
+        .map(|step| step.grippers.iter().map(|gripper| gripper.quaternion).collect())
+        .collect();
+    Attitudes::new(&times, &quaternions)
 }

@@ -114,7 +114,7 @@ impl Decision {
             false => now + after(time),
         };
         self.decided.drape.retime(&followed, &scene.limits, step_time, event_time);
-        self.decided.attitudes = Attitudes::of(&self.decided.drape.steps)?;
+        self.decided.attitudes = outcome::attitudes(&self.decided.drape.steps)?;
         Ok(())
     }
 }
@@ -140,7 +140,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
         },
     );
     let (_, mut drape) = drape?;
-    let attitudes = Attitudes::of(&drape.steps)?;
+    let attitudes = outcome::attitudes(&drape.steps)?;
     let clearance = clearance(scene, motion, &attitudes);
     drape.summary.judge_also(clearance.clone());
     let mut judged = Judged::of(&drape.summary, &drape.steps);

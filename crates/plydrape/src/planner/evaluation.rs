@@ -10,7 +10,7 @@ use crate::measure::{Limits, Name, Unit, Verdict, Worst, Worth, clearance_found}
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::{self, Judged, ModelError};
 use crate::planner::search_state::SearchState;
-use crate::planner::tuning::{Evaluation, TUNING};
+use crate::planner::tuning::{TUNING, Tuning};
 use crate::scene::Scene;
 use crate::sheet;
 use rayon::prelude::*;
@@ -49,7 +49,7 @@ pub fn drape(
     let limits = &scene.limits;
     match layup.settings.model {
         Model::Catenaries => {
-            let most = TUNING.evaluation.most_equilibria * planned.len();
+            let most = TUNING.most_equilibria * planned.len();
             outcome::judge(&layup, limits, most, &|| state.report().is_break())
         }
         Model::Sheet => {
@@ -76,14 +76,13 @@ pub fn with_errors(
     let Some(errors) = errors.filter(|errors| !errors.is_zero() && errors.samples > 0) else {
         return worst;
     };
-    if score(&worst) > TUNING.evaluation.far {
+    if score(&worst) > TUNING.far {
         return worst;
     }
     let planned = planned_errors(errors);
     let grippers = layup.ply.grippers();
     let cell = |sample: usize| drape(planned.draw(sample, grippers).apply(layup));
-    let cells: Vec<Judged> =
-        (0..TUNING.evaluation.cells).into_par_iter().filter_map(cell).collect();
+    let cells: Vec<Judged> = (0..TUNING.cells).into_par_iter().filter_map(cell).collect();
     for cell in cells {
         for verdict in cell.limits {
             match worst.limits.iter_mut().find(|other| other.name == verdict.name) {
@@ -114,7 +113,7 @@ fn ranked_sheet(
 ) -> Result<Judged, ModelError> {
     if mesh == Mesh::Coarse {
         let (pitch, radius) = (sheet::pitch(&layup.ply), layup.settings.pad.radius);
-        let coarse = (TUNING.evaluation.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
+        let coarse = (TUNING.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
         let own = layup.settings.sheet.mesh.unwrap_or(0.0);
         layup.settings.sheet.mesh = Some(own.max(coarse));
     }
@@ -179,7 +178,7 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
 /// What a limit adds to the score. A limit that only has to be kept counts from a share of it on; of the errors of the
 /// ply, less is always better.
 fn weight(verdict: &Verdict, bias: f64) -> f64 {
-    let (ratio, counted) = (bias * verdict.ratio(), TUNING.evaluation.counted_share);
+    let (ratio, counted) = (bias * verdict.ratio(), TUNING.counted_share);
     match verdict.name.measure().worth() {
         Worth::Kept if ratio <= 1.0 => ((ratio - counted) / (1.0 - counted)).max(0.0),
         _ => ratio,
@@ -196,10 +195,10 @@ impl Bias {
         for a in &coarse.limits {
             let Some(b) = fine.limits.iter().find(|b| b.name == a.name) else { continue };
             // a measure far from its limit says nothing of others near theirs
-            if a.ratio().max(b.ratio()) < TUNING.evaluation.compared_share {
+            if a.ratio().max(b.ratio()) < TUNING.compared_share {
                 continue;
             }
-            let [low, high] = TUNING.evaluation.bias;
+            let [low, high] = TUNING.bias;
             let factor = (b.ratio() / a.ratio().max(f64::MIN_POSITIVE)).clamp(low, high);
             match self.0.iter_mut().find(|(name, _)| *name == a.name) {
                 Some((_, before)) => *before = (*before * factor).sqrt(),
@@ -229,7 +228,7 @@ pub fn score(drape: &Judged) -> f64 {
 pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
     let ratios: Vec<f64> = drape.limits.iter().map(|v| weight(v, bias.of(v.name))).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let Evaluation { mean_weight, largest_ratio, missing_weight, .. } = TUNING.evaluation;
+    let Tuning { mean_weight, largest_ratio, missing_weight, .. } = TUNING;
     let mean =
         ratios.iter().map(|r| r.min(largest_ratio)).sum::<f64>() / ratios.len().max(1) as f64;
     // a drape that was broken off is worse than any other, the more so the earlier it was broken off
@@ -285,7 +284,7 @@ mod tests {
         assert!((bias.of(Name::Height) - 1.25_f64.sqrt()).abs() < 1e-12, "{bias:?}");
         let mut wild = Bias::default();
         wild.learn(&height(0.1), &height(5.0));
-        assert_eq!(wild.of(Name::Height), TUNING.evaluation.bias[1]);
+        assert_eq!(wild.of(Name::Height), TUNING.bias[1]);
         assert_eq!(wild.of(Name::Position), 1.0);
     }
 }

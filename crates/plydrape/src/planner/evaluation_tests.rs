@@ -20,7 +20,7 @@ proptest! {
         let draws = |errors: Errors, count: usize| -> Vec<Draw> {
             (0..count).map(|n| errors.draw(n, 4)).collect()
         };
-        let planned = draws(planned_errors(errors), TUNING.evaluation.cells);
+        let planned = draws(planned_errors(errors), TUNING.cells);
         for cell in draws(errors, errors.samples) {
             for own in &planned {
                 prop_assert_ne!(own.frame, cell.frame);
@@ -51,7 +51,7 @@ fn a_candidate_is_ranked_by_the_cells_of_the_search() {
     let motions = |errors: Errors, count: usize| -> Vec<Motion> {
         (0..count).map(|n| errors.draw(n, 4).apply(&layup).motion).collect()
     };
-    let planned = motions(planned_errors(errors), TUNING.evaluation.cells);
+    let planned = motions(planned_errors(errors), TUNING.cells);
     assert_eq!(seen.len(), planned.len());
     assert!(planned.iter().all(|motion| seen.contains(motion)));
     let sample = motions(errors, errors.samples);

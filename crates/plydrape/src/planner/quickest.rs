@@ -29,8 +29,7 @@ struct Limited {
 pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Quickest {
     // first so slow as a whole that all limits are kept
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let turned = TUNING.evaluation.tilt_rate_margin * fastest
-        / scene.limits.most(Name::TiltRate).to_degrees();
+    let turned = TUNING.tilt_rate_margin * fastest / scene.limits.most(Name::TiltRate).to_degrees();
     let carried = tool_stretch(scene, motion);
     let slowed = turned.max(carried).max(1.0);
     let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
@@ -67,7 +66,7 @@ fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
         .and_then(|tool| Some((tool, tool.peaks(motion, scene.plan.rate).ok()?)));
     peaks.map_or(0.0, |(tool, peaks)| {
         let stretch = peaks.stretch(tool);
-        if stretch > 1.0 { TUNING.evaluation.tool_margin * stretch } else { stretch }
+        if stretch > 1.0 { TUNING.tool_margin * stretch } else { stretch }
     })
 }
 
@@ -79,7 +78,7 @@ fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
 
 /// The tilts of the grippers, which turn evenly from step to step of a motion that is so much slower than these steps say.
 fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
-    let bound = scene.limits.most(Name::TiltRate) / TUNING.evaluation.tilt_rate_margin;
+    let bound = scene.limits.most(Name::TiltRate) / TUNING.tilt_rate_margin;
     let one = |gripper: usize| {
         let rates = course.times().iter().map(|t| {
             let after = steps.partition_point(|step| step.time * slowed <= *t);

@@ -9,8 +9,8 @@ use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::fabric::Bend;
 use super::system::{Pair, System, add};
-use crate::geometry::matrix3::{Matrix3, outer, plus, scaled};
 use crate::material::MomentCurve;
+use crate::sheet::matrix3::{Matrix3, outer, plus, scaled};
 
 /// Bending of all lines.
 #[derive(Debug)]
@@ -129,7 +129,7 @@ impl Element {
             }
             return;
         };
-        let whole = plus(more, stiffness, &crate::geometry::matrix3::IDENTITY);
+        let whole = plus(more, stiffness, &crate::sheet::matrix3::IDENTITY);
         for (node, weight) in self.nodes.into_iter().zip(self.weights) {
             system.stiffen(node, &scaled(weight * weight, &whole));
         }

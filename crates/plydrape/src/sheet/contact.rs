@@ -13,9 +13,9 @@ use super::friction::{Anchor, Hold, penalty};
 use super::system::{System, add};
 use super::tuning::Tuning;
 use super::unknowns::Carrier;
-use crate::geometry::matrix3::{outer, scaled};
 use crate::geometry::vector::{distance, dot, norm, sub};
 use crate::mold::Mold;
+use crate::sheet::matrix3::{outer, scaled};
 
 /// The mold under a node that it presses.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,10 +6,10 @@
 
 use super::Sheet;
 use super::tuning::Tuning;
-use crate::geometry::matrix3::{IDENTITY, Matrix3, outer, plus, scaled};
 use crate::geometry::vector::{along, dot, norm, sub};
 use crate::layup::Friction;
 use crate::mold::Mold;
+use crate::sheet::matrix3::{IDENTITY, Matrix3, outer, plus, scaled};
 
 /// Where a node touched the mold.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,10 @@
 //! A gripper of the sheet: the fabric point that it holds, its pad, its mount, and where it is.
 
-use crate::geometry::matrix3::{
-    IDENTITY, Matrix3, orthonormal, outer, plus, product, rotation, times,
-};
 use crate::geometry::rotation::quaternion;
 use crate::geometry::vector::{along, angle_between, cross, dot, norm, sub};
+use crate::sheet::matrix3::{
+    IDENTITY, Matrix3, orthonormal, outer, plus, product, rotation, times,
+};
 
 /// A gripper.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,8 @@ use super::pads::Pads;
 use super::system::{System, add};
 use super::tuning::Tuning;
 use super::unknowns::Carrier;
-use crate::geometry::matrix3::{IDENTITY, outer, scaled};
 use crate::geometry::vector::{cross, norm};
+use crate::sheet::matrix3::{IDENTITY, outer, scaled};
 
 /// What the mount of a gripper acts on.
 #[derive(Debug, Clone, Copy)]

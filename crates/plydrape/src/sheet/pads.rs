@@ -5,8 +5,8 @@ use super::configuration::Configuration;
 use super::gripper::Gripper;
 use super::system::{System, add};
 use super::unknowns::Carrier;
-use crate::geometry::matrix3::{plus, times, transposed};
 use crate::geometry::vector::{along, sub};
+use crate::sheet::matrix3::{plus, times, transposed};
 
 /// The nodes that a gripper holds with their distance from its middle in the fabric (m); its own point first.
 pub type HeldNodes = Vec<(usize, [f64; 2])>;

@@ -9,9 +9,9 @@ use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::fabric::Cell;
 use super::system::{Pair, System, add};
-use crate::geometry::matrix3::{Matrix3, outer, plus, scaled, transposed};
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::material::ShearCurve;
+use crate::sheet::matrix3::{Matrix3, outer, plus, scaled, transposed};
 
 /// Signs of the four nodes in twice the mid-lines e_u and e_v.
 const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];

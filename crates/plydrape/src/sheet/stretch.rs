@@ -9,9 +9,9 @@ use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::fabric::Segment;
 use super::system::{Pair, System, add};
-use crate::geometry::matrix3::{Matrix3, outer};
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::material::TensionLaw;
+use crate::sheet::matrix3::{Matrix3, outer};
 
 /// The stretch of all segments.
 #[derive(Debug)]

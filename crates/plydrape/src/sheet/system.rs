@@ -4,10 +4,10 @@
 use super::configuration::Configuration;
 use super::energy::Stiffness;
 use super::unknowns::Carrier;
-use crate::geometry::matrix3::{
+use crate::geometry::vector::{along, cross, dot, sub};
+use crate::sheet::matrix3::{
     IDENTITY, Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
 };
-use crate::geometry::vector::{along, cross, dot, sub};
 use block_cholesky::{BlockMatrix, Cholesky, Error, Slot};
 
 /// A pair of nodes that an element couples, and where two free nodes are in the matrix.

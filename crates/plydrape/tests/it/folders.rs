@@ -5,16 +5,17 @@ use std::fs;
 use std::path::Path;
 
 /// The folders of each crate, from the bottom to the top.
-const CRATES: [(&str, &str); 6] = [
+const CRATES: [(&str, &str); 8] = [
     (
         "block-cholesky",
         "error tuning block_matrix graph kernel supernode front assembly analysis restriction substitution cholesky",
     ),
     (
-        "plydrape",
-        "stopwatch geometry mold material ply net motion bodies tool layup clearance state catenary elastica fit equilibrium draping \
-         sheet pick_up measure errors scene outcome planner",
+        "plydrape-layup",
+        "stopwatch geometry mold material ply net motion bodies tool layup clearance state",
     ),
+    ("plydrape-catenary", "catenary elastica equilibrium draping sensitivity stepwise"),
+    ("plydrape", "fit sheet pick_up measure errors scene outcome planner"),
     ("plydrape-io", "store read result scene text write robot page export fit plan replan sample"),
     (
         "plydrape-cli",

@@ -3,7 +3,5 @@
 mod examples;
 mod folders;
 mod limits_table;
-mod mold;
 mod places;
-mod span;
 mod verdicts;

@@ -12,7 +12,6 @@ use crate::geometry::Point;
 use crate::geometry::vector::{along, dot, sub};
 use crate::mold::{FrontSurface, Graph, HeightGrid, Mold, Pose, Rise, Surface};
 use crate::net::{Net, Placement};
-use crate::planner::tuning;
 use crate::ply::Ply;
 use crate::scene::Scene;
 use std::sync::Arc;
@@ -74,7 +73,7 @@ impl<'a> Formation<'a> {
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
-            cell: tuning::cell(scene),
+            cell: scene.layup.ply.shorter_side(),
             offsets: Vec::new(),
         };
         let beyond = 2.0 * formation.reach() + 1.0;

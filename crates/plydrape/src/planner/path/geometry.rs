@@ -38,7 +38,8 @@ fn tilt(ply: &Ply, neighbours: &[Neighbours], positions: &[Point], stem: Point) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ply::{Grid, cloth};
+    use crate::planner::sample::cloth;
+    use crate::ply::Grid;
 
     /// All grippers of a level array that is inclined by an angle tilt by this angle, whatever its heading; so does a line of
     /// grippers that climbs by it.

@@ -16,7 +16,6 @@ use crate::geometry::Point;
 use crate::geometry::vector::{along, between, sub, unit};
 use crate::measure::Name;
 use crate::mold::distance;
-use crate::planner::tuning;
 use crate::ply::Neighbours;
 use crate::scene::Scene;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
@@ -81,7 +80,7 @@ impl<'a> Preload<'a> {
     /// has come up since the start.
     #[must_use]
     pub fn commanded(&self, places: &[Point], grown: f64) -> Vec<Point> {
-        let cell = tuning::cell(self.scene);
+        let cell = self.scene.layup.ply.shorter_side();
         let one = |(n, place): (usize, &Point)| {
             let away = distance(*place, self.targets[n]) / cell;
             let free = smooth(away / TUNING.preload.release);

@@ -5,7 +5,6 @@ use super::tuning::TUNING;
 use crate::geometry::Point;
 use crate::layup::Layup;
 use crate::mold::{Formula, Graph, HeightGrid, Mold, Raised, Surface};
-use crate::planner::tuning;
 use crate::scene::Scene;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -28,7 +27,7 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
         let local: Vec<Point> = places.map(|p| graph.pose.local(*p)).collect();
         around(&local, TUNING.front.table_margin)
     });
-    let tolerance = TUNING.front.table_error * tuning::cell(scene);
+    let tolerance = TUNING.front.table_error * scene.layup.ply.shorter_side();
     let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };
     let surface = Surface::HeightGrid(heights);
     let mut mold = Mold::Graph(Graph { surface, ..graph.clone() });

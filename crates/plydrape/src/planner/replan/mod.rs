@@ -33,7 +33,7 @@ use crate::clearance::Nearest;
 use crate::layup::{ReleaseOrder, SheetTime};
 use crate::measure::Name;
 use crate::motion::{Attitudes, TimedMotion};
-use crate::outcome::{Step, Summary};
+use crate::outcome::{Step, Summary, attitudes};
 use crate::pick_up::{Moved, Offset};
 use crate::planner::record::{PickedUp, PlanRecord};
 use crate::planner::tuning::TUNING;
@@ -164,7 +164,7 @@ impl<'a> Replanner<'a> {
             true => None,
             false => {
                 let times = [motion.times()[last_free], motion.duration()];
-                let attitudes = Attitudes::of(steps)?;
+                let attitudes = attitudes(steps)?;
                 let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
                 Nearest::of_motion_within(
                     &scene.layup,
@@ -235,7 +235,7 @@ impl<'a> Replanner<'a> {
         let mut tool = peaks(&motion);
         let carried = match (&tool, &scene.layup.tool) {
             (Some(peaks), Some(tool)) if peaks.stretch(tool) > 1.0 => {
-                TUNING.evaluation.tool_margin * peaks.stretch(tool)
+                TUNING.tool_margin * peaks.stretch(tool)
             }
             _ => 1.0,
         };
@@ -257,7 +257,7 @@ impl<'a> Replanner<'a> {
         }
 
         record::times(&mut steps, &motion);
-        let attitudes = Attitudes::of(&steps)?;
+        let attitudes = attitudes(&steps)?;
         record::places(&mut steps, &moved, self.last_free);
         let outcome = record::Outcome {
             motion: &motion,

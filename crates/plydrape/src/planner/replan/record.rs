@@ -13,7 +13,6 @@ use crate::outcome::{Step, Summary};
 use crate::pick_up::Moved;
 use crate::planner::evaluation::{self, clearance_verdict};
 use crate::scene::Scene;
-use crate::state::PlyState;
 use crate::tool::ToolPeaks;
 
 /// What depends on where the grippers are and when.
@@ -57,7 +56,7 @@ pub fn fastest_tilt(scene: &Scene, motion: &TimedMotion, steps: &[Step]) -> f64 
     let layup = evaluation::along_motion(&scene.layup, motion.steps());
     let (mut past, mut fastest) = (None, 0.0_f64);
     for step in steps {
-        let state = PlyState::of_grippers(layup.settings.model, step);
+        let state = step.state_of_grippers(layup.settings.model);
         let (limits, past_ref) = (&scene.limits, past.as_ref());
         let seen = Observation { layup: &layup, limits, state: &state, past: past_ref };
         let found = Name::TiltRate.measure().evaluate(&seen);

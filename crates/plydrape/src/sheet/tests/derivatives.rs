@@ -1,11 +1,11 @@
 //! Gradients and second derivatives against central differences, and invariance.
 
 use super::*;
-use crate::geometry::matrix3::{rotation, times};
 use crate::geometry::vector::{cross, norm};
 use crate::material::{MomentCurve, ShearCurve};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::{Phase, Stiffness};
+use crate::sheet::matrix3::{rotation, times};
 
 /// A crumpled sheet: every node off its place by a pseudo-random share of a spacing.
 fn crumpled(sheet: &Sheet) -> Cloth<'_> {

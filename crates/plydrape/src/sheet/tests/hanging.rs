@@ -113,6 +113,23 @@ pub(crate) fn cantilever(length: f64, load_per_rigidity: f64) -> [f64; 2] {
     [x, z]
 }
 
+/// The heavy cantilever against Runge–Kutta steps of the same equation, from stiff to limp.
+#[test]
+fn a_cantilever_is_that_of_a_shooting_method() {
+    for load_per_rigidity in [1e3, 3e4, 1e5] {
+        let (length, weight) = (0.1, 3.0);
+        let bending = Bending::Rigidity(weight / load_per_rigidity);
+        let strip = Cantilever { length, angle: 0.0, weight, bending };
+        let [x, z] = strip.solve().expect("a cantilever").at(length);
+        let [a, b] = cantilever(length, load_per_rigidity);
+        // the steps of the shooting method have an error of their own
+        assert!(
+            (x - a).abs() < 1e-7 && (z - b).abs() < 1e-7,
+            "{load_per_rigidity}: {x} {a} {z} {b}"
+        );
+    }
+}
+
 /// A strip that is clamped level at one end hangs as the heavy cantilever, through large deflections.
 #[test]
 fn a_cantilever_is_the_elastica() {

@@ -12,7 +12,6 @@ use crate::geometry::vector::{along, distance, sub};
 use crate::mold::Mold;
 use crate::motion::farthest;
 use crate::planner::path::tuning::TUNING;
-use crate::planner::tuning;
 use crate::scene::Scene;
 
 /// The way of an array as a rigid body.
@@ -48,7 +47,7 @@ impl<'a> Carriage<'a> {
         let there = [ends[1][0], ends[1][1], lowest];
         let there: Vec<Point> = placed(&array, there, &turn.at(1.0));
         let forming = farthest(&there, shape);
-        let cell = tuning::cell(scene);
+        let cell = scene.layup.ply.shorter_side();
         let mut carriage =
             Carriage { clearance, turn, ends, array, lowest, level: 0.0, forming, cell };
         carriage.level = carriage.length();

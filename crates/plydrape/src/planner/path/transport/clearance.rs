@@ -8,7 +8,6 @@ use crate::geometry::vector::{along, between, distance, norm, sub};
 use crate::measure::Name;
 use crate::mold::Mold;
 use crate::planner::path::tuning::TUNING;
-use crate::planner::tuning;
 use crate::ply::{Grid, Ply, directions};
 use crate::scene::Scene;
 
@@ -107,13 +106,17 @@ impl<'a> Clearance<'a> {
             line,
             start: middle,
             hang: sag(ply, start).max(beyond(ply, overhang)),
-            margin: TUNING.transport.margin * tuning::cell(scene),
+            margin: TUNING.transport.margin * scene.layup.ply.shorter_side(),
             table: None,
             own: f64::INFINITY,
             obstacles: scene.layup.bodies.obstacles().iter().map(Obstacle::bounds).collect(),
-            between: 0.5 * tuning::cell(scene) / TUNING.transport.divisions as f64,
+            between: 0.5 * scene.layup.ply.shorter_side() / TUNING.transport.divisions as f64,
             bodies: None,
-            boundary: highest_boundary(mold, way, TUNING.transport.sampling * tuning::cell(scene)),
+            boundary: highest_boundary(
+                mold,
+                way,
+                TUNING.transport.sampling * scene.layup.ply.shorter_side(),
+            ),
         };
         let places: Vec<Point> = clearance.points.iter().map(|p| along(middle, 1.0, *p)).collect();
         clearance.own = clearance.over_mold(&places);

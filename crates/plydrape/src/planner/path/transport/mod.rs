@@ -17,7 +17,6 @@ mod turn;
 use super::tuning::TUNING;
 use crate::geometry::Point;
 use crate::geometry::vector::between;
-use crate::planner::tuning;
 use crate::scene::Scene;
 use carriage::Carriage;
 use forming::formed;
@@ -28,7 +27,7 @@ use forming::formed;
 pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec<Vec<Point>>> {
     let start = scene.layup.motion.positions.first()?;
     let mold = scene.layup.mold.as_ref()?;
-    let height = TUNING.transport.formed_height * tuning::cell(scene);
+    let height = TUNING.transport.formed_height * scene.layup.ply.shorter_side();
     let above: Vec<Point> = formation.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
     let mut positions = Carriage::new(scene, mold, start, &above).positions(start, steps);
     let carried = positions[positions.len() - 1].clone();

@@ -161,7 +161,8 @@ fn solve(rows: &Rotation, right: Point) -> Option<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ply::{Grid, cloth};
+    use crate::planner::sample::cloth;
+    use crate::ply::Grid;
     use std::f64::consts::{PI, TAU};
 
     const GRID: Grid = Grid { nu: 4, nv: 3 };

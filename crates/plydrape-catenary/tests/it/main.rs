@@ -1,0 +1,3 @@
+//! What catenaries are, as one program.
+
+mod span;

@@ -1,0 +1,11 @@
+//! Geometry that every stage of the method uses: vectors, rotations and placements.
+
+mod pose;
+pub mod rotation;
+pub mod vector;
+
+pub use pose::Pose;
+pub use vector::distance;
+
+/// A point in space (m).
+pub type Point = [f64; 3];

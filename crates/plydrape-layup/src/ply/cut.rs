@@ -1,0 +1,359 @@
+//! A ply as it is cut, and the cups that hold it.
+
+use super::{Direction, Grid, GripperId, Lines, Outline, Ply};
+use crate::geometry::rotation::of_tangents;
+use crate::geometry::vector::{along, sub, unit};
+
+/// A ply that is cut to an outline and held where cups are.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Cut {
+    /// Its boundary and holes, in fabric coordinates (m).
+    pub outline: Outline,
+    /// The cups that hold it; none of them where the ply's grid says where they are.
+    pub held: Vec<Held>,
+    /// Angle from the drawing's x axis to u (rad).
+    pub angle: f64,
+    /// Angle from u to the rows of the array of cups (rad).
+    pub turn: f64,
+    /// Where the drawing has the first gripper (m).
+    pub origin: [f64; 2],
+}
+
+/// A cup that holds the ply.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Held {
+    /// Its column and row in the array; of a list of cups its number, and 0.
+    pub id: GripperId,
+    /// Fabric coordinates of its middle (m).
+    pub place: [f64; 2],
+}
+
+/// Two neighboring grippers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbours {
+    /// Their indices.
+    pub grippers: [usize; 2],
+    /// The yarns that run from one to the other; none where their line crosses the yarns.
+    pub fibre: Option<Direction>,
+    /// Whether no gripper is farther out on one of its sides.
+    pub border: bool,
+}
+
+impl Cut {
+    /// Fabric coordinates (m) of a point of the drawing (m).
+    #[must_use]
+    pub fn fabric(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let ((sin, cos), [a, b]) = (self.angle.sin_cos(), self.origin);
+        let (x, y) = (x - a, y - b);
+        [cos * x + sin * y, cos * y - sin * x]
+    }
+
+    /// A fabric point (m) as the drawing has it (m).
+    #[must_use]
+    pub fn drawn(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let ((sin, cos), [x, y]) = (self.angle.sin_cos(), self.origin);
+        [x + cos * u - sin * v, y + sin * u + cos * v]
+    }
+}
+
+impl Ply {
+    /// How many grippers hold it.
+    #[must_use]
+    pub fn grippers(&self) -> usize {
+        self.held().map_or(self.grid.grippers(), <[Held]>::len)
+    }
+
+    /// Its grippers in rows: its array, or one row of all of them where they are no whole array along the yarns.
+    #[must_use]
+    pub fn rows(&self) -> Grid {
+        self.held().map_or(self.grid, |held| Grid { nu: held.len(), nv: 1 })
+    }
+
+    /// Its cups, where they are no array along the yarns.
+    fn held(&self) -> Option<&[Held]> {
+        self.cut.as_ref().map(|cut| cut.held.as_slice()).filter(|held| !held.is_empty())
+    }
+
+    /// The gripper at a position of all per-gripper arrays.
+    #[must_use]
+    pub fn id(&self, index: usize) -> GripperId {
+        self.held().map_or_else(|| self.grid.id(index), |held| held[index].id)
+    }
+
+    /// Position of a gripper in all per-gripper arrays; none of one that does not hold the ply.
+    #[must_use]
+    pub fn index(&self, id: GripperId) -> Option<usize> {
+        match self.held() {
+            Some(held) => held.iter().position(|gripper| gripper.id == id),
+            None => {
+                let Grid { nu, nv } = self.grid;
+                (id[0] < nu && id[1] < nv).then(|| self.grid.index(id))
+            }
+        }
+    }
+
+    /// Fabric coordinates of a gripper (m).
+    #[must_use]
+    pub fn place(&self, index: usize) -> [f64; 2] {
+        match self.held() {
+            Some(held) => held[index].place,
+            None => {
+                let id = self.grid.id(index);
+                [0, 1].map(|n| id[n] as f64 * self.cell[n])
+            }
+        }
+    }
+
+    /// Fabric coordinates of the lowest and the highest gripper along u and along v (m).
+    #[must_use]
+    pub fn held_bounds(&self) -> [[f64; 2]; 2] {
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for place in (0..self.grippers()).map(|n| self.place(n)) {
+            for n in 0..2 {
+                bounds[0][n] = bounds[0][n].min(place[n]);
+                bounds[1][n] = bounds[1][n].max(place[n]);
+            }
+        }
+        bounds
+    }
+
+    /// Fabric coordinates of its lowest and highest points along u and along v (m); `overhang` (m) is what a rectangle has
+    /// beyond its outermost grippers.
+    #[must_use]
+    pub fn bounds(&self, overhang: f64) -> [[f64; 2]; 2] {
+        match &self.cut {
+            Some(cut) => cut.outline.bounds(),
+            None => {
+                let [low, high] = self.held_bounds();
+                // a strip has its width from its cell
+                let beyond =
+                    [self.grid.nu, self.grid.nv].map(|n| if n > 1 { overhang } else { 0.0 });
+                [[0, 1].map(|n| low[n] - beyond[n]), [0, 1].map(|n| high[n] + beyond[n])]
+            }
+        }
+    }
+
+    /// The grippers next to each other: along the columns and rows of an array to the next cup that holds, in a list those
+    /// with no third one between them (Gabriel and Sokal 1969).
+    #[must_use]
+    pub fn neighbours(&self) -> Vec<Neighbours> {
+        let count = self.grippers();
+        let pairs: Vec<[usize; 2]> = match self.held() {
+            None => {
+                let lines = Lines::array(self.grid, self.cell);
+                (0..lines.edges()).map(|edge| lines.ends(edge)).collect()
+            }
+            Some(held) if held.iter().any(|gripper| gripper.id[1] > 0) => next_in_lines(held),
+            Some(held) => next_in_list(held),
+        };
+        let one = |[a, b]: [usize; 2]| {
+            let [p, q] = [a, b].map(|n| self.place(n));
+            let way = [q[0] - p[0], q[1] - p[1]];
+            let length = way[0].hypot(way[1]);
+            let along = |n: usize| way[1 - n].abs() <= 1e-9 * length;
+            let fibre = match [along(0), along(1)] {
+                [true, _] => Some(Direction::U),
+                [_, true] => Some(Direction::V),
+                _ => None,
+            };
+            Neighbours { grippers: [a, b], fibre, border: self.is_border([p, q], count) }
+        };
+        pairs.into_iter().map(one).collect()
+    }
+
+    /// Whether the strip across the line between two grippers has grippers on one of its sides at most.
+    fn is_border(&self, [p, q]: [[f64; 2]; 2], count: usize) -> bool {
+        let way = [q[0] - p[0], q[1] - p[1]];
+        let square = way[0] * way[0] + way[1] * way[1];
+        let mut sides = [false; 2];
+        for place in (0..count).map(|n| self.place(n)) {
+            let off = [place[0] - p[0], place[1] - p[1]];
+            let along = (off[0] * way[0] + off[1] * way[1]) / square;
+            let across = (way[0] * off[1] - way[1] * off[0]) / square;
+            if (-1e-9..=1.0 + 1e-9).contains(&along) && across.abs() > 1e-9 {
+                sides[usize::from(across > 0.0)] = true;
+            }
+        }
+        sides != [true; 2]
+    }
+}
+
+/// Unit tangents of u and v at a gripper, from the ways to its neighbors at positions (m), by least squares; across a
+/// single line of grippers the horizontal direction at a right angle to it.
+#[must_use]
+pub fn tangents(
+    ply: &Ply,
+    neighbours: &[Neighbours],
+    positions: &[[f64; 3]],
+    gripper: usize,
+) -> [[f64; 3]; 2] {
+    let [u, v] = tangent_shares(ply, neighbours, gripper).map(|shares| {
+        let ways = shares
+            .iter()
+            .map(|(other, share)| sub(positions[*other], positions[gripper]).map(|c| share * c));
+        unit(ways.fold([0.0; 3], |sum, way| along(sum, 1.0, way)))
+    });
+    let left = |way: [f64; 3]| unit([-way[1], way[0], 0.0]);
+    match [u, v] {
+        [Some(u), Some(v)] => [u, v],
+        [Some(u), None] => [u, left(u).unwrap_or([0.0, 1.0, 0.0])],
+        [None, Some(v)] => [left(v).map_or([1.0, 0.0, 0.0], |way| way.map(|c| -c)), v],
+        [None, None] => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+    }
+}
+
+/// Orientation (x, y, z, w) of each gripper by the lines to its neighbors at positions (m), whatever the ply between them does.
+#[must_use]
+pub fn orientations(ply: &Ply, neighbours: &[Neighbours], positions: &[[f64; 3]]) -> Vec<[f64; 4]> {
+    let orientation = |n: usize| {
+        let [u, v] = tangents(ply, neighbours, positions, n);
+        of_tangents(u, v)
+    };
+    (0..positions.len()).map(orientation).collect()
+}
+
+/// The neighbors of a gripper, each with the share of the way to it in the tangent of u, and the same of v: [`tangents`] are
+/// along the sums. None across a single line of grippers.
+#[must_use]
+pub fn tangent_shares(
+    ply: &Ply,
+    neighbours: &[Neighbours],
+    gripper: usize,
+) -> [Vec<(usize, f64)>; 2] {
+    let beside = neighbours.iter().filter(|pair| pair.grippers.contains(&gripper));
+    let others: Vec<usize> =
+        beside.map(|pair| pair.grippers[usize::from(pair.grippers[0] == gripper)]).collect();
+    let [u, v] = ply.place(gripper);
+    let ways = others.iter().map(|other| ply.place(*other)).map(|[p, q]| [p - u, q - v]);
+    let shares = shares(&ways.collect::<Vec<_>>());
+    shares.map(|shares| others.iter().copied().zip(shares).collect())
+}
+
+/// Unit vectors along u and v of all grippers at positions (m), by least squares; none across a single line of grippers.
+#[must_use]
+pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
+    let count = positions.len() as f64;
+    let middle = [0, 1, 2].map(|n| positions.iter().map(|p| p[n]).sum::<f64>() / count);
+    let places: Vec<[f64; 2]> = (0..positions.len()).map(|n| ply.place(n)).collect();
+    let origin = [0, 1].map(|n| places.iter().map(|place| place[n]).sum::<f64>() / count);
+    let off: Vec<[f64; 2]> =
+        places.iter().map(|place| [place[0] - origin[0], place[1] - origin[1]]).collect();
+    shares(&off).map(|shares| {
+        let ways = shares.iter().zip(positions).map(|(share, p)| (share, sub(*p, middle)));
+        unit(ways.fold([0.0; 3], |sum, (share, way)| along(sum, *share, way)))
+    })
+}
+
+/// Shares of ways in space in the vectors along u and v that fit them over ways in the fabric (m) best, by least squares and but for
+/// a factor; none of a direction in which there are none.
+fn shares(ways: &[[f64; 2]]) -> [Vec<f64>; 2] {
+    let sum = |of: fn(&[f64; 2]) -> f64| ways.iter().map(of).sum::<f64>();
+    let (uu, uv, vv) = (sum(|[u, _]| u * u), sum(|[u, v]| u * v), sum(|[_, v]| v * v));
+    let each = |of: &dyn Fn([f64; 2]) -> f64| ways.iter().map(|way| of(*way)).collect();
+    if uu * vv - uv * uv > 1e-9 * (uu + vv) * (uu + vv) {
+        return [each(&|[u, v]| vv * u - uv * v), each(&|[u, v]| uu * v - uv * u)];
+    }
+    if uu >= vv { [each(&|[u, _]| u), Vec::new()] } else { [Vec::new(), each(&|[_, v]| v)] }
+}
+
+/// For each cup the next one that holds along its row and along its column: all rows first.
+fn next_in_lines(held: &[Held]) -> Vec<[usize; 2]> {
+    let mut pairs = Vec::new();
+    for axis in 0..2 {
+        for (n, gripper) in held.iter().enumerate() {
+            let ahead = held.iter().enumerate().filter(|(_, other)| {
+                other.id[1 - axis] == gripper.id[1 - axis] && other.id[axis] > gripper.id[axis]
+            });
+            pairs.extend(ahead.min_by_key(|(_, other)| other.id[axis]).map(|(m, _)| [n, m]));
+        }
+    }
+    pairs
+}
+
+/// Pairs of cups with no third one in the circle that has both at its ends.
+fn next_in_list(held: &[Held]) -> Vec<[usize; 2]> {
+    let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+    let mut pairs = Vec::new();
+    for (n, a) in held.iter().enumerate() {
+        for (m, b) in held.iter().enumerate().skip(n + 1) {
+            let whole = square(a.place, b.place) * (1.0 + 1e-9);
+            let between = |c: &Held| square(a.place, c.place) + square(b.place, c.place) <= whole;
+            let free = held.iter().enumerate().all(|(k, c)| k == n || k == m || !between(c));
+            if free {
+                pairs.push([n, m]);
+            }
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ply::cloth;
+
+    fn ply(held: Vec<Held>) -> Ply {
+        let outline = Outline::rectangle([-1.0; 2], [1.0; 2]).unwrap();
+        let cut = Cut { outline, held, angle: 0.0, turn: 0.0, origin: [0.0; 2] };
+        Ply { cut: Some(cut), ..cloth(Grid::NONE) }
+    }
+
+    fn pairs(ply: &Ply) -> Vec<[GripperId; 2]> {
+        ply.neighbours().iter().map(|pair| pair.grippers.map(|n| ply.id(n))).collect()
+    }
+
+    fn array(nu: usize, nv: usize, holds: impl Fn(GripperId) -> bool) -> Vec<Held> {
+        let ids = (0..nv).flat_map(|j| (0..nu).map(move |i| [i, j]));
+        let held = |id: GripperId| Held { id, place: id.map(|k| 0.1 * k as f64) };
+        ids.filter(|id| holds(*id)).map(held).collect()
+    }
+
+    /// Where the cup in the middle is off, its row and its column go on to the next one; where all hold, neighbors are
+    /// those of the grid, in its order.
+    #[test]
+    fn neighbours_are_the_next_cups_that_hold() {
+        let whole = ply(array(3, 3, |_| true));
+        let grid = Grid { nu: 3, nv: 3 };
+        let lines = Lines::array(grid, [0.1; 2]);
+        let edges: Vec<_> = (0..lines.edges()).map(|n| lines.catenary(n)).collect();
+        let expected: Vec<_> = edges.iter().map(|edge| [edge.from, edge.to]).collect();
+        assert_eq!(pairs(&whole), expected);
+
+        let holed = ply(array(3, 3, |id| id != [1, 1]));
+        assert!(pairs(&holed).contains(&[[0, 1], [2, 1]]));
+        assert!(pairs(&holed).contains(&[[1, 0], [1, 2]]));
+        assert_eq!(pairs(&holed).len(), 10);
+    }
+
+    /// A list of places in rows and columns has the same neighbors as the array, whatever their order.
+    #[test]
+    fn a_list_in_rows_and_columns_has_the_neighbours_of_the_array() {
+        let mut list = array(4, 3, |_| true);
+        list.reverse();
+        for (n, held) in list.iter_mut().enumerate() {
+            held.id = [n, 0];
+        }
+        let by_place = |ply: &Ply| {
+            let place = |n: usize| ply.place(n).map(|c| (c * 1e3).round() as i64);
+            let mut all: Vec<_> = ply.neighbours().iter().map(|p| p.grippers.map(place)).collect();
+            all.iter_mut().for_each(|pair| pair.sort());
+            all.sort();
+            all
+        };
+        assert_eq!(by_place(&ply(list)), by_place(&ply(array(4, 3, |_| true))));
+    }
+
+    #[test]
+    fn border_lines_have_grippers_on_one_side_only() {
+        let ply = ply(array(4, 3, |_| true));
+        for pair in ply.neighbours() {
+            let [a, b] = pair.grippers.map(|n| ply.id(n));
+            let rim = |axis: usize, last: usize| a[axis] == b[axis] && [0, last].contains(&a[axis]);
+            assert_eq!(pair.border, rim(0, 3) || rim(1, 2), "{a:?} {b:?}");
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! How fast a tool turns and its axes move, as the motion is written: between its samples.
+
+use super::{Posture, Tool};
+use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::motion::{MotionError, Peak, TimedMotion};
+use rayon::prelude::*;
+
+/// The largest rates of a tool.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ToolPeaks {
+    /// Angular speed of the frame (rad/s), and when.
+    pub turn_rate: Peak,
+    /// Angular acceleration of the frame (rad/s²), and when.
+    pub turn_acceleration: Peak,
+    /// Speed of the axis that is nearest to its limit, as a share of it, and of which gripper and when.
+    pub axis_share: Peak,
+    /// Which axis that is.
+    pub axis: usize,
+}
+
+impl ToolPeaks {
+    /// How many times longer the motion must take for the tool to keep its limits; at most 1 if it does.
+    #[must_use]
+    pub fn stretch(&self, tool: &Tool) -> f64 {
+        let turn = self.turn_rate.value / tool.turn_rate;
+        let acceleration = (self.turn_acceleration.value / tool.turn_acceleration).sqrt();
+        turn.max(acceleration).max(self.axis_share.value)
+    }
+}
+
+impl Tool {
+    /// The largest rates along a motion between its samples at a rate (Hz), which begins and ends at rest.
+    ///
+    /// # Errors
+    /// [`MotionError`] if there would be too many samples.
+    pub fn peaks(&self, motion: &TimedMotion, rate: f64) -> Result<ToolPeaks, MotionError> {
+        // as many samples as at that rate, evenly: the last pair of a motion may be as short as rounding
+        let count = motion.samples(rate)?.len();
+        let last = count.saturating_sub(1).max(1) as f64;
+        let times: Vec<f64> = (0..count).map(|k| motion.duration() * k as f64 / last).collect();
+        let postures: Vec<Posture> =
+            times.par_iter().map(|t| self.posture(&motion.at(*t))).collect();
+        let mut found = ToolPeaks::default();
+        let mut before = ([0.0; 3], 0.0);
+        for (k, pair) in postures.windows(2).enumerate() {
+            let takes = times[k + 1] - times[k];
+            let middle = 0.5 * (times[k] + times[k + 1]);
+            let meet = |peak: &mut Peak, value: f64, gripper: usize, time: f64| {
+                let worse = value > peak.value;
+                if worse {
+                    *peak = Peak { value, gripper, time };
+                }
+                worse
+            };
+            let turn = turn_between(&pair[0].frame.axes, &pair[1].frame.axes);
+            let speed = turn.map(|c| c / takes);
+            meet(&mut found.turn_rate, norm(speed), 0, middle);
+            // from rest to the middle of the first pair, then from middle to middle
+            let since = middle - before.1;
+            let gained = norm(sub(speed, before.0)) / since;
+            meet(&mut found.turn_acceleration, gained, 0, times[k]);
+            before = (speed, middle);
+            for (gripper, (a, b)) in pair[0].strokes.iter().zip(&pair[1].strokes).enumerate() {
+                for (n, axis) in self.axes.iter().enumerate() {
+                    let share = (b[n] - a[n]).abs() / takes / axis.speed;
+                    if meet(&mut found.axis_share, share, gripper, middle) {
+                        found.axis = n;
+                    }
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The turn (rotation vector, rad) that takes three axes at right angles to three others.
+#[must_use]
+pub fn turn_between(from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f64; 3] {
+    // twice the axis times the sine, and one plus twice the cosine
+    let mut sine = [0.0; 3];
+    let mut trace = 0.0;
+    for (a, b) in from.iter().zip(to) {
+        let c = cross(*a, *b);
+        sine = [0, 1, 2].map(|n| sine[n] + c[n]);
+        trace += dot(*a, *b);
+    }
+    let length = norm(sine);
+    if length == 0.0 {
+        return [0.0; 3];
+    }
+    let angle = (0.5 * length).atan2(0.5 * (trace - 1.0));
+    sine.map(|c| c * angle / length)
+}

@@ -1,0 +1,3 @@
+//! What molds are, as one program.
+
+mod mold;
