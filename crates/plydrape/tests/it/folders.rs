@@ -15,7 +15,10 @@ const CRATES: [(&str, &str); 6] = [
         "stopwatch geometry mold material ply net motion bodies tool layup clearance state catenary elastica fit equilibrium draping \
          sheet pick_up measure errors scene outcome planner",
     ),
-    ("plydrape-io", "store read result scene text write robot page export fit plan replan sample"),
+    (
+        "plydrape-io",
+        "error store read result scene text write robot page export fit plan replan sample",
+    ),
     (
         "plydrape-cli",
         "failure argument outcome results numbers watch search compare errors model plan check complete export new fit limits net \

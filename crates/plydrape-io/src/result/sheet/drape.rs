@@ -1,8 +1,9 @@
 //! A drape by any model, with the states of its sheet in a file: they go there as they come, or from memory.
 
 use super::kept::SheetKept;
-use super::{SheetError, SheetMesh, SheetSpool, SheetState};
-use crate::store::size::{self, SizeError};
+use super::{SheetMesh, SheetSpool, SheetState};
+use crate::Error;
+use crate::store::size;
 use plydrape::layup::Model;
 use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, ModelError, Step, Summary};
 use plydrape::scene::Scene;
@@ -11,51 +12,6 @@ use plydrape::sheet::{Fabric, Sheet, State, is_kept};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
-
-/// Why a scene was not draped by a model, or the states of its sheet were not kept.
-#[derive(Debug, thiserror::Error)]
-pub enum SheetDrapeError {
-    /// The scene lacks what the model needs.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// It would take too much memory.
-    #[error(transparent)]
-    Size(#[from] SizeError),
-    /// Its states could not be kept.
-    #[error(transparent)]
-    States(#[from] SheetError),
-}
-
-impl SheetDrapeError {
-    /// What would help.
-    #[must_use]
-    pub fn remedy(&self) -> &'static str {
-        match self {
-            SheetDrapeError::Model(fault) => model_remedy(fault),
-            SheetDrapeError::Size(fault) => fault.remedy(),
-            SheetDrapeError::States(SheetError::Io(_)) => {
-                "make room on the disk, or choose a folder on another one with -o"
-            }
-            SheetDrapeError::States(_) => {
-                "this is a fault of plydrape, please report it with the scene"
-            }
-        }
-    }
-}
-
-/// What would help where a scene lacks what a model needs.
-#[must_use]
-pub fn model_remedy(fault: &ModelError) -> &'static str {
-    match fault {
-        ModelError::Sheet(_) => {
-            "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
-        }
-        ModelError::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
-        ModelError::Mounts { .. } => {
-            "take the sheet (kind = \"sheet\" in [model]) and its planner (method = \"path\" in [plan]) alone, or leave out `stiffness` in [grippers]"
-        }
-    }
-}
 
 /// A finished drape by one model, the states of its sheet in a file.
 #[derive(Debug)]
@@ -85,13 +41,13 @@ impl SheetSize {
     /// That of the sheet of a scene.
     ///
     /// # Errors
-    /// [`SheetDrapeError`] if the scene has no sheet, or one that is too large.
-    pub fn of(scene: &Scene) -> Result<Self, SheetDrapeError> {
+    /// [`Error`] if the scene has no sheet, or one that is too large.
+    pub fn of(scene: &Scene) -> Result<Self, Error> {
         let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
         SheetSize::of_sheet(&sheet, scene)
     }
 
-    fn of_sheet(sheet: &Sheet, scene: &Scene) -> Result<Self, SheetDrapeError> {
+    fn of_sheet(sheet: &Sheet, scene: &Scene) -> Result<Self, Error> {
         let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
         Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })
@@ -111,14 +67,14 @@ fn most_states(scene: &Scene) -> usize {
 /// done so far.
 ///
 /// # Errors
-/// [`SheetDrapeError`] if the scene lacks what the model needs, has a sheet that is too large, or the disk refuses.
+/// [`Error`] if the scene lacks what the model needs, has a sheet that is too large, or the disk refuses.
 pub fn drape(
     scene: &Scene,
     model: Model,
     dir: &Path,
     stop: &(dyn Fn() -> bool + Sync),
     mut progress: impl FnMut(usize),
-) -> Result<KeptDrape, SheetDrapeError> {
+) -> Result<KeptDrape, Error> {
     let layup = &scene.layup;
     let (steps, keep) = (layup.motion.positions.len(), layup.settings.sheet.keep);
     let mut spool = match model {
@@ -141,7 +97,7 @@ pub fn drape(
     };
     let drape = outcome::drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
     if let Some(fault) = fault {
-        return Err(fault.into());
+        return Err(fault);
     }
     finished(drape, spool)
 }
@@ -150,8 +106,8 @@ pub fn drape(
 /// is the same.
 ///
 /// # Errors
-/// [`SheetDrapeError`] if the disk refuses.
-pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, SheetDrapeError> {
+/// [`Error`] if the disk refuses.
+pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, Error> {
     let Some(DrapedSheet { drape: draped, states }) = &drape.sheet else {
         return finished(drape, None);
     };
@@ -172,25 +128,25 @@ struct Spool {
 }
 
 impl Spool {
-    fn new(scene: &Scene, dir: &Path) -> Result<Self, SheetDrapeError> {
+    fn new(scene: &Scene, dir: &Path) -> Result<Self, Error> {
         let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
         SheetSize::of_sheet(&sheet, scene)?;
         Ok(Spool::of_sheet(sheet, scene.layup.release.is_some(), dir)?)
     }
 
-    fn of_sheet(sheet: Sheet, releases: bool, dir: &Path) -> Result<Self, SheetError> {
+    fn of_sheet(sheet: Sheet, releases: bool, dir: &Path) -> Result<Self, Error> {
         let states = SheetSpool::new(dir, mesh(&sheet, releases))?;
         Ok(Spool { sheet, releases, states, last: 0 })
     }
 
-    fn push(&mut self, kept: &State) -> Result<(), SheetError> {
+    fn push(&mut self, kept: &State) -> Result<(), Error> {
         self.last = kept.step;
         self.states.push(&state(kept, &self.sheet.fabric, self.releases))
     }
 }
 
 /// The drape whose states are in the spool, those of a sheet.
-fn finished(drape: Drape, spool: Option<Spool>) -> Result<KeptDrape, SheetDrapeError> {
+fn finished(drape: Drape, spool: Option<Spool>) -> Result<KeptDrape, Error> {
     let Drape { summary, steps, sheet, solving } = drape;
     let states = match (spool, sheet) {
         (Some(mut spool), Some(DrapedSheet { drape, .. })) => {

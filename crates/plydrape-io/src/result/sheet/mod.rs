@@ -12,7 +12,6 @@ mod check;
 mod cut_cell;
 mod drape;
 mod ended;
-mod error;
 mod kept;
 mod latch;
 mod read;
@@ -22,9 +21,8 @@ mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
 pub(crate) use cut_cell::CutCell;
-pub use drape::{KeptDrape, SheetDrapeError, SheetSize, drape, keep, model_remedy};
+pub use drape::{KeptDrape, SheetSize, drape, keep};
 pub(crate) use ended::{ended, overstrained};
-pub use error::SheetError;
 pub use kept::SheetKept;
 pub use read::SheetStates;
 pub use seal::SheetSeal;

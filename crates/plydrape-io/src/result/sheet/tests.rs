@@ -1,5 +1,5 @@
 use super::*;
-use crate::ReadError;
+use crate::Error;
 use crate::store::folder::{Content, Folder};
 use std::fs;
 use std::path::Path;
@@ -56,7 +56,7 @@ fn finished(dir: &Path, mesh: &SheetMesh<'static>, states: u32) -> SheetFile {
 }
 
 /// A file with any bytes, and the seal that fits them.
-fn forged(dir: &Path, bytes: &[u8]) -> Result<SheetStates, ReadError> {
+fn forged(dir: &Path, bytes: &[u8]) -> Result<SheetStates, Error> {
     fs::write(dir.join(NAME), bytes).unwrap();
     SheetStates::open(dir, &SheetSeal::of(bytes).unwrap())
 }
@@ -205,12 +205,18 @@ fn states_that_no_sheet_has_are_not_written() {
     }
     spool.push(&SheetState { step: 2, time: 0.2, ..sound() }).unwrap();
     assert_eq!(spool.states(), 2);
-    assert!(matches!(spool.finish(&[0; 8]), Err(SheetError::Length { array: "landing_step", .. })));
+    let internal = |error: Error, says: &str| {
+        assert!(matches!(&error, Error::Internal(text) if text.contains(says)), "{error}");
+    };
+    internal(
+        spool.finish(&[0; 8]).unwrap_err(),
+        "`landing_step` of the sheet has 8 numbers, not 9",
+    );
 
     let empty = SheetSpool::new(dir.path(), mesh.clone()).unwrap();
-    assert!(matches!(empty.finish(&[0; 9]), Err(SheetError::Empty)));
+    internal(empty.finish(&[0; 9]).unwrap_err(), "the sheet has no state");
     let far = SheetMesh { segments: vec![[0, 9]; 12].into(), ..mesh };
-    assert!(matches!(SheetSpool::new(dir.path(), far), Err(SheetError::Value { .. })));
+    internal(SheetSpool::new(dir.path(), far).unwrap_err(), "there is no such node");
 }
 
 /// The result's check sum tells a file that was cut, replaced, or changed in one bit.
@@ -227,15 +233,15 @@ fn a_file_that_is_not_the_results_own_is_refused() {
     for n in (0..bytes.len()).step_by(97) {
         let mut edited = bytes.clone();
         edited[n] ^= 1;
-        assert!(matches!(open(&edited), Err(ReadError::Changed { .. })), "{n}");
+        assert!(matches!(open(&edited), Err(Error::File { .. })), "{n}");
     }
-    assert!(matches!(open(&bytes[..bytes.len() - 1]), Err(ReadError::Changed { .. })));
-    assert!(matches!(open(&[&bytes[..], b"\n"].concat()), Err(ReadError::Changed { .. })));
+    assert!(matches!(open(&bytes[..bytes.len() - 1]), Err(Error::File { .. })));
+    assert!(matches!(open(&[&bytes[..], b"\n"].concat()), Err(Error::File { .. })));
     fs::remove_file(dir.path().join(NAME)).unwrap();
     let missing = SheetStates::open(dir.path(), file.seal());
-    assert!(matches!(missing, Err(ReadError::Unreadable { .. })));
+    assert!(matches!(missing, Err(Error::Io { .. })));
     let outside = SheetSeal { file: "../sheet.npz".into(), ..file.seal().clone() };
-    assert!(matches!(SheetStates::open(dir.path(), &outside), Err(ReadError::Changed { .. })));
+    assert!(matches!(SheetStates::open(dir.path(), &outside), Err(Error::File { .. })));
 }
 
 /// A seal that was made anew does not help: whatever the bytes are, they are read as a sheet or refused.
@@ -243,7 +249,7 @@ fn a_file_that_is_not_the_results_own_is_refused() {
 fn a_forged_file_is_refused_or_read_as_a_sheet() {
     let dir = tempfile::tempdir().unwrap();
     let bytes = fs::read(finished(dir.path(), &mesh(3, 3), 2).path()).unwrap();
-    let read = |bytes: &[u8]| -> Result<(), ReadError> {
+    let read = |bytes: &[u8]| -> Result<(), Error> {
         let mut states = forged(dir.path(), bytes)?;
         (0..states.states()).try_for_each(|n| states.state(n).map(drop))
     };
