@@ -5,6 +5,7 @@
 //!
 //! | folder | what it does |
 //! |---|---|
+//! | [`error`](mod@error) | why something could not be read, made or written |
 //! | [`store`] | writes folders whole or not at all, JSON without NaN, reads regular files alone, and refuses what would not fit the memory |
 //! | [`read`] | readers of meshes, drawings and formulas |
 //! | [`result`] | the result file, and the states of a sheet beside it |

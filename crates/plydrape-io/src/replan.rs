@@ -3,7 +3,7 @@
 
 use crate::Error;
 use crate::result::ResultFile;
-use crate::result::sheet::{SheetKept, SheetSpool, SheetState};
+use crate::result::sheet::{SheetFile, SheetKept, SheetState};
 use plydrape::layup::Layup;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
@@ -121,15 +121,15 @@ impl PlannedResult {
         replanned: &Replanned,
         dir: &Path,
     ) -> Result<SheetKept, Error> {
-        let mut states = kept.open()?;
-        let mut spool = SheetSpool::new(dir, states.mesh().clone())?;
+        let mut file = kept.open()?;
         let planned = self.result.steps.last().map_or(0.0, |step| step.time);
-        for n in 0..states.states() {
-            let Some(mut state) = states.state(n)? else { break };
+        let mut states = Vec::with_capacity(file.states());
+        for n in 0..file.states() {
+            let Some(mut state) = file.state(n)? else { break };
             self.follow(&mut state, replanned, planned);
-            spool.push(&state)?;
+            states.push(state);
         }
-        Ok(SheetKept::made(spool.finish(states.landing_step())?))
+        SheetFile::new(dir, file.mesh(), file.landing_step(), &states).map(SheetKept::made)
     }
 
     /// Moves a state to where it is in the corrected motion.

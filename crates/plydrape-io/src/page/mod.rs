@@ -119,7 +119,7 @@ impl Form {
 /// # Errors
 /// As [`html`].
 pub fn data(result: &ResultFile, form: Form) -> Result<String, Error> {
-    Ok(crate::store::json::of(&page(result, form)?)?)
+    crate::store::json::of(&page(result, form)?)
 }
 
 /// The page of a result. Same result, same bytes.

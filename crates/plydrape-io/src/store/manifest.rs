@@ -13,8 +13,8 @@ pub(crate) const NAME: &str = ".plydrape";
 /// CRC-32 (IEEE) and length in bytes of one content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Stamp {
-    crc32: u32,
-    length: u64,
+    pub crc32: u32,
+    pub length: u64,
 }
 
 /// What plydrape has written under one name.
@@ -166,7 +166,7 @@ impl Manifest {
 
     /// The list as JSON, one line.
     pub(crate) fn text(&self) -> Result<String, Error> {
-        Ok(crate::store::json::of(self)?)
+        crate::store::json::of(self)
     }
 
     /// True for a file name without any path, other than the list's own.

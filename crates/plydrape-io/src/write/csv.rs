@@ -139,7 +139,7 @@ fn sampled(
         let poses = motion.at(at).into_iter().zip(attitudes.at(at)).enumerate();
         table.add(time, poses.map(|(n, (place, quaternion))| (ply.id(n), place, quaternion)))?;
     }
-    Ok(text(table.table)?)
+    text(table.table)
 }
 
 /// The times (s) at which the motion of a plan is written: at a rate (Hz) to its end, and on until the last pads let go.

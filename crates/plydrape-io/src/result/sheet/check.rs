@@ -11,9 +11,9 @@ const UNIT: f64 = 1e-3;
 const MOST: u32 = i32::MAX as u32;
 
 /// The sizes of a sheet whose arrays belong together.
-pub(super) fn sizes(mesh: &SheetMesh) -> Sizes {
+pub(super) fn sizes(mesh: &SheetMesh, states: usize) -> Sizes {
     Sizes {
-        states: 0,
+        states,
         nodes: mesh.places.len(),
         segments: mesh.segments.len(),
         cells: mesh.cells.len(),

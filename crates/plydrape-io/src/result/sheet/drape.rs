@@ -1,7 +1,7 @@
 //! A drape by any model, with the states of its sheet in a file: they go there as they come, or from memory.
 
 use super::kept::SheetKept;
-use super::{SheetMesh, SheetSpool, SheetState};
+use super::{SheetFile, SheetMesh, SheetState};
 use crate::Error;
 use crate::store::size;
 use plydrape::layup::Model;
@@ -62,8 +62,8 @@ fn most_states(scene: &Scene) -> usize {
     layup.settings.sheet.keep.min(layup.motion.positions.len()) + released
 }
 
-/// Drapes a scene along its motion by a model, that which decides or the other one. States of the sheet go into a hidden folder within
-/// `dir` as they come; `progress` is called with each step that is done, and `stop` is asked often whether to end there, with what was
+/// Drapes a scene along its motion by a model, that which decides or the other one. The file of the sheet's states goes into a hidden
+/// folder within `dir`; `progress` is called with each step that is done, and `stop` is asked often whether to end there, with what was
 /// done so far.
 ///
 /// # Errors
@@ -77,89 +77,45 @@ pub fn drape(
 ) -> Result<KeptDrape, Error> {
     let layup = &scene.layup;
     let (steps, keep) = (layup.motion.positions.len(), layup.settings.sheet.keep);
-    let mut spool = match model {
-        Model::Sheet => Some(Spool::new(scene, dir)?),
-        Model::Catenaries => None,
-    };
-
-    // the states that are kept, until the disk refuses one
-    let mut fault = None;
+    if model == Model::Sheet {
+        SheetSize::of(scene)?;
+    }
+    let mut states = Vec::new();
     let mut see = |step: usize, state: Option<&State>| {
         progress(step);
-        if let (Some(spool), Some(state)) = (&mut spool, state)
-            && is_kept(state.step, steps, keep)
-            && let Err(refused) = spool.push(state)
-        {
-            fault = Some(refused);
-            return ControlFlow::Break(());
-        }
+        states.extend(state.filter(|state| is_kept(state.step, steps, keep)).cloned());
         ControlFlow::Continue(())
     };
-    let drape = outcome::drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
-    if let Some(fault) = fault {
-        return Err(fault);
+    let mut drape = outcome::drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
+    if let Some(sheet) = &mut drape.sheet {
+        sheet.states = states;
     }
-    finished(drape, spool)
+    kept(drape, layup.release.is_some(), dir)
 }
 
-/// A drape whose states are in memory, with these in a file: they go into a hidden folder within `dir`, as those of [`drape`], and the file
-/// is the same.
+/// A drape with the states of its sheet in a file, which goes into a hidden folder within `dir`, as that of [`drape`()], and is the same.
 ///
 /// # Errors
-/// [`Error`] if the disk refuses.
+/// [`Error::Io`] if the disk refuses.
 pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, Error> {
-    let Some(DrapedSheet { drape: draped, states }) = &drape.sheet else {
-        return finished(drape, None);
-    };
-    let releases = !draped.events.is_empty();
-    let mut spool = Spool::of_sheet(draped.sheet.clone(), releases, dir)?;
-    states.iter().try_for_each(|state| spool.push(state))?;
-    finished(drape, Some(spool))
+    let releases = drape.sheet.as_ref().is_some_and(|sheet| !sheet.drape.events.is_empty());
+    kept(drape, releases, dir)
 }
 
-/// The states of a drape of a sheet on their way into their file.
-struct Spool {
-    sheet: Sheet,
-    /// Whether pads let go, so that states say which of them hold.
-    releases: bool,
-    states: SheetSpool,
-    /// Step of the last state.
-    last: usize,
-}
-
-impl Spool {
-    fn new(scene: &Scene, dir: &Path) -> Result<Self, Error> {
-        let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
-        SheetSize::of_sheet(&sheet, scene)?;
-        Ok(Spool::of_sheet(sheet, scene.layup.release.is_some(), dir)?)
-    }
-
-    fn of_sheet(sheet: Sheet, releases: bool, dir: &Path) -> Result<Self, Error> {
-        let states = SheetSpool::new(dir, mesh(&sheet, releases))?;
-        Ok(Spool { sheet, releases, states, last: 0 })
-    }
-
-    fn push(&mut self, kept: &State) -> Result<(), Error> {
-        self.last = kept.step;
-        self.states.push(&state(kept, &self.sheet.fabric, self.releases))
-    }
-}
-
-/// The drape whose states are in the spool, those of a sheet.
-fn finished(drape: Drape, spool: Option<Spool>) -> Result<KeptDrape, Error> {
+/// A drape with its states in a file, which say which pads hold if they let go (`releases`).
+fn kept(drape: Drape, releases: bool, dir: &Path) -> Result<KeptDrape, Error> {
     let Drape { summary, steps, sheet, solving } = drape;
-    let states = match (spool, sheet) {
-        (Some(mut spool), Some(DrapedSheet { drape, .. })) => {
-            if drape.last.step != spool.last {
-                // where the drape ended early, its end is kept too
-                spool.push(&drape.last)?;
-            }
-            let landed = drape.landing_step.iter().map(|step| step.map_or(0, |n| n as u32));
-            let landed: Vec<u32> = landed.collect();
-            Some(SheetKept::made(spool.states.finish(&landed)?))
-        }
-        _ => None,
+    let file = |DrapedSheet { drape, states }: DrapedSheet| {
+        // where the drape ended early, its end is kept too
+        let end = states.last().is_none_or(|last| last.step != drape.last.step);
+        let states = states.iter().chain(end.then_some(&drape.last));
+        let states: Vec<_> =
+            states.map(|state| kept_state(state, &drape.sheet.fabric, releases)).collect();
+        let landed = drape.landing_step.iter().map(|step| step.map_or(0, |n| n as u32));
+        let landed: Vec<u32> = landed.collect();
+        SheetFile::new(dir, &mesh(&drape.sheet, releases), &landed, &states).map(SheetKept::made)
     };
+    let states = sheet.map(file).transpose()?;
     Ok(KeptDrape { summary, steps, states, solving })
 }
 
@@ -177,7 +133,7 @@ fn mesh(sheet: &Sheet, releases: bool) -> SheetMesh<'static> {
 }
 
 /// A state as it is kept: with the cells that are ply by half or more, and where pads let go with those that hold.
-fn state<'a>(state: &'a State, fabric: &Fabric, releases: bool) -> SheetState<'a> {
+fn kept_state<'a>(state: &'a State, fabric: &Fabric, releases: bool) -> SheetState<'a> {
     let all = fabric.cells.iter().all(Cell::is_ply);
     let of_ply = || fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
     let unknown = || vec![f64::NAN; state.positions.len()].into();
