@@ -8,7 +8,7 @@ use crate::Error;
 use crate::store::file_kind::edits;
 use std::ops::Range;
 
-/// A diagnostic of the TOML reader or of serde as a [`Error`].
+/// A diagnostic of the TOML reader or of serde as an [`Error`].
 pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error {
     let Fault { message, span } = fault.into();
     let mut span = span.unwrap_or(0..0);

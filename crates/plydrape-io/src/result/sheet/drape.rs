@@ -1,4 +1,4 @@
-//! A drape by any model, with the states of its sheet in a file: they go there as they come, or from memory.
+//! A drape by any model, with the states of its sheet in a file.
 
 use super::kept::SheetKept;
 use super::{SheetFile, SheetMesh, SheetState};
@@ -44,10 +44,6 @@ impl SheetSize {
     /// [`Error`] if the scene has no sheet, or one that is too large.
     pub fn of(scene: &Scene) -> Result<Self, Error> {
         let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
-        SheetSize::of_sheet(&sheet, scene)
-    }
-
-    fn of_sheet(sheet: &Sheet, scene: &Scene) -> Result<Self, Error> {
         let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
         Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })

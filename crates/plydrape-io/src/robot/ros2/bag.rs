@@ -75,11 +75,9 @@ impl Bag {
         time: u64,
         message: &T,
     ) -> Result<(), Error> {
-        let channel = self.channels.get_mut(topic).ok_or_else(|| {
-            Error::Internal(format!(
-                "the bag has no topic {topic}; this is a fault of plydrape, please report it"
-            ))
-        })?;
+        let channel = self.channels.get_mut(topic);
+        let channel =
+            channel.ok_or_else(|| Error::Internal(format!("the bag has no topic {topic}")))?;
         let header = MessageHeader {
             channel_id: channel.id,
             sequence: channel.messages,
