@@ -45,7 +45,9 @@ impl SheetFile {
         }
 
         // in memory first: a file that breaks off is never an archive
-        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+        let length: u64 = arrays(mesh.releases).iter().filter_map(|array| array.data(&sizes)).sum();
+        let room = usize::try_from(length).unwrap_or(0).saturating_add(HEADERS);
+        let mut archive = ZipWriter::new(Cursor::new(Vec::with_capacity(room)));
         let of_mesh = mesh.values(landing_step);
         let added = arrays(mesh.releases).iter().enumerate().try_for_each(|(n, array)| {
             let header = array.header(&sizes);
@@ -96,6 +98,9 @@ impl SheetFile {
         &self.path
     }
 }
+
+/// Room for the headers of the archive and of its arrays (bytes).
+const HEADERS: usize = 1 << 13;
 
 /// Begins the file of an array in the archive: not compressed, of a fixed date.
 fn start(archive: &mut Archive, name: &str, length: Option<u64>) -> ZipResult<()> {
