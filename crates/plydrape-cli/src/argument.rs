@@ -11,9 +11,9 @@ pub fn value(
     [low, high]: [f64; 2],
     help: &str,
 ) -> Result<f64, Failure> {
-    let value = quantity(text, measured).map_err(|error| Failure::Argument {
-        message: format!("{option} {}", error.message),
-        help: error.help,
+    let value = quantity(text, measured).map_err(|error| Failure::Refused {
+        message: format!("{option} {}", error.message()),
+        help: error.help().into(),
     })?;
     let fault = if value == 0.0 && low > 0.0 {
         "is zero"
@@ -31,5 +31,5 @@ pub fn value(
 
 /// An option whose value is refused.
 pub fn refused(option: &str, text: &str, fault: &str, help: &str) -> Failure {
-    Failure::Argument { message: format!("{option} \"{text}\" {fault}"), help: help.into() }
+    Failure::Refused { message: format!("{option} \"{text}\" {fault}"), help: help.into() }
 }

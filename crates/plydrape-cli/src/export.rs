@@ -122,7 +122,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     let is_robot = matches!(arguments.to.of(), export::Format::Robot(_));
     if !is_robot && !arguments.template.is_empty() {
-        return Err(Failure::Argument {
+        return Err(Failure::Refused {
             message: format!("there are no templates for {}", arguments.to.folder()),
             help: "rapid, krl and urscript are written by templates".into(),
         });
@@ -141,7 +141,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             value("--position-error", text, Measured::Length, POSITION_ERRORS, help)?;
     }
     let read = |path: &PathBuf| {
-        let text = input::text(path, LARGEST_TEMPLATE).map_err(|error| Failure::Argument {
+        let text = input::text(path, LARGEST_TEMPLATE).map_err(|error| Failure::Refused {
             message: format!("the template `{}` cannot be read: {error}", path.display()),
             help: "`plydrape template rapid > cell.mod.j2` makes one that you can change".into(),
         })?;

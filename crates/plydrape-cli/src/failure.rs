@@ -1,13 +1,12 @@
 //! Why a command could not do its work, and how that is shown.
 
 use miette::{
-    Diagnostic, LabeledSpan, MietteError, MietteHandlerOpts, MietteSpanContents, ReportHandler,
-    SourceCode, SourceSpan, SpanContents,
+    LabeledSpan, MietteError, MietteHandlerOpts, MietteSpanContents, ReportHandler, SourceCode,
+    SourceSpan, SpanContents,
 };
 use plydrape::planner::PlanError;
-use plydrape_io::result::sheet::model_remedy;
-use plydrape_io::scene::SceneError;
 use plydrape_io::store::shown;
+use plydrape_io::{Diagnostic, Error};
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -21,13 +20,13 @@ pub type Done = Result<ExitCode, Failure>;
 pub enum Failure {
     /// The scene, or a file it names, was refused.
     #[error("{}", .0.0.message)]
-    Scene(Box<Refused>),
-    /// The value of an option was refused.
+    Scene(Box<Source>),
+    /// Something else cannot be used or written: the value of an option, a file, a folder.
     #[error("{message}")]
-    Argument {
-        /// The option, its value, and what is wrong with it.
+    Refused {
+        /// What is wrong with it.
         message: String,
-        /// What would be right.
+        /// What would be right; empty where the message says it.
         help: String,
     },
     /// One ply of a book could not be planned.
@@ -38,12 +37,6 @@ pub enum Failure {
         /// Why.
         cause: Box<Failure>,
     },
-    /// No plan could be looked for.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// A plan could not be corrected.
-    #[error(transparent)]
-    Replan(#[from] plydrape_io::replan::ReplanFault),
     /// The input is sound, but has no solution.
     #[error("{message}")]
     NoSolution {
@@ -52,25 +45,6 @@ pub enum Failure {
         /// What may be the reason.
         help: String,
     },
-    /// A file could not be written.
-    #[error("`{file}` cannot be written: {reason}")]
-    Output {
-        /// The file.
-        file: String,
-        /// What the system says.
-        reason: String,
-        /// What to do.
-        help: String,
-    },
-    /// The results could not be written.
-    #[error(transparent)]
-    Results(#[from] plydrape_io::OutputError),
-    /// The scene cannot be draped by a model.
-    #[error(transparent)]
-    Drape(#[from] plydrape_io::result::sheet::SheetDrapeError),
-    /// A result file was refused.
-    #[error(transparent)]
-    Read(#[from] plydrape_io::ReadError),
     /// Standard output could not be written; the files are.
     #[error("standard output cannot be written: {reason}")]
     Stdout {
@@ -95,7 +69,8 @@ impl Failure {
             }
             _ => (error.to_string(), "choose another place"),
         };
-        Failure::Output { file: file.display().to_string(), reason, help: help.into() }
+        let message = format!("`{}` cannot be written: {reason}", file.display());
+        Failure::Refused { message, help: help.into() }
     }
 
     /// Standard output that could not be written, after these files were.
@@ -130,25 +105,38 @@ impl From<io::Error> for Failure {
     }
 }
 
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        let text = shown::blanked(&error.text).into();
-        let file = shown::name(&error.file);
-        Failure::Scene(Box::new(Refused(SceneError { text, file, ..error })))
+impl From<Diagnostic> for Failure {
+    fn from(fault: Diagnostic) -> Self {
+        let text = shown::blanked(&fault.text).into();
+        let file = shown::name(&fault.file);
+        Failure::Scene(Box::new(Source(Diagnostic { text, file, ..fault })))
     }
 }
 
-impl Diagnostic for Failure {
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Scene(fault) => Failure::from(*fault),
+            other => Failure::Refused { message: other.to_string(), help: other.help().into() },
+        }
+    }
+}
+
+impl From<PlanError> for Failure {
+    fn from(fault: PlanError) -> Self {
+        match fault {
+            PlanError::Model(fault) => Error::from(fault).into(),
+            other => Failure::Refused { message: other.to_string(), help: String::new() },
+        }
+    }
+}
+
+impl miette::Diagnostic for Failure {
     fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
         match self {
-            Failure::Scene(refused) if refused.0.help.is_empty() => None,
-            Failure::Scene(refused) => Some(Box::new(&refused.0.help)),
+            Failure::Scene(source) => given(&source.0.help),
             Failure::Ply { cause, .. } => cause.help(),
-            Failure::Argument { help, .. }
-            | Failure::NoSolution { help, .. }
-            | Failure::Output { help, .. } => Some(Box::new(help)),
-            Failure::Read(refused) => Some(Box::new(refused.remedy())),
-            Failure::Replan(fault) => Some(Box::new(fault.remedy())),
+            Failure::Refused { help, .. } | Failure::NoSolution { help, .. } => given(help),
             Failure::Stdout { files, .. } => Some(Box::new(match files[..] {
                 [] => "give it a place with room, as in > FILE; no file was written".to_owned(),
                 [ref file] => format!("`{}` is written and complete", file.display()),
@@ -162,29 +150,28 @@ impl Diagnostic for Failure {
                     )
                 }
             })),
-            Failure::Drape(fault) => Some(Box::new(fault.remedy())),
-            Failure::Results(plydrape_io::OutputError::States(fault)) => {
-                Some(Box::new(fault.states_remedy()))
-            }
-            Failure::Plan(PlanError::Model(fault)) => Some(Box::new(model_remedy(fault))),
-            Failure::Plan(_) | Failure::Results(_) => None,
         }
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
         match self {
-            Failure::Scene(refused) if refused.0.span.is_some() => Some(refused.as_ref()),
+            Failure::Scene(source) if source.0.span.is_some() => Some(source.as_ref()),
             _ => None,
         }
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let Failure::Scene(refused) = self else {
+        let Failure::Scene(source) = self else {
             return None;
         };
-        let span = refused.first_line()?;
+        let span = source.first_line()?;
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(None, span))))
     }
+}
+
+/// A help that is not empty.
+fn given(help: &String) -> Option<Box<dyn fmt::Display + '_>> {
+    if help.is_empty() { None } else { Some(Box::new(help)) }
 }
 
 /// A failure whose text holds no control characters, whatever names of files are in them.
@@ -200,7 +187,7 @@ impl fmt::Display for Shown<'_> {
 // Every message says its cause itself: as a source it would be printed once more below it.
 impl std::error::Error for Shown<'_> {}
 
-impl Diagnostic for Shown<'_> {
+impl miette::Diagnostic for Shown<'_> {
     fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
         let help = self.0.help()?.to_string();
         Some(Box::new(shown::escaped(&help)))
@@ -227,14 +214,14 @@ impl fmt::Display for Rendered<'_> {
 
 /// A refused scene as a source for miette.
 #[derive(Debug)]
-pub struct Refused(SceneError);
+pub struct Source(Diagnostic);
 
 /// Longest line shown whole (bytes); of a longer one only the surroundings of the fault.
 const LONGEST_LINE: usize = 200;
 /// Bytes shown before and after a fault in such a line.
 const SURROUNDINGS: usize = 40;
 
-impl Refused {
+impl Source {
     /// The first line of the fault's span, a character at least where there is one.
     fn first_line(&self) -> Option<SourceSpan> {
         let span = self.0.span.clone()?;
@@ -247,7 +234,7 @@ impl Refused {
     }
 }
 
-impl SourceCode for Refused {
+impl SourceCode for Source {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,

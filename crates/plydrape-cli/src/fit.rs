@@ -3,7 +3,7 @@
 use crate::argument::value;
 use crate::failure::{Done, Failure};
 use crate::new::put;
-use plydrape_io::fit::{FitFault, Request, Test, fit};
+use plydrape_io::fit::{Request, Test, fit};
 use plydrape_io::scene::Measured;
 use plydrape_io::store::shown;
 use std::io::{self, Write};
@@ -102,7 +102,7 @@ const LENGTHS: [f64; 2] = [1e-6, 1e4];
 /// Fits and prints.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let request = arguments.test.request()?;
-    let fitted = fit(&request).map_err(failure)?;
+    let fitted = fit(&request)?;
     let mut out = io::stdout().lock();
     let toml = fitted.toml();
     let mut files = Vec::new();
@@ -171,12 +171,5 @@ impl Kind {
 impl Strips {
     fn request(&self, test: Test) -> Request {
         Request { test, warp: self.warp.clone(), weft: self.weft.clone() }
-    }
-}
-
-fn failure(fault: FitFault) -> Failure {
-    match fault {
-        FitFault::Table(error) => (*error).into(),
-        fault => Failure::Argument { help: fault.help(), message: fault.to_string() },
     }
 }

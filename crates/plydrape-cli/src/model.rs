@@ -4,9 +4,9 @@ use crate::watch::{Interrupt, bar};
 use clap::ValueEnum;
 use plydrape::layup::Model;
 use plydrape::scene::Scene;
-use plydrape_io::ResultFile;
-use plydrape_io::result::sheet::{self, KeptDrape, SheetDrapeError};
+use plydrape_io::result::sheet::{self, KeptDrape};
 use plydrape_io::text::table;
+use plydrape_io::{Error, ResultFile};
 use std::path::Path;
 
 /// A model of the ply.
@@ -37,7 +37,7 @@ pub fn drape(
     dir: &Path,
     interrupt: &Interrupt,
     quiet: bool,
-) -> Result<KeptDrape, SheetDrapeError> {
+) -> Result<KeptDrape, Error> {
     let template = format!(
         "draping {} {{bar:40}} step {{pos}} of {{len}}, {{eta}} left",
         table::model_name(model)
@@ -60,7 +60,7 @@ pub fn show_also(
     dir: &Path,
     interrupt: &Interrupt,
     quiet: bool,
-) -> Result<bool, SheetDrapeError> {
+) -> Result<bool, Error> {
     if !scene.also || result.summary.interrupted() {
         return Ok(false);
     }

@@ -8,12 +8,12 @@ use plydrape::measure::Verdict;
 use plydrape::mold::Pose;
 use plydrape::planner::replan::{Replanned, Replanner};
 use plydrape::tool::Posture;
-use plydrape_io::replan::{PlannedResult, ReplanFault};
+use plydrape_io::replan::PlannedResult;
 use plydrape_io::result::read;
-use plydrape_io::scene::{SceneError, SeenOffset, json_offset, read_offset};
+use plydrape_io::scene::{SeenOffset, json_offset, read_offset};
 use plydrape_io::store::json;
 use plydrape_io::text::table;
-use plydrape_io::{Folder, OutputError, write_into};
+use plydrape_io::{Error, Folder, write_into};
 use serde::Serialize;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
@@ -105,6 +105,12 @@ struct Refusal {
     help: String,
 }
 
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Refusal { error: error.message().into(), help: error.help().into() }
+    }
+}
+
 /// Reads the plan, answers, writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if let Some(rate) = arguments.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
@@ -135,7 +141,7 @@ fn once(
     let replanned = replanned(replanner, &seen)?;
     if arguments.json {
         let answer = Answer::of(planned, replanner, &replanned, arguments.rate)?;
-        print(&json::of(&answer).map_err(OutputError::from)?)?;
+        print(&json::of(&answer)?)?;
     }
     let said = said(&seen, &replanned);
     let result = planned.corrected(replanned, folder.stage())?;
@@ -157,7 +163,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
     loop {
         let mut line = Vec::new();
         let read = (&mut input).take(LONGEST_LINE).read_until(b'\n', &mut line);
-        let read = read.map_err(|fault| Failure::Argument {
+        let read = read.map_err(|fault| Failure::Refused {
             message: format!("standard input cannot be read: {fault}"),
             help: "give offsets, one JSON object a line".into(),
         })?;
@@ -185,7 +191,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
             }
             Err(refusal) => {
                 refused = true;
-                print(&json::of(&refusal).map_err(OutputError::from)?)?;
+                print(&json::of(&refusal)?)?;
             }
         }
     }
@@ -195,7 +201,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
 /// Reads on to the end of a line.
 fn skip_line(input: &mut impl BufRead) -> Result<(), Failure> {
     loop {
-        let bytes = input.fill_buf().map_err(|fault| Failure::Argument {
+        let bytes = input.fill_buf().map_err(|fault| Failure::Refused {
             message: format!("standard input cannot be read: {fault}"),
             help: "give offsets, one JSON object a line".into(),
         })?;
@@ -216,22 +222,17 @@ fn answer(
     replanner: &Replanner,
     line: &[u8],
 ) -> Result<(String, bool), Refusal> {
-    let refusal = |error: String, help: &str| Refusal { error, help: help.into() };
-    let text = std::str::from_utf8(line)
-        .map_err(|_| refusal("the line is no UTF-8 text".into(), "give one JSON object a line"))?;
-    let seen = json_offset(text, planned.tolerance())
-        .map_err(|SceneError { message, help, .. }| Refusal { error: message, help })?;
-    let found = replanned(replanner, &seen)
-        .map_err(|fault| Refusal { error: fault.to_string(), help: fault.remedy() })?;
-    let answer = Answer::of(planned, replanner, &found, arguments.rate)
-        .map_err(|fault| Refusal { error: fault.to_string(), help: fault.remedy() })?;
-    let text = json::of(&answer).map_err(|fault| {
-        refusal(fault.to_string(), "this is a fault of plydrape, please report it")
+    let text = std::str::from_utf8(line).map_err(|_| Refusal {
+        error: "the line is no UTF-8 text".into(),
+        help: "give one JSON object a line".into(),
     })?;
-    Ok((text, answer.accepted))
+    let seen = json_offset(text, planned.tolerance())?;
+    let found = replanned(replanner, &seen)?;
+    let answer = Answer::of(planned, replanner, &found, arguments.rate)?;
+    Ok((json::of(&answer)?, answer.accepted))
 }
 
-fn replanned(replanner: &Replanner, seen: &SeenOffset) -> Result<Replanned, ReplanFault> {
+fn replanned(replanner: &Replanner, seen: &SeenOffset) -> Result<Replanned, Error> {
     Ok(replanner.replan(&seen.offset, seen.residual)?)
 }
 
@@ -241,7 +242,7 @@ impl<'a> Answer<'a> {
         replanner: &'a Replanner,
         replanned: &'a Replanned,
         rate: Option<f64>,
-    ) -> Result<Self, ReplanFault> {
+    ) -> Result<Self, Error> {
         let Replanned { motion, summary, .. } = replanned;
         let (times, positions) = match rate {
             None => (motion.times().to_vec(), motion.positions().to_vec()),

@@ -1,9 +1,9 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
 use crate::failure::Failure;
+use plydrape_io::ResultFile;
 use plydrape_io::store::{json, shown};
 use plydrape_io::text::table::{self, Ink};
-use plydrape_io::{OutputError, ResultFile};
 use serde::Serialize;
 use std::env;
 use std::io::{self, IsTerminal, Write};
@@ -104,7 +104,7 @@ impl Results {
         files: &[PathBuf],
     ) -> Result<(), Failure> {
         let json = match self.json {
-            true => Some(json::of(object).map_err(OutputError::from)?),
+            true => Some(json::of(object)?),
             false => None,
         };
         let mut out = io::stdout().lock();

@@ -127,7 +127,7 @@ pub fn run(arguments: &Arguments) -> Done {
     };
     let mut out = io::stdout().lock();
     if arguments.json {
-        let text = json::of(&solved.printed()).map_err(plydrape_io::OutputError::from)?;
+        let text = json::of(&solved.printed())?;
         out.write_all(text.as_bytes())?;
     } else {
         out.write_all(text::of(&solved).as_bytes())?;
@@ -217,7 +217,7 @@ impl Arguments {
                 "is given with a material by line, which has a width of its own",
                 "leave --width out",
             )),
-            (Section::Areal { .. }, None) => Err(Failure::Argument {
+            (Section::Areal { .. }, None) => Err(Failure::Refused {
                 message: format!("the strip of {} has no width", material.name),
                 help: "add --width, as in --width \"50 mm\"".into(),
             }),
@@ -240,9 +240,7 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
     let slope =
         value(option, text, Measured::Ratio, [-STEEPEST, STEEPEST], help).map_err(|failure| {
             match failure {
-                Failure::Argument { message, .. } => {
-                    Failure::Argument { message, help: help.into() }
-                }
+                Failure::Refused { message, .. } => Failure::Refused { message, help: help.into() },
                 other => other,
             }
         })?;

@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let python = env::var_os("PLYDRAPE_PYTHON").filter(|name| !name.is_empty());
     let python = python.unwrap_or_else(|| "python3".into());
 
-    let unknown = |fault| Failure::Argument {
+    let unknown = |fault| Failure::Refused {
         message: format!("Python cannot be run as `{}`: {fault}", python.display()),
         help: "install Python 3.10 or newer, or name it in PLYDRAPE_PYTHON".into(),
     };
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let _ = ctrlc::set_handler(move || terminate(id));
     let status = child.wait().map_err(unknown)?;
     match status.code() {
-        Some(MISSING) => Err(Failure::Argument {
+        Some(MISSING) => Err(Failure::Refused {
             message: format!("the Python `{}` has no package plydrape", python.display()),
             help: "in a clone of plydrape: python3 -m pip install '.[study]'; or name a Python that has \
                    it in PLYDRAPE_PYTHON"

@@ -3,9 +3,9 @@
 //! Some of them drive machines: robots and axes follow them as they are. Of a motion that is not accepted these are written
 //! only if the caller says so, see [`Options::even_if_rejected`].
 
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
-use crate::robot::program::{Program, ProgramError, Robot, Template, Tolerance, template, wide};
+use crate::robot::program::{Program, Robot, Template, Tolerance, template, wide};
 use crate::robot::ros2;
 use crate::store::folder;
 use crate::store::folder::Files;
@@ -56,11 +56,14 @@ pub struct Options {
 /// The files of a format. Same result, same options, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
-pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, OutputError> {
+/// [`Error`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
+pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, Error> {
     if format.drives() && !result.summary.accepted() && !options.even_if_rejected {
         let verdict = Program::verdict(result);
-        return Err(ProgramError::Rejected { verdict }.into());
+        let message = format!(
+            "the motion is not accepted, and these files would drive a machine along it ({verdict}): change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads"
+        );
+        return Err(Error::not_possible(message, ""));
     }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
@@ -91,13 +94,13 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
 /// of the same names only make way if plydrape wrote them and nobody has changed them since.
 ///
 /// # Errors
-/// [`OutputError`], as for [`files`] and [`crate::write_all`].
+/// [`Error`], as for [`files`] and [`crate::write_all`].
 pub fn write(
     result: &ResultFile,
     format: Format,
     options: &Options,
     dir: &Path,
-) -> Result<Vec<PathBuf>, OutputError> {
+) -> Result<Vec<PathBuf>, Error> {
     let files = files(result, format, options)?;
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, content)| (name.as_str(), content.as_slice())).collect();

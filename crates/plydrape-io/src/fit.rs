@@ -1,9 +1,10 @@
 //! Laws of a material from the tables of its tests, and the lines of a material file that say them.
 
-use crate::scene::{FitTable, Reading, SceneError, read_fit};
+use crate::Error;
+use crate::scene::{FitTable, Reading, read_fit};
 use plydrape::fit::{
-    BiasExtension, Estimate, FitError, Hang, Overhang, PictureFrame, ShearFit, ShearTest, Sure,
-    fit_hang, fit_moments,
+    BiasExtension, Estimate, Hang, Overhang, PictureFrame, ShearFit, ShearTest, Sure, fit_hang,
+    fit_moments,
 };
 use plydrape::material::MomentCurve;
 use serde_json::{Value, json};
@@ -83,57 +84,11 @@ pub struct Fitted {
     pub shear: Option<ShearFit>,
 }
 
-/// Why nothing was fitted.
-#[derive(Debug, thiserror::Error)]
-pub enum FitFault {
-    /// A table was refused.
-    #[error("{}", .0.message)]
-    Table(Box<SceneError>),
-    /// The points say no law.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// A measure is given nowhere.
-    #[error("the {what} of the specimens is given nowhere")]
-    Missing {
-        /// Which.
-        what: &'static str,
-        /// Where it can be given.
-        help: String,
-    },
-}
-
-impl From<SceneError> for FitFault {
-    fn from(error: SceneError) -> Self {
-        FitFault::Table(Box::new(error))
-    }
-}
-
-impl FitFault {
-    /// What to do.
-    #[must_use]
-    pub fn help(&self) -> String {
-        match self {
-            FitFault::Table(error) => error.help.clone(),
-            FitFault::Fit(FitError::Few { .. }) => {
-                "record more points, over a larger range of the test".into()
-            }
-            FitFault::Fit(FitError::Range { .. }) => {
-                "see whether the units in the headers and options are right".into()
-            }
-            FitFault::Fit(FitError::NoFit { .. }) => {
-                "x points away from the edge, z up, both are 0 at the edge; moments and curvatures that go together have one sign"
-                    .into()
-            }
-            FitFault::Missing { help, .. } => help.clone(),
-        }
-    }
-}
-
 /// Fits a law.
 ///
 /// # Errors
 /// If a table is broken, a measure is missing, or the points say no law.
-pub fn fit(request: &Request) -> Result<Fitted, FitFault> {
+pub fn fit(request: &Request) -> Result<Fitted, Error> {
     let all = request.warp.iter().chain(&request.weft);
     let mut fitted = Fitted {
         test: String::new(),
@@ -142,8 +97,8 @@ pub fn fit(request: &Request) -> Result<Fitted, FitFault> {
         bending: [None, None],
         shear: None,
     };
-    let of = |reading: Reading| -> Result<[Vec<(String, FitTable)>; 2], FitFault> {
-        let read = |paths: &[PathBuf]| -> Result<Vec<_>, FitFault> {
+    let of = |reading: Reading| -> Result<[Vec<(String, FitTable)>; 2], Error> {
+        let read = |paths: &[PathBuf]| -> Result<Vec<_>, Error> {
             paths.iter().map(|path| Ok((name(path), read_fit(path, reading)?))).collect()
         };
         Ok([read(&request.warp)?, read(&request.weft)?])
@@ -237,22 +192,22 @@ fn stated(key: &str, tables: &[(String, FitTable)]) -> Option<f64> {
     tables.iter().find_map(|(_, table)| table.stated(key))
 }
 
-fn missing(what: &'static str) -> FitFault {
+fn missing(what: &'static str) -> Error {
     let value = if what == "mass" { "314 g/m^2" } else { "100 mm" };
     let help =
         format!("give --{what} \"{value}\", or a line `# {what} = {value}` at the top of the file");
-    FitFault::Missing { what, help }
+    Error::not_possible(format!("the {what} of the specimens is given nowhere"), help)
 }
 
 fn measure(
     what: &'static str,
     given: Option<f64>,
     tables: &[(String, FitTable)],
-) -> Result<f64, FitFault> {
+) -> Result<f64, Error> {
     given.or_else(|| stated(what, tables)).ok_or_else(|| missing(what))
 }
 
-fn mass_of(given: Option<f64>, tables: &[Vec<(String, FitTable)>; 2]) -> Result<f64, FitFault> {
+fn mass_of(given: Option<f64>, tables: &[Vec<(String, FitTable)>; 2]) -> Result<f64, Error> {
     let stated = tables.iter().find_map(|tables| stated("mass", tables));
     given.or(stated).ok_or_else(|| missing("mass"))
 }

@@ -5,6 +5,7 @@
 //!
 //! | folder | what it does |
 //! |---|---|
+//! | [`error`](mod@error) | why something could not be read, made or written |
 //! | [`store`] | writes folders whole or not at all, JSON without NaN, reads regular files alone, and refuses what would not fit the memory |
 //! | [`read`] | readers of meshes, drawings and formulas |
 //! | [`result`] | the result file, and the states of a sheet beside it |
@@ -15,6 +16,7 @@
 //! | [`page`] | the results page |
 //! | [`export`], [`fit`], [`plan`], [`replan`] | all exports by name, fitted materials, the files of a plan and of one whose ply lies elsewhere |
 
+pub mod error;
 pub mod export;
 pub mod fit;
 pub mod page;
@@ -31,11 +33,10 @@ pub mod write;
 #[cfg(test)]
 mod sample;
 
-pub use store::error::OutputError;
+pub use error::{Diagnostic, Error};
 
 pub use result::ResultFile;
 pub use store::folder::{Content, Files, Folder, Staged};
-pub use store::read_error::ReadError;
 
 use std::path::{Path, PathBuf};
 
@@ -48,9 +49,9 @@ pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));
 /// Returns the paths. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
+/// [`Error`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
 /// the folder is then as it was.
-pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
+pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, Error> {
     write_into(Folder::claim(dir, "simulate")?, result, &[], &[])
 }
 
@@ -75,7 +76,7 @@ pub fn write_into(
     result: &ResultFile,
     more: &[(&str, &dyn Content)],
     read: &[PathBuf],
-) -> Result<Vec<PathBuf>, OutputError> {
+) -> Result<Vec<PathBuf>, Error> {
     stage_into(folder, result, more, read)?.write()
 }
 
@@ -88,7 +89,7 @@ pub fn stage_into(
     result: &ResultFile,
     more: &[(&str, &dyn Content)],
     read: &[PathBuf],
-) -> Result<Staged, OutputError> {
+) -> Result<Staged, Error> {
     // First of all: no number that is not finite goes on.
     result.check_finite()?;
     let steps = write::csv::steps(result)?;

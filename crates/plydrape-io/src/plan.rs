@@ -1,7 +1,7 @@
 //! The files of a plan: those of its drape, the motion, and `plan.json`, the checkpoint from which a later search continues.
 
 use crate::store::json;
-use crate::{Folder, OutputError, ResultFile, Staged};
+use crate::{Error, Folder, ResultFile, Staged};
 use plydrape::planner::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -34,54 +34,40 @@ struct Whole {
     search: Checkpoint,
 }
 
-/// Why a text is no plan file to go on from.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanFileError {
-    /// Of another format, or of another version.
-    #[error(
-        "it is of format `{format}`, version {version}, expected `{FORMAT}`, version {VERSION}"
-    )]
-    Format {
-        /// Its format.
-        format: String,
-        /// Its version.
-        version: u32,
-    },
-    /// No plan file at all, or a damaged one.
-    #[error(transparent)]
-    Json(#[from] serde_json::Error),
-}
-
 /// The text of a plan file.
 ///
 /// # Errors
-/// [`json::JsonError`] if a number is not finite.
-pub fn text(search: &Checkpoint) -> Result<String, json::JsonError> {
+/// [`Error`] if a number is not finite.
+pub fn text(search: &Checkpoint) -> Result<String, Error> {
     json::of(&Written { format: FORMAT, version: VERSION, search })
 }
 
 /// Reads the text of a plan file.
 ///
 /// # Errors
-/// [`PlanFileError`] if it is none of this version.
-pub fn read(text: &str) -> Result<Checkpoint, PlanFileError> {
-    let Head { format, version } = serde_json::from_str(text)?;
+/// [`Error::File`] if it is none of this version.
+pub fn read(text: &str) -> Result<Checkpoint, Error> {
+    let refused = |message: String| Error::file("plan.json", message, "plan anew");
+    let json = |fault: serde_json::Error| refused(fault.to_string());
+    let Head { format, version } = serde_json::from_str(text).map_err(json)?;
     if (format.as_str(), version) != (FORMAT, VERSION) {
-        return Err(PlanFileError::Format { format, version });
+        return Err(refused(format!(
+            "it is of format `{format}`, version {version}, expected `{FORMAT}`, version {VERSION}"
+        )));
     }
-    Ok(serde_json::from_str::<Whole>(text)?.search)
+    Ok(serde_json::from_str::<Whole>(text).map_err(json)?.search)
 }
 
 /// Writes the files of a plan's result with `motion.csv`, and `plan.json`, into a folder, all or none, and returns
 /// their paths.
 ///
 /// # Errors
-/// [`OutputError`], as for [`crate::write_all`].
+/// [`Error`], as for [`crate::write_all`].
 pub fn write_all(
     result: &ResultFile,
     search: &Checkpoint,
     dir: &Path,
-) -> Result<Vec<PathBuf>, OutputError> {
+) -> Result<Vec<PathBuf>, Error> {
     write_into(Folder::claim(dir, "plan")?, result, search, &[])
 }
 
@@ -94,7 +80,7 @@ pub fn write_into(
     result: &ResultFile,
     search: &Checkpoint,
     read: &[PathBuf],
-) -> Result<Vec<PathBuf>, OutputError> {
+) -> Result<Vec<PathBuf>, Error> {
     stage_into(folder, result, search, read)?.write()
 }
 
@@ -107,7 +93,7 @@ pub fn stage_into(
     result: &ResultFile,
     search: &Checkpoint,
     read: &[PathBuf],
-) -> Result<Staged, OutputError> {
+) -> Result<Staged, Error> {
     let plan = text(search)?;
     super::stage_into(folder, result, &[("plan.json", &plan.as_bytes())], read)
 }

@@ -1,52 +1,17 @@
 //! A planned result for a ply that lies elsewhere than planned: what [`plydrape::planner::replan`] needs of a result that was read, and the
 //! result of what it finds.
 
-use crate::ReadError;
+use crate::Error;
 use crate::result::ResultFile;
-use crate::result::sheet::{SheetError, SheetKept, SheetSpool, SheetState};
+use crate::result::sheet::{SheetFile, SheetKept, SheetState};
 use plydrape::layup::Layup;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::motion::Motion;
-use plydrape::planner::replan::{Plan, ReplanError, Replanned, Replanner, SheetShapes};
+use plydrape::planner::replan::{Plan, Replanned, Replanner, SheetShapes};
 use plydrape::scene::{self, Scene};
 use std::path::Path;
 use std::sync::OnceLock;
-
-/// Why a result cannot be replanned.
-#[derive(Debug, thiserror::Error)]
-pub enum ReplanFault {
-    /// It was simulated.
-    #[error("the result is none of a plan: its motion is the scene's")]
-    NotPlanned,
-    /// The plan cannot be corrected.
-    #[error(transparent)]
-    Replan(#[from] ReplanError),
-    /// The states of its sheet cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// The states of the new sheet cannot be kept.
-    #[error(transparent)]
-    States(#[from] SheetError),
-}
-
-impl ReplanFault {
-    /// What would help.
-    #[must_use]
-    pub fn remedy(&self) -> String {
-        match self {
-            ReplanFault::NotPlanned => {
-                "give the result.json of `plydrape plan`; of a scene's own motion, change the scene"
-                    .into()
-            }
-            ReplanFault::Replan(fault) => fault.remedy().into(),
-            ReplanFault::Read(fault) => fault.remedy().to_string(),
-            ReplanFault::States(_) => {
-                "make room on the disk, or choose a folder on another one with -o".into()
-            }
-        }
-    }
-}
 
 /// A planned result and what its correction needs.
 #[derive(Debug)]
@@ -60,9 +25,9 @@ impl PlannedResult {
     /// Prepares a result.
     ///
     /// # Errors
-    /// [`ReplanFault`] if it was not planned, or the states of its sheet cannot be read.
-    pub fn new(result: ResultFile) -> Result<Self, ReplanFault> {
-        let Some(record) = &result.plan else { return Err(ReplanFault::NotPlanned) };
+    /// [`Error`] if it was not planned, or the states of its sheet cannot be read.
+    pub fn new(result: ResultFile) -> Result<Self, Error> {
+        let Some(record) = &result.plan else { return Err(not_planned()) };
         let echo = &result.scene;
         let positions = result
             .steps
@@ -119,10 +84,10 @@ impl PlannedResult {
     /// What answers offsets with motions.
     ///
     /// # Errors
-    /// [`ReplanFault`] if the plan has no transport in which an offset could be taken out.
-    pub fn replanner(&self) -> Result<Replanner<'_>, ReplanFault> {
+    /// [`Error`] if the plan has no transport in which an offset could be taken out.
+    pub fn replanner(&self) -> Result<Replanner<'_>, Error> {
         let ResultFile { plan, steps, summary, .. } = &self.result;
-        let Some(record) = plan else { return Err(ReplanFault::NotPlanned) };
+        let Some(record) = plan else { return Err(not_planned()) };
         let plan = Plan { scene: &self.scene, record, steps, summary };
         Ok(Replanner::new(plan, self.sheet.as_ref())?)
     }
@@ -130,8 +95,8 @@ impl PlannedResult {
     /// The result of a corrected plan, of the model that decides alone; the moved states of its sheet are kept in a hidden folder within `dir`.
     ///
     /// # Errors
-    /// [`ReplanFault`] if the states of the sheet cannot be read or kept.
-    pub fn corrected(&self, replanned: Replanned, dir: &Path) -> Result<ResultFile, ReplanFault> {
+    /// [`Error`] if the states of the sheet cannot be read or kept.
+    pub fn corrected(&self, replanned: Replanned, dir: &Path) -> Result<ResultFile, Error> {
         let result = &self.result;
         let kept = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
         let states = kept.map(|kept| self.states(kept, &replanned, dir)).transpose()?;
@@ -155,16 +120,16 @@ impl PlannedResult {
         kept: &SheetKept,
         replanned: &Replanned,
         dir: &Path,
-    ) -> Result<SheetKept, ReplanFault> {
-        let mut states = kept.open()?;
-        let mut spool = SheetSpool::new(dir, states.mesh().clone())?;
+    ) -> Result<SheetKept, Error> {
+        let mut file = kept.open()?;
         let planned = self.result.steps.last().map_or(0.0, |step| step.time);
-        for n in 0..states.states() {
-            let Some(mut state) = states.state(n)? else { break };
+        let mut states = Vec::with_capacity(file.states());
+        for n in 0..file.states() {
+            let Some(mut state) = file.state(n)? else { break };
             self.follow(&mut state, replanned, planned);
-            spool.push(&state)?;
+            states.push(state);
         }
-        Ok(SheetKept::made(spool.finish(states.landing_step())?))
+        SheetFile::new(dir, file.mesh(), file.landing_step(), &states).map(SheetKept::made)
     }
 
     /// Moves a state to where it is in the corrected motion.
@@ -191,8 +156,16 @@ impl PlannedResult {
     }
 }
 
+/// A result that was simulated.
+fn not_planned() -> Error {
+    Error::not_possible(
+        "the result is none of a plan: its motion is the scene's",
+        "give the result.json of `plydrape plan`; of a scene's own motion, change the scene",
+    )
+}
+
 /// The states of a sheet up to its first contact.
-fn shapes(result: &ResultFile, kept: &SheetKept) -> Result<SheetShapes, ReplanFault> {
+fn shapes(result: &ResultFile, kept: &SheetKept) -> Result<SheetShapes, Error> {
     let first = result.summary.first_contact_step();
     let last = first.unwrap_or(result.steps.len());
     let mut states = kept.open()?;

@@ -6,10 +6,10 @@ use plydrape::outcome::Step;
 use plydrape::ply::{GripperId, Kind};
 use plydrape_io::page::{self, Form};
 use plydrape_io::result::sheet::drape;
-use plydrape_io::scene::{SceneError, parse_for};
+use plydrape_io::scene::parse_for;
 use plydrape_io::store::json;
 use plydrape_io::write::surface::{shape, stations};
-use plydrape_io::{OutputError, PROGRAM, ResultFile};
+use plydrape_io::{Error, PROGRAM, ResultFile};
 use serde::Serialize;
 use std::path::Path;
 
@@ -96,9 +96,9 @@ pub fn answer(scene: &str, mold: Mold) -> Answer {
                 let form = Form { triangles, packed: false };
                 hanging(&result, form).map_or_else(|e| refused(&e.to_string(), ""), Answer::Ply)
             }
-            Err(fault) => refused(&fault.to_string(), fault.remedy()),
+            Err(error) => refused(&error.to_string(), error.help()),
         },
-        Err(SceneError { message, help, .. }) => refused(&message, &help),
+        Err(error) => refused(&error.message(), error.help()),
     }
 }
 
@@ -106,7 +106,7 @@ fn refused(message: &str, help: &str) -> Answer {
     Answer::Refused(json::of(&Refused { refused: message, help }).unwrap_or_default())
 }
 
-fn hanging(result: &ResultFile, form: Form) -> Result<String, OutputError> {
+fn hanging(result: &ResultFile, form: Form) -> Result<String, Error> {
     let data = page::data(result, form)?;
     let steps = result.steps.first().and_then(|step| Some((step, step.catenaries.as_ref()?)));
     let own = steps.map(|(step, hanging)| {

@@ -88,7 +88,7 @@ pub fn simulate_all(
         };
         pool.install(|| scenes.par_iter().map(drape).collect::<std::result::Result<Vec<_>, _>>())
     })?;
-    results.map_err(|fault| error::sheet(&fault))
+    results.map_err(|fault| error::scene(&fault))
 }
 
 /// What is kept of one equilibrium of many.

@@ -12,10 +12,10 @@ use plydrape::motion::TimedMotion;
 use plydrape::outcome::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, PlanError, PlanRecord};
 use plydrape::scene::PlanMethod;
-use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
-use plydrape_io::result::sheet::{self, SheetDrapeError};
+use plydrape_io::result::sheet;
 use plydrape_io::scene::{Measured, SceneFile};
+use plydrape_io::{Error, ResultFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -90,7 +90,7 @@ pub fn simulate(
         }
         Ok(result)
     })?;
-    result.map(|result| Result(Arc::new(result))).map_err(|fault| error::sheet(&fault))
+    result.map(|result| Result(Arc::new(result))).map_err(|fault| error::scene(&fault))
 }
 
 /// The drape of a scene by the model that decides, and by the other one if the scene asks for it, with the states of a sheet in the folder
@@ -99,7 +99,7 @@ pub fn draped(
     scene: &SceneFile,
     watch: &Watch,
     told: &dyn Fn(usize, &'static str),
-) -> std::result::Result<ResultFile, SheetDrapeError> {
+) -> std::result::Result<ResultFile, Error> {
     let (model, dir) = (scene.layup.settings.model, std::env::temp_dir());
     let drape = sheet::drape(scene, model, &dir, &watch.stop(), |done| told(done, "draping"))?;
     let mut result = ResultFile::new(scene, scene.input.clone(), drape);
@@ -113,7 +113,7 @@ fn show_also(
     scene: &plydrape::Scene,
     watch: &Watch,
     told: &dyn Fn(usize, &'static str),
-) -> std::result::Result<(), SheetDrapeError> {
+) -> std::result::Result<(), Error> {
     if scene.also && !result.summary.interrupted() {
         let (model, dir) = (result.model().other(), std::env::temp_dir());
         let beside = |done| told(done, "draping by the other model");
@@ -237,7 +237,7 @@ pub fn plan(
             ))
         })?;
     if let Some(refusal) = &scene.plan_refusal {
-        return Err(error::scene(refusal));
+        return Err(error::diagnostic(refusal));
     }
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();
@@ -250,7 +250,7 @@ pub fn plan(
         });
         planned.map(|planned| judged(&scene, planned, without_errors, watch))
     })?;
-    planned.map_err(|fault| no_plan(&fault))?.map_err(|fault| error::sheet(&fault))
+    planned.map_err(|fault| no_plan(&fault))?.map_err(|fault| error::scene(&fault))
 }
 
 /// What becomes of a planned motion: its result, with the other model beside if the scene asks for it, judged with errors unless these are
@@ -260,7 +260,7 @@ fn judged(
     planned: planner::Planned,
     without_errors: bool,
     watch: &Watch,
-) -> std::result::Result<Plan, SheetDrapeError> {
+) -> std::result::Result<Plan, Error> {
     let (record, motion) = (planned.record.clone(), planned.motion.clone());
     let (checkpoint, decisions) = (planned.checkpoint.clone(), planned.decisions);
     let time_over = planned.interrupted;
@@ -280,7 +280,7 @@ fn judged(
 /// Why there is no plan; a scene that its model cannot drape is refused as such.
 fn no_plan(fault: &PlanError) -> PyErr {
     match fault {
-        PlanError::Model(fault) => error::model(fault),
+        PlanError::Model(fault) => error::scene(&fault.clone().into()),
         fault => error::plan(fault),
     }
 }
@@ -420,7 +420,7 @@ impl Plan {
     /// The checkpoint from which a later search continues: the text of plan.json.
     #[getter]
     fn checkpoint(&self) -> PyResult<String> {
-        plan_file::text(&self.checkpoint).map_err(|fault| error::output(&fault.into()))
+        plan_file::text(&self.checkpoint).map_err(|fault| error::output(&fault))
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a

@@ -194,7 +194,7 @@ impl Equilibrium {
         let grippers = self.positions.len();
         let (axes, names, directions): (Vec<usize>, Vec<String>, Vec<Direction>) = match wrt {
             "grippers" => {
-                size::derivatives(&ply).map_err(|fault| error::too_large(&fault))?;
+                size::derivatives(&ply).map_err(|fault| error::value(&fault))?;
                 let axis = |n: usize, k: usize| Direction::gripper(&ply, n, k);
                 let directions =
                     (0..grippers).flat_map(|n| (0..3).map(move |k| axis(n, k))).collect();

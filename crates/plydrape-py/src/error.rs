@@ -1,10 +1,6 @@
 //! Errors of the library as the exceptions of `plydrape.errors`, with the same words.
 
-use plydrape::ModelError;
-use plydrape_io::result::sheet::{SheetDrapeError, model_remedy};
-use plydrape_io::scene::{SceneError, Unread};
-use plydrape_io::store::size::SizeError;
-use plydrape_io::{OutputError, ReadError};
+use plydrape_io::{Diagnostic, Error};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -50,59 +46,70 @@ pub fn unread(path: &Path, fault: &io::Error) -> PyErr {
     plain_of_file("OutputError", &text, path, fault.kind())
 }
 
-/// A refused scene.
-pub fn scene(error: &SceneError) -> PyErr {
+/// A refused scene: with its place, and as the exception that Python has where the file system refused a file.
+pub fn diagnostic(fault: &Diagnostic) -> PyErr {
     Python::attach(|py| {
         let fields = || -> PyResult<Bound<'_, PyDict>> {
             let fields = PyDict::new(py);
-            let (line, column) = error.line_column().unzip();
-            fields.set_item("file", &error.file)?;
+            let (line, column) = fault.line_column().unzip();
+            fields.set_item("file", &fault.file)?;
             fields.set_item("line", line)?;
             fields.set_item("column", column)?;
-            fields.set_item("message", &error.message)?;
-            fields.set_item("help", &error.help)?;
+            fields.set_item("message", &fault.message)?;
+            fields.set_item("help", &fault.help)?;
             Ok(fields)
         };
-        match (fields(), error.unread.as_deref()) {
-            (Ok(fields), Some(Unread { path, kind })) => {
-                of_file(py, raise(py, "SceneError", error, &fields), path, *kind)
-            }
-            (Ok(fields), None) => raise(py, "SceneError", error, &fields),
-            (Err(error), _) => error,
+        let raised = match fields() {
+            Ok(fields) => raise(py, "SceneError", fault, &fields),
+            Err(error) => return error,
+        };
+        match &fault.unread {
+            Some((path, kind)) => of_file(py, raised, path, *kind),
+            None => raised,
         }
     })
 }
 
-/// A refused scene, of which no place is at fault.
-pub fn refused(message: &(impl Display + ?Sized), help: &str) -> SceneError {
-    SceneError {
-        file: "scene".into(),
-        text: "".into(),
-        span: None,
-        message: message.to_string(),
-        help: help.into(),
-        unread: None,
+/// A scene of which no place is at fault.
+pub fn refused(message: &(impl Display + ?Sized), help: &str) -> Diagnostic {
+    Diagnostic::new("scene", message.to_string(), help)
+}
+
+/// What was wrong and what would help, in one line.
+pub fn text(error: &Error) -> String {
+    match error.help() {
+        "" => error.to_string(),
+        help => format!("{}; {help}", error.message()),
     }
 }
 
-/// A scene that a model cannot drape.
-pub fn model(fault: &ModelError) -> PyErr {
-    scene(&refused(fault, model_remedy(fault)))
+/// A refused scene as such, and another error as an exception of `plydrape.errors` by its name.
+fn other(name: &str, error: &Error) -> PyErr {
+    if let Some(fault) = error.diagnostic() {
+        return diagnostic(fault);
+    }
+    match error.refused_path() {
+        Some((path, kind)) => plain_of_file(name, &text(error), path, kind),
+        None => plain(name, &text(error)),
+    }
 }
 
-/// A scene that was not draped.
-pub fn sheet(fault: &SheetDrapeError) -> PyErr {
-    match fault {
-        SheetDrapeError::States(_) => plain("OutputError", &format!("{fault}; {}", fault.remedy())),
-        SheetDrapeError::Model(_) | SheetDrapeError::Size(_) => {
-            scene(&refused(fault, fault.remedy()))
+/// A scene that cannot be used, or was not draped.
+pub fn scene(error: &Error) -> PyErr {
+    match error {
+        Error::NotPossible { .. } | Error::TooLarge { .. } => {
+            diagnostic(&refused(&error.message(), error.help()))
         }
+        _ => other("OutputError", error),
     }
 }
 
-/// Work that would take too much memory.
-pub fn too_large(fault: &SizeError) -> PyErr {
-    PyValueError::new_err(format!("{fault}; {}", fault.remedy()))
+/// Work that would take too much memory, or numbers of a test that say no law.
+pub fn value(error: &Error) -> PyErr {
+    match error.diagnostic() {
+        Some(fault) => diagnostic(fault),
+        None => PyValueError::new_err(text(error)),
+    }
 }
 
 /// A scene without a plan.
@@ -111,24 +118,13 @@ pub fn plan(error: &dyn Display) -> PyErr {
 }
 
 /// A result file that is none.
-pub fn read(error: &ReadError) -> PyErr {
-    let text = format!("{error}; {}", error.remedy());
-    match error {
-        ReadError::Unreadable { path, source } => {
-            plain_of_file("ResultError", &text, path, source.kind())
-        }
-        _ => plain("ResultError", &text),
-    }
+pub fn read(error: &Error) -> PyErr {
+    other("ResultError", error)
 }
 
 /// Results that could not be written.
-pub fn output(error: &OutputError) -> PyErr {
-    match error {
-        OutputError::Io { path, source, .. } => {
-            plain_of_file("OutputError", error, path, source.kind())
-        }
-        _ => plain("OutputError", error),
-    }
+pub fn output(error: &Error) -> PyErr {
+    other("OutputError", error)
 }
 
 /// An equilibrium or a span without a solution.

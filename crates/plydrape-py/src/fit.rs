@@ -3,7 +3,7 @@
 use crate::error;
 use crate::json::Json;
 use crate::quantity::Amount;
-use plydrape_io::fit::{FitFault, Request, Test};
+use plydrape_io::fit::{Request, Test};
 use plydrape_io::scene::Measured;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -95,10 +95,7 @@ pub fn fit(
             )));
         }
     };
-    let fitted =
-        plydrape_io::fit::fit(&Request { test, warp, weft }).map_err(|fault| match fault {
-            FitFault::Table(fault) => error::scene(&fault),
-            fault => PyValueError::new_err(format!("{fault}; {}", fault.help())),
-        })?;
+    let fitted = plydrape_io::fit::fit(&Request { test, warp, weft })
+        .map_err(|fault| error::value(&fault))?;
     Json::of(&fitted.json())
 }

@@ -12,7 +12,7 @@ pub struct Json(String);
 impl Json {
     /// Anything that can be written.
     pub fn of<T: Serialize>(value: &T) -> PyResult<Self> {
-        json::of(value).map(Json).map_err(|fault| error::output(&fault.into()))
+        json::of(value).map(Json).map_err(|fault| error::output(&fault))
     }
 }
 

@@ -4,8 +4,9 @@ use crate::error;
 use crate::scene::{Origin, Scene};
 use plydrape::ModelError;
 use plydrape::layup::Model;
-use plydrape_io::result::sheet::{SheetSize, model_remedy};
-use plydrape_io::scene::{SceneError, SceneFile, parse_for};
+use plydrape_io::result::sheet::SheetSize;
+use plydrape_io::scene::{SceneFile, parse_for};
+use plydrape_io::{Diagnostic, Error};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -56,12 +57,12 @@ pub fn for_models(
     }
     match fault(&file, decides, beside) {
         None => Ok(file),
-        Some(fault) => Err(error::scene(&located(&file, origin, asked).unwrap_or(fault))),
+        Some(fault) => Err(error::diagnostic(&located(&file, origin, asked).unwrap_or(fault))),
     }
 }
 
 /// Why a scene is not draped by these models.
-fn fault(file: &SceneFile, decides: Model, beside: Option<Model>) -> Option<SceneError> {
+fn fault(file: &SceneFile, decides: Model, beside: Option<Model>) -> Option<Diagnostic> {
     if beside == Some(decides) {
         return Some(error::refused(
             "the model to be draped beside the one that decides is that one",
@@ -69,11 +70,10 @@ fn fault(file: &SceneFile, decides: Model, beside: Option<Model>) -> Option<Scen
         ));
     }
     for model in [Some(decides), beside].into_iter().flatten() {
-        let sheet = (model == Model::Sheet).then(|| SheetSize::of(file)).transpose();
-        match (ModelError::check(&file.layup, model), sheet) {
-            (Err(fault), _) => return Some(error::refused(&fault, model_remedy(&fault))),
-            (_, Err(fault)) => return Some(error::refused(&fault, fault.remedy())),
-            _ => {}
+        let sound = ModelError::check(&file.layup, model).map_err(Error::from);
+        let sheet = || (model == Model::Sheet).then(|| SheetSize::of(file)).transpose();
+        if let Err(error) = sound.and_then(|()| sheet()) {
+            return Some(error::refused(&error, error.help()));
         }
     }
     (decides == Model::Catenaries && file.layup.release.is_some()).then(|| {
@@ -89,8 +89,11 @@ fn located(
     file: &SceneFile,
     origin: &Origin,
     [model, also]: [Option<Model>; 2],
-) -> Option<SceneError> {
+) -> Option<Diagnostic> {
     let made = file.layup.mold.clone().filter(|_| origin.mold);
     let text = file.input.as_deref()?;
-    parse_for(text, &origin.base, "scene", made, model, also).err()
+    match parse_for(text, &origin.base, "scene", made, model, also) {
+        Err(Error::Scene(fault)) => Some(*fault),
+        _ => None,
+    }
 }

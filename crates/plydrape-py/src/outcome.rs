@@ -112,7 +112,7 @@ pub fn outcome(
     let mut scene = (*for_models(scene.get(), Some("catenaries"), None)?).clone();
     scene.also = false;
     let layup = &scene.layup;
-    size::derivatives(&layup.ply).map_err(|fault| error::too_large(&fault))?;
+    size::derivatives(&layup.ply).map_err(|fault| error::value(&fault))?;
     let (steps, grippers) = (layup.motion.positions.len(), layup.ply.grippers());
     let found = run(py, progress, move |watch| {
         let found = sensitivity::outcome(&scene, |done| watch.tell(done, steps, "draping"))?;
@@ -120,7 +120,7 @@ pub fn outcome(
         Some(drape.map(|drape| (found, ResultFile::new(&scene, scene.input.clone(), drape))))
     })?;
     let found = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
-    let (found, result) = found.map_err(|fault| error::sheet(&fault))?;
+    let (found, result) = found.map_err(|fault| error::scene(&fault))?;
     let [overstretch, tilt] = [found.last_step.overstretch, found.last_step.tilt]
         .map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
     let rows = |quantities: &[Option<Quantity>]| Rows::of(quantities, grippers);

@@ -28,10 +28,11 @@ use plydrape::mold::{self as molds, Raised, Waves};
 use plydrape::motion::Motion;
 use plydrape::ply as plies;
 use plydrape::scene as scenes;
+use plydrape_io::Diagnostic;
 use plydrape_io::result::SceneEcho;
 use plydrape_io::result::read;
 use plydrape_io::result::sheet::{SheetFile, SheetKept};
-use plydrape_io::scene::{SceneError, SceneFile};
+use plydrape_io::scene::SceneFile;
 use plydrape_io::store::json;
 use plydrape_io::write::surface;
 use plydrape_io::{Content, ResultFile, plan as plan_file};
@@ -165,7 +166,7 @@ pub fn restore<'py>(
 }
 
 /// A text, or why there is none: of a wavy mold for instance.
-fn text(made: std::result::Result<String, json::JsonError>) -> PyResult<String> {
+fn text(made: std::result::Result<String, plydrape_io::Error>) -> PyResult<String> {
     made.map_err(|fault| PyTypeError::new_err(format!("this cannot be pickled: {fault}")))
 }
 
@@ -277,17 +278,7 @@ struct SceneState {
     also: bool,
     thickness: Option<f64>,
     origin: Option<Origin>,
-    refusal: Option<Refusal>,
-}
-
-/// Why no plan is looked for.
-#[derive(Serialize, Deserialize)]
-struct Refusal {
-    file: String,
-    text: Arc<str>,
-    span: Option<std::ops::Range<usize>>,
-    message: String,
-    help: String,
+    refusal: Option<Box<Diagnostic>>,
 }
 
 impl SceneState {
@@ -295,13 +286,6 @@ impl SceneState {
     fn of(scene: &Scene, whole: bool) -> Self {
         let Scene(file, origin) = scene;
         let SceneFile { scene, input, thickness, plan_refusal, .. } = &**file;
-        let refusal = |fault: &SceneError| Refusal {
-            file: fault.file.clone(),
-            text: fault.text.clone(),
-            span: fault.span.clone(),
-            message: fault.message.clone(),
-            help: fault.help.clone(),
-        };
         SceneState {
             mold: MoldState::of(scene.layup.mold.as_ref()),
             scene: SceneEcho {
@@ -314,7 +298,7 @@ impl SceneState {
             also: scene.also,
             thickness: *thickness,
             origin: whole.then(|| origin.clone()),
-            refusal: plan_refusal.as_deref().filter(|_| whole).map(refusal),
+            refusal: plan_refusal.clone().filter(|_| whole),
         }
     }
 
@@ -337,16 +321,13 @@ impl SceneState {
             Layup { ply, mold: self.mold.mold(), motion, target, settings, bodies, tool, release };
         let scene =
             scenes::Scene { title, layup, limits, plan: self.plan, errors, also: self.also };
-        let refusal = |Refusal { file, text, span, message, help }: Refusal| {
-            Box::new(SceneError { file, text, span, message, help, unread: None })
-        };
         let file = SceneFile {
             scene,
             input,
             files: Vec::new(),
             mesh: None,
             thickness: self.thickness,
-            plan_refusal: self.refusal.map(refusal),
+            plan_refusal: self.refusal,
         };
         Scene(Arc::new(file), self.origin.unwrap_or_default())
     }

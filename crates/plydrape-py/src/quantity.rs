@@ -19,7 +19,7 @@ impl Amount {
         match self {
             Amount::Number(value) => Ok(*value),
             Amount::Text(text) => quantity(text, measured).map_err(|refused| {
-                PyValueError::new_err(format!("{name}: {}; {}", refused.message, refused.help))
+                PyValueError::new_err(format!("{name}: {}; {}", refused.message(), refused.help()))
             }),
         }
     }

@@ -25,7 +25,7 @@ use plydrape_io::scene::{Measured, parse_offset};
 use plydrape_io::store::folder;
 use plydrape_io::write::mold_patch::mold_patch;
 use plydrape_io::write::surface;
-use plydrape_io::{ResultFile, export, page};
+use plydrape_io::{Error, ResultFile, export, page};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -355,7 +355,7 @@ impl Result {
     /// >>> result.to_json()[:28]
     /// '{"format":"plydrape-result",'
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| ResultFile::text(&self.0)).map_err(|fault| error::output(&fault.into()))
+        py.detach(|| ResultFile::text(&self.0)).map_err(|fault| error::output(&fault))
     }
 
     /// Time of each step (s), shape (steps,).
@@ -644,21 +644,16 @@ impl Result {
         let tolerance = tolerance.map(|length| length.si("tolerance", Measured::Length));
         let tolerance = tolerance.transpose()?;
         let result = py.detach(|| {
-            let fault = |fault: &dyn std::fmt::Display, help: &str| {
-                error::plan(&format!("{fault}; {help}"))
-            };
-            let planned = PlannedResult::new((*self.0).clone())
-                .map_err(|found| fault(&found, &found.remedy()))?;
+            let fault = |error: Error| error::plan(&error::text(&error));
+            let planned = PlannedResult::new((*self.0).clone()).map_err(fault)?;
             let tolerance = tolerance.unwrap_or_else(|| planned.tolerance());
             let seen =
                 parse_offset(&text, "offset", tolerance).map_err(|fault| error::scene(&fault))?;
-            let replanner = planned.replanner().map_err(|found| fault(&found, &found.remedy()))?;
+            let replanner = planned.replanner().map_err(fault)?;
             let replanned = replanner
                 .replan(&seen.offset, seen.residual)
-                .map_err(|found| fault(&found, found.remedy()))?;
-            planned
-                .corrected(replanned, &std::env::temp_dir())
-                .map_err(|found| fault(&found, &found.remedy()))
+                .map_err(|found| fault(found.into()))?;
+            planned.corrected(replanned, &std::env::temp_dir()).map_err(fault)
         });
         result.map(|result| Result(Arc::new(result)))
     }

@@ -522,8 +522,7 @@ impl Scene {
         let motion = Motion { times, positions };
         let fault = self.0.layup.ply.check_motion(&motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
-        size::drape(&self.0.layup.ply, motion.times.len())
-            .map_err(|fault| error::too_large(&fault))?;
+        size::drape(&self.0.layup.ply, motion.times.len()).map_err(|fault| error::value(&fault))?;
         if let Some(found) = title.as_deref().and_then(shown::control) {
             return Err(PyValueError::new_err(format!(
                 "title holds the control character {}: remove it, one line of plain text is wanted",

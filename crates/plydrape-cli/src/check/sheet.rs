@@ -4,8 +4,8 @@ use super::Line;
 use crate::numbers::{millimetres, short};
 use plydrape::layup::{Friction, Model, Settings, SheetTime};
 use plydrape::scene::Scene;
+use plydrape_io::error;
 use plydrape_io::result::sheet::SheetSize;
-use plydrape_io::store::size;
 
 /// Mesh, pads and friction of the sheet; nothing where catenaries decide.
 pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
@@ -39,7 +39,7 @@ fn size(scene: &Scene) -> String {
         Ok(SheetSize { nodes, mesh, memory }) => format!(
             "{nodes} nodes, at most {} mm apart; about {} of memory",
             millimetres(mesh),
-            size::shown(memory)
+            error::bytes(memory)
         ),
         Err(fault) => fault.to_string(),
     }

@@ -5,7 +5,8 @@ use crate::model::ModelName;
 use crate::results::Results;
 use clap::{ValueEnum, value_parser};
 use plydrape::scene::PlanMethod;
-use plydrape_io::scene::{SceneError, SceneFile};
+use plydrape_io::Diagnostic;
+use plydrape_io::scene::SceneFile;
 use std::path::PathBuf;
 
 /// Find trajectories that lay the ply on its mold, and drape along them; verdict, files.
@@ -119,14 +120,8 @@ impl Arguments {
     pub(super) fn apply(&self, scene: &mut SceneFile) -> Result<(), Failure> {
         let file = &self.results.scene;
         let refused = |message: &str, help: &str| {
-            Failure::from(SceneError {
-                file: file.display().to_string(),
-                text: "".into(),
-                span: None,
-                message: format!("`{}` {message}", file.display()),
-                help: help.into(),
-                unread: None,
-            })
+            let message = format!("`{}` {message}", file.display());
+            Failure::from(Diagnostic::new(file.display().to_string(), message, help))
         };
         if scene.layup.mold.is_none() {
             return Err(refused(

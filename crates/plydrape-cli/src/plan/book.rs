@@ -52,7 +52,7 @@ pub fn plan(
     quiet: bool,
 ) -> Done {
     if let Some(option) = arguments.of_one_ply() {
-        return Err(Failure::Argument {
+        return Err(Failure::Refused {
             message: format!("{option} is for a single ply, and this is a plybook"),
             help: format!(
                 "plan the book without {option}; a ply that has a scene file of its own can be planned alone once that has a [mold]"

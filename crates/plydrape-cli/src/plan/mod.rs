@@ -104,7 +104,7 @@ const LARGEST_CHECKPOINT: u64 = 1 << 30;
 /// The checkpoint of an earlier search in its folder.
 fn checkpoint(folder: &Path) -> Result<Checkpoint, Failure> {
     let file = folder.join("plan.json");
-    let refused = |reason: String, help: &str| Failure::Argument {
+    let refused = |reason: String, help: &str| Failure::Refused {
         message: format!("there is no plan to go on from in `{}`: {reason}", folder.display()),
         help: help.into(),
     };

@@ -6,7 +6,7 @@ use super::field::Field;
 use super::grippers::Grippers;
 use super::sheet::{KeptStates, Sheet};
 use super::{Form, block::Block, cell};
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use plydrape::layup::Model;
 use plydrape::outcome::{Step, Summary};
@@ -53,14 +53,14 @@ impl<'a> Source<'a> {
     /// Its drape over the steps of the page; `kept` are the states of the sheet, if its model is that.
     ///
     /// # Errors
-    /// [`OutputError`] if the states of the sheet cannot be read.
+    /// [`Error`] if the states of the sheet cannot be read.
     pub fn show(
         &self,
         numbers: &[usize],
         detail: &Detail,
         kept: Option<KeptStates>,
         form: Form,
-    ) -> Result<Drape<'a>, OutputError> {
+    ) -> Result<Drape<'a>, Error> {
         let Source { result, summary, steps: all, decides } = *self;
         let judged = if decides { summary.limits.as_slice() } else { &[] };
         let steps = done(all, numbers);

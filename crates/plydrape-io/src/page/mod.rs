@@ -29,7 +29,7 @@ mod reading;
 mod sample;
 mod sheet;
 
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::ended;
 use crate::store::format::VERSION;
@@ -118,15 +118,15 @@ impl Form {
 ///
 /// # Errors
 /// As [`html`].
-pub fn data(result: &ResultFile, form: Form) -> Result<String, OutputError> {
-    Ok(crate::store::json::of(&page(result, form)?)?)
+pub fn data(result: &ResultFile, form: Form) -> Result<String, Error> {
+    crate::store::json::of(&page(result, form)?)
 }
 
 /// The page of a result. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, or the states of the sheet cannot be read.
-pub fn html(result: &ResultFile) -> Result<String, OutputError> {
+/// [`Error`] if a number is not finite, or the states of the sheet cannot be read.
+pub fn html(result: &ResultFile) -> Result<String, Error> {
     let data = data(result, Form::FILE)?.replace('<', "\\u003c");
     let title = result.scene.title.replace('&', "&amp;").replace('<', "&lt;");
     let whole =
@@ -135,7 +135,7 @@ pub fn html(result: &ResultFile) -> Result<String, OutputError> {
     Ok([head, &title, body, data.trim_end(), tail].concat())
 }
 
-fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, OutputError> {
+fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
     let (scene, summary) = (&result.scene, &result.summary);
 
     // the steps of the page: those of the model that decides, of large arrays of catenaries fewer

@@ -7,7 +7,7 @@ use super::block::Block;
 use super::drape::Source;
 use super::field::{Field, ends};
 use super::packing::{MICRO, hundredths, micrometers};
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::{CutCell, SheetMesh, SheetSides, SheetState, SheetStates};
 use crate::text::table::share;
@@ -55,8 +55,8 @@ impl KeptStates {
     /// The last state of each step that was kept, fewer of them if the sheet is large; `None` without a sheet.
     ///
     /// # Errors
-    /// [`OutputError`] if their file cannot be read.
-    pub fn open(result: &ResultFile) -> Result<Option<Self>, OutputError> {
+    /// [`Error`] if their file cannot be read.
+    pub fn open(result: &ResultFile) -> Result<Option<Self>, Error> {
         let Some(kept) = &result.sheet_states else { return Ok(None) };
         let mut file = kept.open()?;
         let states = file.steps()?;
@@ -114,11 +114,11 @@ impl Sheet {
     /// The sheet of a drape in the kept states, what colors tell of it, and which pads have let go in the last state.
     ///
     /// # Errors
-    /// [`OutputError`] if a state cannot be read.
+    /// [`Error`] if a state cannot be read.
     pub fn new(
         drape: &Source,
         KeptStates { mut file, states }: KeptStates,
-    ) -> Result<(Self, Vec<Field>, Vec<bool>), OutputError> {
+    ) -> Result<(Self, Vec<Field>, Vec<bool>), Error> {
         let result = drape.result;
         let sides = SheetSides::new(file.mesh());
         let mut packed = Packed::default();

@@ -1,7 +1,7 @@
 //! What is impossible in a result that was read.
 
 use super::{Also, ResultFile, SceneEcho};
-use crate::store::json::JsonError;
+use crate::Error;
 use crate::store::shown;
 use plydrape::bodies::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
@@ -17,7 +17,7 @@ use plydrape::sheet::Event;
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let also = || result.also.as_ref().and_then(|also| of_also(result, also));
     let too_large = || match result.check_within(LARGEST_NUMBER) {
-        Err(JsonError::NotFinite { key, value }) => {
+        Err(Error::NotFinite { key, value }) => {
             Some(format!("`{key}` is {value}, beyond {LARGEST_NUMBER:e}"))
         }
         _ => None,

@@ -10,10 +10,10 @@
 use super::contact::Known;
 use super::step::StepColumns;
 use super::{ResultFile, SceneEcho};
+use crate::Error;
 use crate::result::sheet::SheetSeal;
 use crate::store::folder::Content;
 use crate::store::format::{FORMAT, VERSION};
-use crate::store::json::JsonError;
 use crate::store::json::finite;
 use plydrape::layup::Model;
 use plydrape::outcome::{Step, Summary, Unjudged};
@@ -161,50 +161,44 @@ impl ResultFile {
         }
     }
 
-    /// Writes the whole file as one line of JSON with a line feed; numbers in their shortest exact form.
-    ///
-    /// # Errors
-    /// [`JsonError::NotFinite`] before anything is written if any number is NaN or infinite; [`JsonError::Serde`] if the
-    /// writer refuses.
-    pub fn write(&self, to: impl Write) -> Result<(), JsonError> {
-        self.check_finite()?;
-        let sum = RefCell::new(crc32fast::Hasher::new());
-        let mut to = Summing { sum: &sum, to };
-        serde_json::to_writer(&mut to, &self.document(Sum(&sum)))?;
-        to.write_all(b"\n").map_err(serde_json::Error::io)?;
-        Ok(())
-    }
-
     /// The whole file as text.
     ///
     /// # Errors
-    /// As [`ResultFile::write`].
-    pub fn text(&self) -> Result<String, JsonError> {
+    /// [`Error::NotFinite`] if any number is NaN or infinite.
+    pub fn text(&self) -> Result<String, Error> {
+        self.check_finite()?;
         let mut text = Vec::new();
-        self.write(&mut text)?;
+        self.write_sound(&mut text).map_err(Error::json)?;
         Ok(String::from_utf8(text).unwrap_or_default())
+    }
+
+    /// Writes the whole file, whose numbers are all finite.
+    fn write_sound(&self, to: impl Write) -> serde_json::Result<()> {
+        let sum = RefCell::new(crc32fast::Hasher::new());
+        let mut to = Summing { sum: &sum, to };
+        serde_json::to_writer(&mut to, &self.document(Sum(&sum)))?;
+        to.write_all(b"\n").map_err(serde_json::Error::io)
     }
 
     /// Refuses a result that holds a NaN or an infinity.
     ///
     /// # Errors
-    /// [`JsonError::NotFinite`] with the key of the first.
-    pub(crate) fn check_finite(&self) -> Result<(), JsonError> {
+    /// [`Error::NotFinite`] with the key of the first.
+    pub(crate) fn check_finite(&self) -> Result<(), Error> {
         finite::check(&self.document(""))
     }
 
     /// Refuses a result with a number beyond `most` in size.
-    pub(super) fn check_within(&self, most: f64) -> Result<(), JsonError> {
+    pub(super) fn check_within(&self, most: f64) -> Result<(), Error> {
         finite::within(&self.document(""), most)
     }
 }
 
+/// One line of JSON with a line feed; numbers in their shortest exact form.
 impl Content for ResultFile {
     fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        ResultFile::write(self, to).map_err(|fault| match fault {
-            JsonError::Serde(fault) => fault.into(),
-            fault => io::Error::other(fault),
-        })
+        self.check_finite().map_err(io::Error::other)?;
+        Ok(self.write_sound(to)?)
     }
 }
 
@@ -218,12 +212,11 @@ impl Serialize for ResultFile {
 #[cfg(test)]
 mod tests {
     use crate::sample::lines;
-    use crate::store::json::JsonError;
-    use crate::{ResultFile, sample};
+    use crate::{Error, ResultFile, sample};
 
     fn refused_key(result: &ResultFile) -> Option<String> {
         match result.text() {
-            Err(JsonError::NotFinite { key, .. }) => Some(key),
+            Err(Error::NotFinite { key, .. }) => Some(key),
             _ => None,
         }
     }

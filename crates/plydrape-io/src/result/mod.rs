@@ -10,10 +10,12 @@ mod contact;
 pub mod document;
 pub mod mold;
 pub mod read;
+mod refusal;
 pub mod sheet;
 mod step;
 
-use crate::result::sheet::{KeptDrape, SheetDrapeError, SheetKept};
+use crate::Error;
+use crate::result::sheet::{KeptDrape, SheetKept};
 use plydrape::bodies::Bodies;
 use plydrape::draping::curves;
 use plydrape::draping::record::CatenaryState;
@@ -152,13 +154,13 @@ impl ResultFile {
     /// The result of the outcome of a scene; states of a sheet go into a hidden folder within `dir`.
     ///
     /// # Errors
-    /// [`SheetDrapeError`] if the disk refuses.
+    /// [`Error`] if the disk refuses.
     pub fn of_outcome(
         scene: &Scene,
         input: Option<Arc<str>>,
         outcome: Outcome,
         dir: &Path,
-    ) -> Result<Self, SheetDrapeError> {
+    ) -> Result<Self, Error> {
         let Outcome { drape, also } = outcome;
         let mut result = ResultFile::new(scene, input, sheet::keep(drape, dir)?);
         if let Some(also) = also {
@@ -170,13 +172,13 @@ impl ResultFile {
     /// The result of a plan of a scene; states of a sheet go into a hidden folder within `dir`.
     ///
     /// # Errors
-    /// [`SheetDrapeError`] if the disk refuses.
+    /// [`Error`] if the disk refuses.
     pub fn planned(
         scene: &Scene,
         input: Option<Arc<str>>,
         planned: Planned,
         dir: &Path,
-    ) -> Result<Self, SheetDrapeError> {
+    ) -> Result<Self, Error> {
         let Planned { outcome, record, motion, attitudes, .. } = planned;
         let result = ResultFile::of_outcome(scene, input, outcome, dir)?;
         Ok(result.along(record, motion, attitudes))

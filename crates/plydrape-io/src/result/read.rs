@@ -7,9 +7,10 @@
 
 use super::check::fault;
 use super::document::{AlsoDocument, Document, shown};
+use super::refusal;
 use super::step::StepColumns;
 use super::{Also, ResultFile};
-use crate::ReadError;
+use crate::Error;
 use crate::result::sheet::SheetKept;
 use crate::store::file_kind::FileKind;
 use crate::store::format::{FILE, FORMAT, VERSION};
@@ -47,15 +48,15 @@ type ReadDocument = Document<'static, Vec<StepColumns>, String>;
 /// Reads a result file, or that in a folder.
 ///
 /// # Errors
-/// [`ReadError`] if it cannot be read, or is not, to the last byte, what this version writes.
-pub fn read(path: &Path) -> Result<ResultFile, ReadError> {
+/// [`Error`] if it cannot be read, or is not, to the last byte, what this version writes.
+pub fn read(path: &Path) -> Result<ResultFile, Error> {
     let path = &*file_of(path);
-    let fault = |source| ReadError::Unreadable { path: path.into(), source };
+    let fault = |source| refusal::unreadable(path, source);
     let size = input::size(path).map_err(fault)?;
-    size::result(size).map_err(|source| ReadError::TooLarge { path: path.into(), source })?;
+    size::result(size).map_err(|error| error.of_file(format_args!("`{}`", path.display())))?;
     let folder = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
     if !folder::is_sealed(folder) {
-        return Err(ReadError::Mixed { path: folder.into() });
+        return Err(refusal::mixed(folder));
     }
     let file = File::open(path).map_err(fault)?;
     // what is added to it meanwhile is not read
@@ -66,7 +67,7 @@ pub fn read(path: &Path) -> Result<ResultFile, ReadError> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn parse(bytes: &[u8], path: &Path) -> Result<ResultFile, ReadError> {
+pub fn parse(bytes: &[u8], path: &Path) -> Result<ResultFile, Error> {
     read_from(&mut Bounded { reader: Cursor::new(bytes), size: bytes.len() as u64 }, path)
 }
 
@@ -84,15 +85,10 @@ impl<R: BufRead + Seek> Bounded<R> {
     }
 }
 
-fn read_from<R: BufRead + Seek>(
-    file: &mut Bounded<R>,
-    path: &Path,
-) -> Result<ResultFile, ReadError> {
-    let path = path.to_path_buf();
-    let unreadable = |source| ReadError::Unreadable { path: path.clone(), source };
-    let changed =
-        |what: String| ReadError::Changed { path: path.clone(), reason: format!(": {what}") };
-    let foreign = |reason| ReadError::Foreign { path: path.clone(), reason };
+fn read_from<R: BufRead + Seek>(file: &mut Bounded<R>, path: &Path) -> Result<ResultFile, Error> {
+    let unreadable = |source| refusal::unreadable(path, source);
+    let changed = |what: String| refusal::changed(path, &what);
+    let foreign = |reason: String| refusal::foreign(path, &reason);
 
     let size = file.size;
     // Whose it is, and of which version: keys that are unknown here say nothing yet.
@@ -103,10 +99,7 @@ fn read_from<R: BufRead + Seek>(
             let ours = begins_as_ours(file.all().map_err(unreadable)?).map_err(unreadable)?;
             return Err(match error.classify() {
                 Category::Io => unreadable(error.into()),
-                Category::Eof if ours => {
-                    let (line, column) = (error.line(), error.column());
-                    ReadError::Truncated { path, line, column }
-                }
+                Category::Eof if ours => refusal::truncated(path, error.line(), error.column()),
                 _ if ours => changed(reason(&error)),
                 Category::Data => {
                     foreign(format!("not a result of plydrape: it has no `format` \"{FORMAT}\""))
@@ -128,10 +121,8 @@ fn read_from<R: BufRead + Seek>(
             )));
         }
     };
-    match found.cmp(&u64::from(VERSION)) {
-        std::cmp::Ordering::Less => return Err(ReadError::Older { path, found, program }),
-        std::cmp::Ordering::Greater => return Err(ReadError::Newer { path, found, program }),
-        std::cmp::Ordering::Equal => {}
+    if found != u64::from(VERSION) {
+        return Err(refusal::other_version(path, found, &program));
     }
 
     // What it says, and whether that can be.

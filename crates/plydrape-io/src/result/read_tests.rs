@@ -6,8 +6,12 @@ use plydrape::measure::{Name, Verdict};
 use plydrape::outcome::CatenaryReport;
 use plydrape::outcome::Stands;
 
-fn read(text: &str) -> Result<ResultFile, ReadError> {
+fn read(text: &str) -> Result<ResultFile, Error> {
     parse(text.as_bytes(), Path::new("result.json"))
+}
+
+fn is_changed(error: &Error) -> bool {
+    error.to_string().contains("was changed since plydrape wrote it")
 }
 
 fn written() -> String {
@@ -29,7 +33,7 @@ fn a_cut_text_is_truncated_wherever_it_was_cut() {
         let end = (text.len() as f64 * share) as usize;
         let end = (end..).find(|n| text.is_char_boundary(*n)).unwrap();
         let refused = read(&text[..end]).unwrap_err();
-        assert!(matches!(refused, ReadError::Truncated { .. }), "{share}: {refused}");
+        assert!(refused.to_string().contains("it was cut short"), "{share}: {refused}");
     }
 }
 
@@ -40,7 +44,7 @@ fn a_result_names_the_states_of_its_sheet() {
     let result = sample::sheet(3, 2, 3);
     let states = read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.unwrap();
     assert_eq!(states.seal(), result.sheet_states.unwrap().seal());
-    assert!(matches!(states.open(), Err(ReadError::Unreadable { .. })));
+    assert!(matches!(states.open(), Err(Error::Io { .. })));
 }
 
 /// An outcome of a sheet belongs to states and to steps that the result has, and has nothing of catenaries, even where the check sum was made
@@ -95,7 +99,7 @@ fn the_drape_beside_is_of_the_other_model() {
     ];
     for (n, spoil) in spoilt.into_iter().enumerate() {
         let refused = read(&both(spoil).text().unwrap());
-        assert!(matches!(refused, Err(ReadError::Changed { .. })), "{n}");
+        assert!(is_changed(&refused.unwrap_err()), "{n}");
     }
 }
 
@@ -112,7 +116,7 @@ fn an_acceptance_that_its_limits_contradict_is_refused() {
     assert_eq!(with_sum(&text), text);
     let forged = with_sum(&text.replacen("\"accepted\":true", "\"accepted\":false", 1));
     let refused = read(&forged).unwrap_err();
-    assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
+    assert!(is_changed(&refused), "{refused}");
     assert!(refused.to_string().contains("`accepted` is false"), "{refused}");
 }
 
@@ -131,7 +135,7 @@ fn settings_of_the_sheet_must_be_those_of_a_scene() {
         let mut result = sample::draped(3, 2, 3);
         spoil(&mut result);
         let refused = read(&ResultFile::text(&result).unwrap()).unwrap_err();
-        assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
+        assert!(is_changed(&refused), "{refused}");
     }
 }
 
@@ -146,7 +150,7 @@ fn every_digit_stands_in_the_check_sum() {
     for n in digits.iter().step_by(7) {
         let other = if &text[*n..=*n] == "7" { "8" } else { "7" };
         let edited = [&text[..*n], other, &text[n + 1..]].concat();
-        assert!(matches!(read(&edited), Err(ReadError::Changed { .. })), "{}", &text[n - 9..n + 9]);
+        assert!(is_changed(&read(&edited).unwrap_err()), "{}", &text[n - 9..n + 9]);
     }
 }
 
@@ -157,9 +161,9 @@ fn only_white_space_at_the_end_may_change() {
     assert!(read(text.trim_end()).is_ok());
     assert!(read(&format!("{text}\r\n")).is_ok());
     let more = text.replacen("{\"format\"", "{\"note\":1,\"format\"", 1);
-    assert!(matches!(read(&more), Err(ReadError::Changed { .. })));
+    assert!(is_changed(&read(&more).unwrap_err()));
     let without = text.replacen("\"checksum\":\"crc32:", "\"checksum\":\"crc32:0", 1);
-    assert!(matches!(read(&without), Err(ReadError::Changed { .. })));
+    assert!(is_changed(&read(&without).unwrap_err()));
 }
 
 /// A forged check sum does not help a result that lacks a gripper, a cell or its grid.
@@ -175,7 +179,7 @@ fn a_result_must_have_all_of_its_ply() {
         let mut result = sample::draped(3, 2, 3);
         spoil(&mut result);
         let refused = read(&ResultFile::text(&result).unwrap()).unwrap_err();
-        assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
+        assert!(is_changed(&refused), "{refused}");
     }
 }
 
@@ -191,9 +195,13 @@ fn other_versions_are_named() {
         )
     };
     let refused = read(&other(VERSION + 1)).unwrap_err();
-    assert!(matches!(refused, ReadError::Newer { found, .. } if found == u64::from(VERSION) + 1));
+    let says = format!("in version {} of the format", VERSION + 1);
+    assert!(
+        refused.to_string().contains(&says) && refused.help().starts_with("update"),
+        "{refused}"
+    );
     let refused = read(&other(VERSION - 1)).unwrap_err();
-    assert!(matches!(refused, ReadError::Older { .. }), "{refused}");
+    assert!(refused.help().ends_with("with this version"), "{refused}");
 }
 
 /// A key of the file may be as long as it likes; the message is not, and has its place.
@@ -232,10 +240,11 @@ fn what_others_wrote_is_foreign() {
         "{\"version\":\"a\"}",
     ] {
         let refused = read(text).unwrap_err();
-        assert!(matches!(refused, ReadError::Foreign { .. }), "{text:?}: {refused}");
+        assert!(refused.to_string().contains("not a result of plydrape"), "{text:?}: {refused}");
     }
-    assert!(matches!(parse(&[0xff, 0xfe, 0x00], Path::new("x")), Err(ReadError::Foreign { .. })));
-    assert!(matches!(super::read(Path::new("no/such.json")), Err(ReadError::Unreadable { .. })));
+    let refused = parse(&[0xff, 0xfe, 0x00], Path::new("x")).unwrap_err();
+    assert!(refused.to_string().contains("not a result of plydrape"), "{refused}");
+    assert!(matches!(super::read(Path::new("no/such.json")), Err(Error::Io { .. })));
 }
 
 /// What drapes with errors say of a sheet of nine nodes is read as it was written; what contradicts itself, the scene or the
@@ -271,6 +280,6 @@ fn the_sample_of_a_result_fits_its_scene() {
     ];
     for (n, spoil) in spoilt.into_iter().enumerate() {
         let refused = read(&ResultFile::text(&changed(spoil)).unwrap());
-        assert!(matches!(refused, Err(ReadError::Changed { .. })), "{n}");
+        assert!(is_changed(&refused.unwrap_err()), "{n}");
     }
 }

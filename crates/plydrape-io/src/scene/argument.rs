@@ -1,11 +1,12 @@
 //! A measured value from outside of a file, as on the command line.
 
-use super::error::{Document, SceneError};
 use super::located::Located;
 use super::quantity::{
     Acceleration, Angle, ArealMass, FlexuralRigidity, Force, ForcePerLength, Length, Measure,
     Quantity, Ratio, Time, Unchecked,
 };
+use super::source::Document;
+use crate::Error;
 
 /// What a value measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +36,7 @@ pub enum Measured {
 ///
 /// # Errors
 /// The value, what is wrong with it and what would be right.
-pub fn quantity(text: &str, measured: Measured) -> Result<f64, SceneError> {
+pub fn quantity(text: &str, measured: Measured) -> Result<f64, Error> {
     match measured {
         Measured::Length => read::<Length>(text),
         Measured::Force => read::<Force>(text),
@@ -49,7 +50,7 @@ pub fn quantity(text: &str, measured: Measured) -> Result<f64, SceneError> {
     }
 }
 
-fn read<M: Measure>(text: &str) -> Result<f64, SceneError> {
+fn read<M: Measure>(text: &str) -> Result<f64, Error> {
     // as a scene would hold it, so that the messages are the same
     let document = Document::new("", &format!("\"{text}\""));
     let argument: Quantity<M> =
@@ -80,8 +81,8 @@ mod tests {
     #[test]
     fn a_wrong_unit_is_refused_as_in_a_scene() {
         let error = quantity("98 kg", Measured::Length).unwrap_err();
-        assert_eq!(error.message, "\"98 kg\" is a mass");
-        assert!(error.help.contains("a length is wanted, e.g. \"98 mm\""));
+        assert_eq!(error.message(), "\"98 kg\" is a mass");
+        assert!(error.help().contains("a length is wanted, e.g. \"98 mm\""));
         assert!(quantity("nan", Measured::Length).is_err());
         assert!(quantity("", Measured::Length).is_err());
         assert!(quantity("20 deg", Measured::Ratio).is_err());

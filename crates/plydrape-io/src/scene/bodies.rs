@@ -1,23 +1,20 @@
 //! What moves with grippers and robot, and what stands in the cell.
 
 use super::check::line;
-use super::error::{Document, SceneError};
 use super::file::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable, SceneKeys};
 use super::heading::{coordinates, pose};
 use super::located::Located;
 use super::mold::mesh_file;
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::bodies::{Bodies, Body, Obstacle, Shape};
 use plydrape::geometry::Pose;
 use std::ops::Range;
 use std::path::Path;
 
 /// Checks the tables `[[bodies]]` and `[[obstacles]]`; files that they name are relative to `base`.
-pub(super) fn bodies(
-    file: &SceneKeys,
-    document: &Document,
-    base: &Path,
-) -> Result<Bodies, SceneError> {
+pub(super) fn bodies(file: &SceneKeys, document: &Document, base: &Path) -> Result<Bodies, Error> {
     let reader = Reader { document, base, carried: file.tool.is_some() };
     let mut names: Vec<&Located<String>> = Vec::new();
     let mut bodies = Vec::with_capacity(file.bodies.len());
@@ -60,14 +57,14 @@ struct ShapeKeys<'a> {
 }
 
 impl Reader<'_> {
-    fn body(&self, table: &Located<BodyTable>) -> Result<Body, SceneError> {
+    fn body(&self, table: &Located<BodyTable>) -> Result<Body, Error> {
         let BodyTable { name, on, cylinder, cuboid, mesh, unit } = &table.value;
         self.check_carried(on)?;
         let keys = ShapeKeys { table: name.span.clone(), cylinder, cuboid, mesh, unit };
         Ok(Body { name: self.name(name)?, on: on.value.into(), shape: self.shape(&keys)? })
     }
 
-    fn obstacle(&self, table: &Located<ObstacleTable>) -> Result<Obstacle, SceneError> {
+    fn obstacle(&self, table: &Located<ObstacleTable>) -> Result<Obstacle, Error> {
         let ObstacleTable { name, cylinder, cuboid, mesh, unit, position, rotation } = &table.value;
         let keys = ShapeKeys { table: name.span.clone(), cylinder, cuboid, mesh, unit };
         Ok(Obstacle {
@@ -78,7 +75,7 @@ impl Reader<'_> {
     }
 
     /// Refuses a body of the flange where no robot carries the grippers by a flange.
-    fn check_carried(&self, on: &Located<MountKey>) -> Result<(), SceneError> {
+    fn check_carried(&self, on: &Located<MountKey>) -> Result<(), Error> {
         match on.value {
             MountKey::Pad | MountKey::Stem => Ok(()),
             MountKey::Flange if self.carried => Ok(()),
@@ -90,7 +87,7 @@ impl Reader<'_> {
         }
     }
 
-    fn name(&self, name: &Located<String>) -> Result<String, SceneError> {
+    fn name(&self, name: &Located<String>) -> Result<String, Error> {
         match line(name, self.document)? {
             text if text.trim().is_empty() => Err(self.document.error(
                 name.span.clone(),
@@ -101,7 +98,7 @@ impl Reader<'_> {
         }
     }
 
-    fn shape(&self, keys: &ShapeKeys) -> Result<Shape, SceneError> {
+    fn shape(&self, keys: &ShapeKeys) -> Result<Shape, Error> {
         let document = self.document;
         let given: Vec<&Range<usize>> = [
             keys.cylinder.as_ref().map(|key| &key.span),
@@ -143,7 +140,7 @@ impl Reader<'_> {
         }
     }
 
-    fn cylinder(&self, table: &CylinderTable) -> Result<Shape, SceneError> {
+    fn cylinder(&self, table: &CylinderTable) -> Result<Shape, Error> {
         let radius = table.radius.size(self.document, &usual::BODY)?;
         let from = match &table.from {
             Some(from) => from.coordinate(self.document, &usual::COORDINATE)?,
@@ -163,7 +160,7 @@ impl Reader<'_> {
         Ok(Shape::Cylinder { radius, from, to })
     }
 
-    fn cuboid(&self, table: &BoxTable) -> Result<Shape, SceneError> {
+    fn cuboid(&self, table: &BoxTable) -> Result<Shape, Error> {
         let mut size = [0.0; 3];
         for (size, side) in size.iter_mut().zip(&table.size.0) {
             *size = side.size(self.document, &usual::BODY)?;

@@ -9,11 +9,12 @@
 
 use super::check;
 use super::diagnostic;
-use super::error::{Document, SceneError, excerpt};
 use super::file::{MoldTable, SceneKeys};
 use super::located::Located;
+use super::source::{Document, excerpt};
 use super::tree::{Fault, read_table};
 use super::{SceneFile, mold, named, open, read};
+use crate::Error;
 use plydrape::mold::{Layer, Layers, MeshReport, Mold, Raised, overlap};
 use serde::Deserialize;
 use std::ops::Range;
@@ -111,7 +112,7 @@ pub(super) fn has_plies(document: &Document) -> bool {
 ///
 /// # Errors
 /// The first fault found, with its place, a remedy and the ply that it is of.
-pub fn read_book(path: &Path) -> Result<Book, SceneError> {
+pub fn read_book(path: &Path) -> Result<Book, Error> {
     let (document, base) = open(path)?;
     let mut book = book(&document, base)?;
     book.files.insert(0, path.into());
@@ -122,12 +123,12 @@ pub fn read_book(path: &Path) -> Result<Book, SceneError> {
 ///
 /// # Errors
 /// As [`read_book`].
-pub fn parse_book(text: &str, base: &Path, name: &str) -> Result<Book, SceneError> {
+pub fn parse_book(text: &str, base: &Path, name: &str) -> Result<Book, Error> {
     book(&Document::new(name, text), base)
 }
 
 /// What refuses a book where a scene is wanted.
-pub(super) fn refused_as_scene(document: &Document) -> SceneError {
+pub(super) fn refused_as_scene(document: &Document) -> Error {
     let place = document.text.find("[[plies").unwrap_or(0);
     let length = document.text.get(place..).and_then(|text| text.find('\n')).unwrap_or(0);
     document.error(
@@ -137,7 +138,7 @@ pub(super) fn refused_as_scene(document: &Document) -> SceneError {
     )
 }
 
-fn book(document: &Document, base: &Path) -> Result<Book, SceneError> {
+fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     let fault = |fault: Fault| diagnostic::scene_error(document, fault);
     let root = DeTable::parse(&document.text).map_err(|error| fault(error.into()))?;
     let whole = root.span();
@@ -214,15 +215,18 @@ fn book(document: &Document, base: &Path) -> Result<Book, SceneError> {
 }
 
 /// A fault with the ply that it is of.
-fn in_ply(fault: SceneError, name: &str) -> SceneError {
-    SceneError { message: format!("ply {}: {}", excerpt(name), fault.message), ..fault }
+fn in_ply(mut error: Error, name: &str) -> Error {
+    if let Error::Scene(fault) = &mut error {
+        fault.message = format!("ply {}: {}", excerpt(name), fault.message);
+    }
+    error
 }
 
 /// The tables of `[[plies]]`, taken out of the book's.
 fn entries<'i>(
     shared: &mut DeTable<'i>,
     document: &Document,
-) -> Result<Vec<(DeTable<'i>, Range<usize>)>, SceneError> {
+) -> Result<Vec<(DeTable<'i>, Range<usize>)>, Error> {
     let help = "write [[plies]] before each ply's keys, as in name = \"first\" and target = { direction = \"45 deg\" }";
     let Some(found) = shared.remove(PLIES) else {
         return Err(document.error_anywhere("the book has no [[plies]]", help));
@@ -255,7 +259,7 @@ fn reading<'a>(
     whole: &Range<usize>,
     document: &'a Document,
     base: &Path,
-) -> Result<Reading<'a>, SceneError> {
+) -> Result<Reading<'a>, Error> {
     let fault = |fault: Fault| diagnostic::scene_error(document, fault);
     let text = document.text.get(span.clone()).unwrap_or_default();
     let header = span.start..span.start + text.find('\n').unwrap_or(text.len());
@@ -357,15 +361,10 @@ fn of_file<'a>(
     header: Range<usize>,
     book: &'a Document,
     base: &Path,
-) -> Result<Reading<'a>, SceneError> {
+) -> Result<Reading<'a>, Error> {
     let path = base.join(&file.value);
-    let document = read::text(&path, &file.value, read::LARGEST_TOML).map_err(|error| {
-        if error.span.is_some() {
-            return error;
-        }
-        let help = read::beside("book", &error.help);
-        book.error(file.span.clone(), error.message, help).of_file(error.unread)
-    })?;
+    let document = read::text(&path, &file.value, read::LARGEST_TOML)
+        .map_err(|error| book.error_of_named(&file.span, error, "book"))?;
     let keys = super::keys(&document)?;
     if let Some(mold) = &keys.mold {
         return Err(document.error(
@@ -385,7 +384,7 @@ fn laid(
     mold: &Mold,
     below: &[BookPly],
     readings: &[Reading],
-) -> Result<BookPly, SceneError> {
+) -> Result<BookPly, Error> {
     let Reading { name, keys, document, base, header, .. } = reading;
     if keys.target.as_ref().is_none_or(|target| target.value.positions.is_some()) {
         let place = keys.target.as_ref().map_or(header, |target| &target.span);

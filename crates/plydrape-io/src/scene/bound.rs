@@ -1,12 +1,13 @@
 //! How a limit of a measure is written and read, by its unit, and what the schema says of it.
 
-use super::error::{Document, SceneError};
 use super::located::Located;
 use super::quantity::{
     Acceleration, Angle, AngularRate, Force, Jerk, Length, Measure, Quantity, Ratio, Raw, Speed,
     Time, Unchecked,
 };
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::layup::Model;
 use plydrape::measure::{Bound, Name, Range, Unit, Usual, UsualLimit};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -21,7 +22,7 @@ pub(super) struct Kind {
     /// Unit of a plain number, empty for a ratio.
     si: &'static str,
     schema: fn(&mut SchemaGenerator) -> Schema,
-    read: fn(Located<Raw>, &Bound, &Document) -> Result<f64, SceneError>,
+    read: fn(Located<Raw>, &Bound, &Document) -> Result<f64, Error>,
 }
 
 impl Kind {
@@ -41,7 +42,7 @@ impl Kind {
     }
 
     fn new<M: Measure + 'static>(
-        read: fn(Located<Raw>, &Bound, &Document) -> Result<f64, SceneError>,
+        read: fn(Located<Raw>, &Bound, &Document) -> Result<f64, Error>,
     ) -> Self {
         let schema = Unchecked::<M>::json_schema;
         Kind { name: M::NAME, example: M::EXAMPLE, si: M::UNIT, schema, read }
@@ -53,7 +54,7 @@ pub(super) fn read(
     name: Name,
     written: &Located<Raw>,
     document: &Document,
-) -> Result<Option<f64>, SceneError> {
+) -> Result<Option<f64>, Error> {
     let read = |bound| (Kind::of(name).read)(written.clone(), &bound, document);
     name.measure().bound().map(read).transpose()
 }
@@ -63,7 +64,7 @@ fn believed<M: Measure>(
     value: &Quantity<M>,
     bound: &Bound,
     document: &Document,
-) -> Result<f64, SceneError> {
+) -> Result<f64, Error> {
     let Range { least, open, .. } = bound.range;
     let si = match least > 0.0 || open {
         true => value.positive(document)?,
@@ -79,28 +80,28 @@ fn within<M: Measure>(
     written: Located<Raw>,
     bound: &Bound,
     document: &Document,
-) -> Result<f64, SceneError> {
+) -> Result<f64, Error> {
     let value = Quantity::<M>::from(written);
     believed(&value, bound, document)?;
     let Range { least, most, of, .. } = bound.range;
     value.within_for(document, [least, most], of)
 }
 
-fn length(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, SceneError> {
+fn length(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, Error> {
     let value = Quantity::<Length>::from(written);
     let si = believed(&value, bound, document)?;
     let Range { least, most, .. } = bound.range;
     if (least..=most).contains(&si) { Ok(si) } else { Err(value.out_of_scale(document, si)) }
 }
 
-fn angle(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, SceneError> {
+fn angle(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, Error> {
     let value = Quantity::<Angle>::from(written);
     believed(&value, bound, document)?;
     value.below_right_angle(document)
 }
 
 /// A share from 0 to 1.
-fn share(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, SceneError> {
+fn share(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, Error> {
     let value = Quantity::<Ratio>::from(written);
     let si = believed(&value, bound, document)?;
     if si <= bound.range.most {

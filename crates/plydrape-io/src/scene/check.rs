@@ -3,7 +3,6 @@
 use super::bodies::bodies;
 use super::diagnostic::hint;
 use super::drawing::WarpChoice;
-use super::error::{Document, SceneError};
 use super::errors::errors;
 use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
 use super::limits::limits;
@@ -13,10 +12,12 @@ use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::release::release;
 use super::settings::settings;
+use super::source::Document;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
+use crate::Error;
 use crate::store::shown;
-use crate::store::size::{self, SizeError};
+use crate::store::size;
 use plydrape::layup::{Layup, Target};
 use plydrape::mold::Mold;
 use plydrape::motion::Motion;
@@ -34,7 +35,7 @@ pub(super) fn scene(
     made: Option<Mold>,
     document: &Document,
     base: &Path,
-) -> Result<SceneFile, SceneError> {
+) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
     let ply = ply(&file.ply, grippers, document, base)?;
     let (mold, mesh) = match &file.mold {
@@ -95,7 +96,7 @@ pub(super) fn scene(
         files: named(document, base),
         mesh,
         thickness,
-        plan_refusal: unplanned.or(fits.err()).map(Box::new),
+        plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
 }
 
@@ -104,7 +105,7 @@ pub(super) fn title(
     written: Option<&Located<String>>,
     document: &Document,
     base: &Path,
-) -> Result<String, SceneError> {
+) -> Result<String, Error> {
     if let Some(title) = written {
         return line(title, document);
     }
@@ -117,7 +118,7 @@ pub(super) fn title(
 }
 
 /// A text for people, of one line: control characters would move the cursor of a terminal.
-pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String, SceneError> {
+pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String, Error> {
     match shown::control(&text.value) {
         None => Ok(text.value.clone()),
         Some(found) => Err(document.error(
@@ -134,7 +135,7 @@ pub(super) fn ply(
     grippers: Option<&GrippersTable>,
     document: &Document,
     base: &Path,
-) -> Result<Ply, SceneError> {
+) -> Result<Ply, Error> {
     let table = &ply.value;
     let material = material::material(&table.material, document, base)?;
     if cut::is_cut(table) {
@@ -177,7 +178,7 @@ pub(super) fn ply(
 }
 
 /// Grippers along u and v.
-pub(super) fn grid(ply: &Located<PlyTable>, document: &Document) -> Result<Grid, SceneError> {
+pub(super) fn grid(ply: &Located<PlyTable>, document: &Document) -> Result<Grid, Error> {
     let Some(Located { value: Fixed([nu, nv]), .. }) = &ply.value.grippers else {
         return Err(missing("grippers", ply, document));
     };
@@ -185,7 +186,7 @@ pub(super) fn grid(ply: &Located<PlyTable>, document: &Document) -> Result<Grid,
 }
 
 /// A key that the table of the ply lacks.
-pub(super) fn missing(key: &str, ply: &Located<PlyTable>, document: &Document) -> SceneError {
+pub(super) fn missing(key: &str, ply: &Located<PlyTable>, document: &Document) -> Error {
     let text = document.text.get(ply.span.clone()).unwrap_or_default();
     let header = text.find('\n').unwrap_or(text.len());
     document.error(
@@ -200,7 +201,7 @@ fn gripper_count(
     least: i128,
     along: &str,
     document: &Document,
-) -> Result<usize, SceneError> {
+) -> Result<usize, Error> {
     let Whole(value) = count.value;
     if (least..=MOST_GRIPPERS).contains(&value)
         && let Ok(value) = usize::try_from(value)
@@ -228,15 +229,15 @@ pub(super) struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     /// Refuses a drape of so many steps if its result would be too large; `span` is what the scene says of that.
-    pub fn fits(&self, span: &Range<usize>, steps: usize) -> Result<(), SceneError> {
+    pub fn fits(&self, span: &Range<usize>, steps: usize) -> Result<(), Error> {
         self.allowed(span, size::drape(self.ply, steps))
     }
 
-    fn allowed(&self, span: &Range<usize>, size: Result<(), SizeError>) -> Result<(), SceneError> {
-        size.map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.remedy()))
+    fn allowed(&self, span: &Range<usize>, size: Result<(), Error>) -> Result<(), Error> {
+        size.map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.help()))
     }
 
-    fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, SceneError> {
+    fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, Error> {
         let &Surroundings { ply, document, base, .. } = self;
         let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
         if let Some(table) = from_file {

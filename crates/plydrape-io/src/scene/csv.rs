@@ -4,8 +4,9 @@
 //! one a column is in SI units. Columns come in any order and others are ignored. Lines that are
 //! empty or start with `#` are skipped. Fields may stand in double quotes but hold no commas.
 
-use super::error::{Document, SceneError, excerpt};
+use super::source::{Document, excerpt};
 use super::units::{self, Dimension};
+use crate::Error;
 use std::ops::Range;
 
 /// A column that a table must have.
@@ -34,7 +35,7 @@ pub(super) struct Row<'a> {
 
 impl<'a> Csv<'a> {
     /// Reads the header.
-    pub fn new(document: &'a Document, expected: &'a [Column]) -> Result<Self, SceneError> {
+    pub fn new(document: &'a Document, expected: &'a [Column]) -> Result<Self, Error> {
         let names: Vec<&str> = expected.iter().map(|column| column.name).collect();
         let help = format!("its first line names the columns {}", names.join(", "));
         let Some(header) = lines(&document.text).next() else {
@@ -81,7 +82,7 @@ impl Row<'_> {
     }
 
     /// The text in an expected column.
-    pub fn text(&self, column: usize) -> Result<&str, SceneError> {
+    pub fn text(&self, column: usize) -> Result<&str, Error> {
         let (index, _) = self.csv.columns[column];
         match self.fields.get(index) {
             Some(field) if !field.is_empty() => Ok(&self.csv.document.text[field.clone()]),
@@ -97,7 +98,7 @@ impl Row<'_> {
     }
 
     /// The number in an expected column, in SI units.
-    pub fn number(&self, column: usize) -> Result<f64, SceneError> {
+    pub fn number(&self, column: usize) -> Result<f64, Error> {
         let text = self.text(column)?;
         match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value * self.csv.columns[column].1),
@@ -110,7 +111,7 @@ impl Row<'_> {
     }
 
     /// The whole number in an expected column.
-    pub fn whole(&self, column: usize) -> Result<usize, SceneError> {
+    pub fn whole(&self, column: usize) -> Result<usize, Error> {
         let text = self.text(column)?;
         text.parse().map_err(|_| {
             self.fault(
@@ -127,17 +128,13 @@ impl Row<'_> {
         column: usize,
         message: impl Into<String>,
         help: impl Into<String>,
-    ) -> SceneError {
+    ) -> Error {
         self.csv.document.error(self.place(column), message, help)
     }
 }
 
 /// The unit in a column's title, `x (mm)`.
-fn unit_size(
-    document: &Document,
-    title: Range<usize>,
-    dimension: Dimension,
-) -> Result<f64, SceneError> {
+fn unit_size(document: &Document, title: Range<usize>, dimension: Dimension) -> Result<f64, Error> {
     let text = &document.text[title.clone()];
     let Some((_, tail)) = text.split_once('(') else {
         return Ok(1.0);
@@ -152,8 +149,8 @@ fn unit_size(
         )),
         Err(fault) => Err(document.error(
             title,
-            format!("the unit in `{}` cannot be read: {fault}", excerpt(text)),
-            fault.help(),
+            format!("the unit in `{}` cannot be read: {}", excerpt(text), fault.message),
+            fault.help,
         )),
     }
 }
@@ -198,7 +195,7 @@ mod tests {
         let csv = Csv::new(&document, &COLUMNS).unwrap();
         let rows: Vec<_> = csv.rows().collect();
         assert_eq!(rows.len(), 1);
-        assert_eq!(rows[0].number(0), Ok(0.5));
+        assert_eq!(rows[0].number(0).unwrap(), 0.5);
         assert!((rows[0].number(1).unwrap() - 0.098).abs() < 1e-15);
     }
 
@@ -224,7 +221,7 @@ mod tests {
         let csv = Csv::new(&document, &COLUMNS).unwrap();
         let row = csv.rows().next().unwrap();
         let error = row.number(1).unwrap_err();
-        assert_eq!(error.line_column(), Some((2, 4)));
-        assert_eq!(&document.text[error.span.unwrap()], "12mm");
+        assert_eq!(error.diagnostic().unwrap().line_column(), Some((2, 4)));
+        assert_eq!(&document.text[error.diagnostic().unwrap().span.clone().unwrap()], "12mm");
     }
 }

@@ -1,11 +1,12 @@
 //! Curves of force of a material: moment over curvature, tension over strain, shear force over the shear angle.
 
 use super::choice::Curve;
-use super::error::{Document, SceneError};
 use super::file::{MomentTable, ShearCurveTable, TensionTable};
 use super::located::Located;
 use super::quantity::{Measure, Quantity, ShearSlope, TensileStiffness};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::material::{MomentCurve, ShearCurve, TensionLaw};
 
 /// Largest shear force per length, or its slope (N/m).
@@ -19,7 +20,7 @@ const TENSION: [f64; 2] = [1.0, 1e10];
 const CURVATURE: f64 = 1e5;
 
 /// Measured moments over curvatures.
-pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentCurve, SceneError> {
+pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentCurve, Error> {
     let MomentTable { curvature, moment } = table;
     if curvature.value.len() != moment.value.len() || curvature.value.len() < 2 {
         return Err(document.error(
@@ -55,7 +56,7 @@ fn climbing<M: Measure>(
     what: &str,
     most: f64,
     document: &Document,
-) -> Result<Vec<f64>, SceneError> {
+) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(list.len());
     for item in list {
         let value = item.not_negative(document)?;
@@ -86,7 +87,7 @@ fn climbing<M: Measure>(
 pub(super) fn tension(
     law: &Located<Curve<TensileStiffness, TensionTable>>,
     document: &Document,
-) -> Result<TensionLaw, SceneError> {
+) -> Result<TensionLaw, Error> {
     match &law.value {
         Curve::Slope(stiffness) => {
             let stiffness = Located { value: stiffness.clone(), span: law.span.clone() };
@@ -122,7 +123,7 @@ pub(super) fn tension(
 pub(super) fn shear(
     curve: &Located<Curve<ShearSlope, ShearCurveTable>>,
     document: &Document,
-) -> Result<ShearCurve, SceneError> {
+) -> Result<ShearCurve, Error> {
     let table = match &curve.value {
         Curve::Slope(slope) => {
             let slope = Located { value: slope.clone(), span: curve.span.clone() };
@@ -180,7 +181,7 @@ pub(super) fn shear(
 fn ascending_angles<M: Measure>(
     angles: &[Quantity<M>],
     document: &Document,
-) -> Result<Vec<f64>, SceneError> {
+) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(angles.len());
     for angle in angles {
         let value = angle.not_negative(document)?;
@@ -229,7 +230,7 @@ fn rising<M: Measure>(
     forces: &[Quantity<M>],
     rules: Forces,
     document: &Document,
-) -> Result<Vec<f64>, SceneError> {
+) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(forces.len());
     for force in forces {
         let value = force.not_negative(document)?;
@@ -255,7 +256,7 @@ fn rising<M: Measure>(
 fn ascending_strains<M: Measure>(
     strains: &[Quantity<M>],
     document: &Document,
-) -> Result<Vec<f64>, SceneError> {
+) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(strains.len());
     for strain in strains {
         let value = strain.not_negative(document)?;

@@ -5,11 +5,12 @@
 
 use super::check::{grid, missing};
 use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
-use super::error::{Document, SceneError};
 use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use crate::store::shown::millimetres;
 use plydrape::ply::{
     Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId, gripper_name,
@@ -55,7 +56,7 @@ pub(super) fn shape(
     radius: f64,
     document: &Document,
     base: &Path,
-) -> Result<Shape, SceneError> {
+) -> Result<Shape, Error> {
     let table = &ply.value;
     if let Some(overhang) = &table.overhang {
         return Err(document.error(
@@ -79,11 +80,7 @@ pub(super) fn shape(
 }
 
 /// The outline in the drawing.
-fn outline(
-    ply: &Located<PlyTable>,
-    document: &Document,
-    base: &Path,
-) -> Result<Outline, SceneError> {
+fn outline(ply: &Located<PlyTable>, document: &Document, base: &Path) -> Result<Outline, Error> {
     let table = &ply.value;
     let (boundary, mut holes, span) = match (&table.outline, &table.size) {
         (Some(outline), None) => {
@@ -158,11 +155,11 @@ fn outline(
     })
 }
 
-fn polygon(points: &Polygon, document: &Document) -> Result<Ring, SceneError> {
+fn polygon(points: &Polygon, document: &Document) -> Result<Ring, Error> {
     points.iter().map(|point| coordinates(&point.value, document)).collect()
 }
 
-fn disc(circle: &CircleTable, document: &Document) -> Result<Ring, SceneError> {
+fn disc(circle: &CircleTable, document: &Document) -> Result<Ring, Error> {
     let [x, y] = coordinates(&circle.middle.value, document)?;
     let radius = 0.5 * circle.diameter.size(document, &usual::HOLE)?;
     let point = |n: usize| {
@@ -179,7 +176,7 @@ fn array(
     warp: f64,
     radius: f64,
     document: &Document,
-) -> Result<Shape, SceneError> {
+) -> Result<Shape, Error> {
     let table = &ply.value;
     let Grid { nu, nv } = grid(ply, document)?;
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
@@ -272,7 +269,7 @@ fn mask(
     rows: &Located<Vec<Located<String>>>,
     [nu, nv]: [usize; 2],
     document: &Document,
-) -> Result<Vec<Vec<bool>>, SceneError> {
+) -> Result<Vec<Vec<bool>>, Error> {
     let help = format!(
         "give a text for each of the {nv} rows along v, the first first, each with {nu} signs: \"#\" holds, \".\" does not"
     );
@@ -303,7 +300,7 @@ fn listed(
     warp: f64,
     radius: f64,
     document: &Document,
-) -> Result<Shape, SceneError> {
+) -> Result<Shape, Error> {
     let table = &ply.value;
     let other: [(&str, Option<&Range<usize>>); 3] = [
         ("grippers", table.grippers.as_ref().map(|key| &key.span)),

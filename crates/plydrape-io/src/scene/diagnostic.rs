@@ -1,14 +1,15 @@
 //! Diagnostics of the TOML reader and of serde, rewritten in the terms of a scene and with a remedy.
 
 use super::choice::MIDDLE;
-use super::error::{Document, SceneError, excerpt};
 use super::read::BACKSLASHES;
+use super::source::{Document, excerpt};
 use super::tree::{Fault, WORD_WANTED};
+use crate::Error;
 use crate::store::file_kind::edits;
 use std::ops::Range;
 
-/// A diagnostic of the TOML reader or of serde as a [`SceneError`].
-pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> SceneError {
+/// A diagnostic of the TOML reader or of serde as an [`Error`].
+pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error {
     let Fault { message, span } = fault.into();
     let mut span = span.unwrap_or(0..0);
     let text = message.trim();

@@ -1,13 +1,14 @@
 //! The outline of a ply from a drawing that the scene names.
 
 use super::drawing::OutlineChoice;
-use super::error::{Document, SceneError, Unread};
 use super::file::DrawingTable;
 use super::located::Located;
 use super::read;
+use super::source::Document;
 use super::units::{self, Dimension};
 use super::usual;
-use crate::read::outline::{self, Options, OutlineFault};
+use crate::Error;
+use crate::read::outline::{self, Options};
 use plydrape::ply::Outline;
 use std::path::Path;
 
@@ -19,7 +20,7 @@ pub(super) fn outline(
     key: &Located<OutlineChoice>,
     document: &Document,
     base: &Path,
-) -> Result<Option<Outline>, SceneError> {
+) -> Result<Option<Outline>, Error> {
     let (name, span, options) = match &key.value {
         OutlineChoice::Points(_) => return Ok(None),
         OutlineChoice::File(name) => (name, &key.span, Options::new(TOLERANCE)),
@@ -27,19 +28,14 @@ pub(super) fn outline(
             (&table.file.value, &table.file.span, options(table, document)?)
         }
     };
-    let path = base.join(name);
-    outline::read(&path, &options).map(Some).map_err(|error| {
-        if let OutlineFault::Unreadable(source) = &error.fault {
-            let [message, help] = read::unreadable(&path, name, source);
-            let unread = Some(Box::new(Unread { path: path.clone(), kind: source.kind() }));
-            let help = read::beside("scene", &help);
-            return document.error(span.clone(), message, help).of_file(unread);
-        }
-        document.error(span.clone(), format!("{name}: {}", error.fault), error.remedy())
-    })
+    let bytes = read::bytes(&base.join(name), name, outline::LARGEST)
+        .map_err(|error| document.error_of_named(span, error, "scene"))?;
+    outline::read_dxf(name, &bytes, &options)
+        .map(Some)
+        .map_err(|error| document.error(span.clone(), error.to_string(), error.help()))
 }
 
-fn options(table: &DrawingTable, document: &Document) -> Result<Options, SceneError> {
+fn options(table: &DrawingTable, document: &Document) -> Result<Options, Error> {
     let names = |layers: &Vec<Located<String>>| layers.iter().map(|l| l.value.clone()).collect();
     let tolerance = match &table.tolerance {
         Some(tolerance) => tolerance.size(document, &usual::DRAWN)?,
@@ -54,7 +50,7 @@ fn options(table: &DrawingTable, document: &Document) -> Result<Options, SceneEr
 }
 
 /// Length of a unit by its name (m).
-fn length(unit: &Located<String>, document: &Document) -> Result<f64, SceneError> {
+fn length(unit: &Located<String>, document: &Document) -> Result<f64, Error> {
     match units::unit(&unit.value) {
         Ok((value, Dimension::LENGTH)) => Ok(value),
         _ => Err(document.error(

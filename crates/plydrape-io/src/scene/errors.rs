@@ -1,10 +1,11 @@
 //! How far a real cell may be from the scene.
 
-use super::error::{Document, SceneError};
 use super::file::{ErrorsTable, MoldErrorsTable, Term};
 use super::located::{CountOrNone, Located, Whole};
 use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use crate::store::shown::millimetres;
 use plydrape::errors::{
     self, Errors, FrameErrors, GripperErrors, MaterialErrors, MoldErrors, PickUpErrors,
@@ -32,7 +33,7 @@ pub(super) fn errors(
     ply: &Ply,
     on_mold: bool,
     document: &Document,
-) -> Result<Errors, SceneError> {
+) -> Result<Errors, Error> {
     let default = Errors::default();
     let [a, b] = ply.cell;
     let reader = Reader { document, shift: LARGEST_SHIFT * a.min(b) };
@@ -93,7 +94,7 @@ impl Reader<'_> {
         written: &Option<Term<M>>,
         [deviation, bound]: [f64; 2],
         most: &str,
-    ) -> Result<errors::Term, SceneError> {
+    ) -> Result<errors::Term, Error> {
         let Some(term) = written else { return Ok(errors::Term::NONE) };
         match (&term.value.deviation, &term.value.bound) {
             (Some(value), None) => self.size(value, deviation, most).map(errors::Term::Deviation),
@@ -115,7 +116,7 @@ impl Reader<'_> {
         value: &Quantity<M>,
         largest: f64,
         most: &str,
-    ) -> Result<f64, SceneError> {
+    ) -> Result<f64, Error> {
         let size = value.not_negative(self.document)?;
         if size <= largest {
             return Ok(size);
@@ -127,12 +128,12 @@ impl Reader<'_> {
         ))
     }
 
-    fn shift(&self, written: &Option<Term<Length>>) -> Result<errors::Term, SceneError> {
+    fn shift(&self, written: &Option<Term<Length>>) -> Result<errors::Term, Error> {
         let most = format!("{} mm, half of the shorter side of a cell", millimetres(self.shift));
         self.term(written, [self.shift; 2], &most)
     }
 
-    fn samples(&self, written: &Located<CountOrNone>) -> Result<usize, SceneError> {
+    fn samples(&self, written: &Located<CountOrNone>) -> Result<usize, Error> {
         let Whole(value) = written.value;
         match usize::try_from(value) {
             Ok(value) if value <= MOST_SAMPLES => Ok(value),
@@ -147,7 +148,7 @@ impl Reader<'_> {
         }
     }
 
-    fn accepted(&self, written: &Quantity<Ratio>) -> Result<f64, SceneError> {
+    fn accepted(&self, written: &Quantity<Ratio>) -> Result<f64, Error> {
         let share = written.positive(self.document)?;
         if share <= 1.0 {
             return Ok(share);
@@ -160,7 +161,7 @@ impl Reader<'_> {
     }
 
     /// All of a mold's errors but the tilt.
-    fn mold(&self, table: &MoldErrorsTable) -> Result<MoldErrors, SceneError> {
+    fn mold(&self, table: &MoldErrorsTable) -> Result<MoldErrors, Error> {
         let offset = self.shift(&table.offset)?;
         let wavelength = match &table.wavelength {
             Some(length) => length.size(self.document, &usual::WAVES)?,
@@ -187,7 +188,7 @@ impl Reader<'_> {
         Ok(MoldErrors { offset, waviness, wavelength, ..MoldErrors::default() })
     }
 
-    fn no_mold(&self, table: &ErrorsTable) -> SceneError {
+    fn no_mold(&self, table: &ErrorsTable) -> Error {
         let message = "the scene has no mold that could be off";
         let help = "leave out `mold` of [errors], or say what the mold is in [mold]";
         match &table.mold {

@@ -3,10 +3,11 @@
 //! They are read as testing machines and spreadsheets write them. Lines `# key = value` above them may state a measure of the
 //! specimen, as in `# width = 100 mm`.
 
-use super::error::{Document, SceneError};
 use super::lab_table::{LabColumn, lab_table};
 use super::read;
+use super::source::Document;
 use super::units::{self, Dimension};
+use crate::Error;
 use std::path::Path;
 
 /// What a table is of.
@@ -98,12 +99,12 @@ impl Reading {
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy.
-pub fn read_fit(path: &Path, reading: Reading) -> Result<Table, SceneError> {
+pub fn read_fit(path: &Path, reading: Reading) -> Result<Table, Error> {
     let document = read::lab_text(path, &path.to_string_lossy(), read::LARGEST_CSV)?;
     table(&document, reading)
 }
 
-fn table(document: &Document, reading: Reading) -> Result<Table, SceneError> {
+fn table(document: &Document, reading: Reading) -> Result<Table, Error> {
     let stated = stated(document)?;
     let (numbers, header) = lab_table(document, reading.columns())?;
     let mut rows = Vec::with_capacity(numbers.len());
@@ -131,7 +132,7 @@ fn table(document: &Document, reading: Reading) -> Result<Table, SceneError> {
 }
 
 /// What the comments state.
-fn stated(document: &Document) -> Result<Vec<(&'static str, f64)>, SceneError> {
+fn stated(document: &Document) -> Result<Vec<(&'static str, f64)>, Error> {
     let mut found = Vec::new();
     let mut start = 0;
     for line in document.text.split_inclusive('\n') {
@@ -157,7 +158,7 @@ fn stated(document: &Document) -> Result<Vec<(&'static str, f64)>, SceneError> {
                 return Err(document.error(place, format!("`{key}` has no unit here"), help));
             }
             Err(fault) => {
-                let message = format!("`{key}` cannot be read: {fault}");
+                let message = format!("`{key}` cannot be read: {}", fault.message);
                 return Err(document.error(place, message, help));
             }
         }
@@ -173,7 +174,7 @@ fn example(dimension: Dimension) -> &'static str {
 mod tests {
     use super::*;
 
-    fn of(text: &str, reading: Reading) -> Result<Table, SceneError> {
+    fn of(text: &str, reading: Reading) -> Result<Table, Error> {
         table(&Document::new("test.csv", text), reading)
     }
 
@@ -199,8 +200,8 @@ mod tests {
             ("# width = 100\nx,z\n0,0\n", Reading::Points, "`width` has no unit here"),
         ] {
             let error = of(text, reading).unwrap_err();
-            assert_eq!(error.message, message);
-            assert!(error.span.is_some() && !error.help.is_empty());
+            assert_eq!(error.message(), message);
+            assert!(error.diagnostic().unwrap().span.is_some() && !error.help().is_empty());
         }
     }
 }

@@ -1,13 +1,14 @@
 //! Headings, coordinates and poses.
 
-use super::error::{Document, SceneError};
 use super::located::{Fixed, Located};
 use super::quantity::{Angle, Length, Quantity};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::mold::Pose;
 
 /// A heading of at most one turn to either side (rad).
-pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
+pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
     let value = angle.si(document)?;
     if value.abs() <= std::f64::consts::TAU * (1.0 + 1e-9) {
         return Ok(value);
@@ -24,7 +25,7 @@ pub(super) fn pose(
     position: Option<&Located<Fixed<Quantity<Length>, 3>>>,
     rotation: Option<&Located<Fixed<Quantity<Angle>, 3>>>,
     document: &Document,
-) -> Result<Pose, SceneError> {
+) -> Result<Pose, Error> {
     let position = match position {
         Some(position) => coordinates(&position.value, document)?,
         None => [0.0; 3],
@@ -42,7 +43,7 @@ pub(super) fn pose(
 pub(super) fn coordinates<const N: usize>(
     values: &Fixed<Quantity<Length>, N>,
     document: &Document,
-) -> Result<[f64; N], SceneError> {
+) -> Result<[f64; N], Error> {
     let mut numbers = [0.0; N];
     for (number, value) in numbers.iter_mut().zip(&values.0) {
         *number = value.coordinate(document, &usual::COORDINATE)?;

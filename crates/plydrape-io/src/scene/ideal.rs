@@ -1,10 +1,11 @@
 //! The ideal drape alone: of a scene, what says how the ply is laid on the mold.
 
 use super::check::{ply, title};
-use super::error::{Document, SceneError};
 use super::file::SceneKeys;
 use super::limits::limits;
+use super::source::Document;
 use super::{mold, target};
+use crate::Error;
 use plydrape::layup::{Layup, Settings};
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
@@ -37,7 +38,7 @@ pub(super) fn ideal_drape(
     file: &SceneKeys,
     document: &Document,
     base: &Path,
-) -> Result<IdealDrape, SceneError> {
+) -> Result<IdealDrape, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
     let ply = ply(&file.ply, grippers, document, base)?;
     let Some(table) = &file.mold else {

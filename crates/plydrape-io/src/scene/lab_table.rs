@@ -5,8 +5,9 @@
 //! stands behind the name, as in `Force (N)`, `Kraft [N]`, `force / N` and `force_N`, or in a line of its own below the header.
 
 use super::csv::lines;
-use super::error::{Document, SceneError, excerpt};
+use super::source::{Document, excerpt};
 use super::units::{self, Dimension};
+use crate::Error;
 use std::ops::Range;
 
 /// A column that a table must have.
@@ -48,7 +49,7 @@ struct Header {
 pub(super) fn lab_table(
     document: &Document,
     wanted: &[LabColumn],
-) -> Result<(Vec<Vec<Number>>, Range<usize>), SceneError> {
+) -> Result<(Vec<Vec<Number>>, Range<usize>), Error> {
     let mut header = header(document, wanted)?;
     let below = header.span.end;
     let mut rows = lines(&document.text)
@@ -69,7 +70,7 @@ pub(super) fn lab_table(
 }
 
 /// The first line that names all columns.
-fn header(document: &Document, wanted: &[LabColumn]) -> Result<Header, SceneError> {
+fn header(document: &Document, wanted: &[LabColumn]) -> Result<Header, Error> {
     // the line that names most of them, and those that it does not name
     let mut nearest: Option<(Range<usize>, Vec<&LabColumn>)> = None;
     for line in lines(&document.text).take(HEAD) {
@@ -125,7 +126,7 @@ fn units_below(
     wanted: &[LabColumn],
     header: &mut Header,
     row: &Range<usize>,
-) -> Result<bool, SceneError> {
+) -> Result<bool, Error> {
     let fields = fields(&document.text, row, header.separator);
     let said: Vec<Option<&Range<usize>>> = header
         .columns
@@ -155,7 +156,7 @@ fn numbers(
     header: &Header,
     row: &Range<usize>,
     mark: &mut Option<char>,
-) -> Result<Vec<Number>, SceneError> {
+) -> Result<Vec<Number>, Error> {
     let fields = fields(&document.text, row, header.separator);
     let filled = fields.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1);
     if filled > header.fields {
@@ -197,7 +198,7 @@ fn number(
     field: &Range<usize>,
     separator: char,
     mark: &mut Option<char>,
-) -> Result<f64, SceneError> {
+) -> Result<f64, Error> {
     let text = &document.text[field.clone()];
     let refuse = |what: &str, help: &str| {
         document.error(field.clone(), format!("{} {what}", document.quoted(field)), help)
@@ -242,7 +243,7 @@ fn size(
     field: Range<usize>,
     written: &str,
     dimension: Dimension,
-) -> Result<f64, SceneError> {
+) -> Result<f64, Error> {
     match units::unit(written) {
         Ok((size, found)) if found == dimension => Ok(size),
         Ok((_, found)) => Err(document.error(
@@ -252,8 +253,8 @@ fn size(
         )),
         Err(fault) => {
             let title = document.excerpt(&field);
-            let message = format!("the unit in `{title}` cannot be read: {fault}");
-            Err(document.error(field, message, fault.help()))
+            let message = format!("the unit in `{title}` cannot be read: {}", fault.message);
+            Err(document.error(field, message, fault.help))
         }
     }
 }
@@ -310,7 +311,7 @@ mod tests {
         LabColumn { names: &["force", "kraft"], dimension: Dimension::FORCE, unit: "N" },
     ];
 
-    fn of(text: &str) -> Result<Vec<Vec<f64>>, SceneError> {
+    fn of(text: &str) -> Result<Vec<Vec<f64>>, Error> {
         let (rows, _) = lab_table(&Document::new("test.csv", text), &PULL)?;
         Ok(rows.into_iter().map(|row| row.into_iter().map(|(value, _)| value).collect()).collect())
     }
@@ -370,12 +371,15 @@ mod tests {
             ("Weg (mm);Kraft (N)\n4;\n", "this row has no value for the column `force`"),
         ] {
             let error = of(text).unwrap_err();
-            assert_eq!(error.message, message, "{text}");
-            assert!(error.span.is_some() && !error.help.is_empty(), "{text}");
+            assert_eq!(error.message(), message, "{text}");
+            assert!(
+                error.diagnostic().unwrap().span.is_some() && !error.help().is_empty(),
+                "{text}"
+            );
         }
         let error = of("a;b\nWeg;b\n4;1\n").unwrap_err();
-        assert_eq!(error.line_column(), Some((2, 1)));
-        assert!(error.help.ends_with("`force` may also be called kraft"), "{}", error.help);
+        assert_eq!(error.diagnostic().unwrap().line_column(), Some((2, 1)));
+        assert!(error.help().ends_with("`force` may also be called kraft"), "{}", error.help());
     }
 
     proptest! {

@@ -4,12 +4,13 @@
 //! into as many as put the seed on a node too.
 
 use super::choice::{HeadingChoice, SeedChoice};
-use super::error::{Document, SceneError};
 use super::file::{EdgesKey, GeneratorsKey, TargetTable};
 use super::heading::{coordinates, heading};
 use super::located::Located;
 use super::quantity::{Angle, Length, Quantity, rounded};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::mold::Mold;
 use plydrape::net::{EdgeRule, Free, Generators, Placement};
 use plydrape::ply::{Cut, Ply};
@@ -44,7 +45,7 @@ pub(super) fn layup(
     ply: &Ply,
     mold: &Mold,
     document: &Document,
-) -> Result<Placement, SceneError> {
+) -> Result<Placement, Error> {
     let shear = match &keys.shear {
         Some(shear) => shear_angle(shear, document)?,
         None => 0.0,
@@ -108,7 +109,7 @@ fn nodes_of_cells(
     ply: &Ply,
     mold: &Mold,
     document: &Document,
-) -> Result<Nodes, SceneError> {
+) -> Result<Nodes, Error> {
     let seed = Seed::read(keys, ply, document)?;
     let divisions = match &keys.mesh {
         Some(width) => given_divisions(width, ply, &seed, document)?,
@@ -129,7 +130,7 @@ fn nodes_of_cut(
     cut: &Cut,
     mold: &Mold,
     document: &Document,
-) -> Result<Nodes, SceneError> {
+) -> Result<Nodes, Error> {
     let [low, high] = cut.outline.bounds();
     let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
     let seed = match &keys.seed {
@@ -192,7 +193,7 @@ fn nodes_of_cut(
 }
 
 /// A shear angle to either side, below a right angle (rad).
-fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
+fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
     let value = shear.si(document)?;
     if value >= 0.0 {
         return shear.below_right_angle(document);
@@ -216,7 +217,7 @@ struct Seed {
 }
 
 impl Seed {
-    fn read(keys: &TargetTable, ply: &Ply, document: &Document) -> Result<Self, SceneError> {
+    fn read(keys: &TargetTable, ply: &Ply, document: &Document) -> Result<Self, Error> {
         let most = [ply.grid.nu - 1, ply.grid.nv - 1].map(|count| count as f64);
         let Some(written) = &keys.seed else {
             return Ok(Seed { cells: [0.0; 2], span: None });
@@ -266,7 +267,7 @@ fn given_divisions(
     ply: &Ply,
     seed: &Seed,
     document: &Document,
-) -> Result<[usize; 2], SceneError> {
+) -> Result<[usize; 2], Error> {
     let value = width.size(document, &usual::MESH)?;
     let counts = [0, 1].map(|n| ply.cell[n] / value);
     // a strip has no cells along v to be divided
@@ -336,7 +337,7 @@ fn own_divisions(
     mold: &Mold,
     seed: &Seed,
     document: &Document,
-) -> Result<[usize; 2], SceneError> {
+) -> Result<[usize; 2], Error> {
     let mut divisions = [1; 2];
     let mut widest = if matches!(mold, Mold::Plane(_)) {
         f64::INFINITY
@@ -366,7 +367,7 @@ fn own_divisions(
 }
 
 /// The seed lies at no share of a cell that a net could have a node at.
-fn off_nodes(n: usize, seed: &Seed, ply: &Ply, document: &Document) -> SceneError {
+fn off_nodes(n: usize, seed: &Seed, ply: &Ply, document: &Document) -> Error {
     let axis = ["u", "v"][n];
     let cell = round(ply.cell[n] * 1e3);
     document.error(

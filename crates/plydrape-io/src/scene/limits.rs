@@ -1,11 +1,12 @@
 //! What an accepted drape keeps to.
 
 use super::bound;
-use super::error::{Document, SceneError};
 use super::file::LimitsTable;
 use super::heading::coordinates;
 use super::located::Fixed;
 use super::quantity::{Length, Quantity};
+use super::source::Document;
+use crate::Error;
 use plydrape::layup::Layup;
 use plydrape::measure::{Limits, Name};
 use std::cmp::Reverse;
@@ -18,7 +19,7 @@ pub(super) fn limits(
     table: &LimitsTable,
     layup: &Layup,
     document: &Document,
-) -> Result<Limits, SceneError> {
+) -> Result<Limits, Error> {
     let mut limits = Limits::of(layup);
     if let Some(preset) = &table.preset {
         limits = limits.with_preset(preset.value);
@@ -45,7 +46,7 @@ pub(super) fn limits(
 }
 
 /// Refuses limits that the layup cannot have, whether the scene gives them or its preset.
-fn refuse(table: &LimitsTable, layup: &Layup, document: &Document) -> Result<(), SceneError> {
+fn refuse(table: &LimitsTable, layup: &Layup, document: &Document) -> Result<(), Error> {
     for (name, _) in Name::bounded() {
         let written = table.bounds.iter().find(|(own, _)| *own == name);
         let preset = table.preset.as_ref().filter(|preset| preset.value.value(name).is_some());
@@ -61,7 +62,7 @@ fn refuse(table: &LimitsTable, layup: &Layup, document: &Document) -> Result<(),
 fn workspace(
     sides: &Fixed<Fixed<Quantity<Length>, 2>, 3>,
     document: &Document,
-) -> Result<[[f64; 2]; 3], SceneError> {
+) -> Result<[[f64; 2]; 3], Error> {
     let mut out = [[0.0; 2]; 3];
     for (n, side) in sides.0.iter().enumerate() {
         let [from, to] = coordinates(side, document)?;

@@ -2,13 +2,14 @@
 
 use super::check::line;
 use super::choice::{Curve, MaterialChoice};
-use super::error::{Document, SceneError, excerpt};
 use super::file::{FabricKey, MaterialTable, MomentTable};
 use super::located::Located;
 use super::quantity::{BendingRigidity, Measure, Quantity, Ratio};
+use super::source::{Document, excerpt};
 use super::units::Dimension;
 use super::usual::{self, Usual};
 use super::{curve, read};
+use crate::Error;
 use crate::store::shown;
 use plydrape::material::{Material, MomentCurve, Scatter, Section};
 use std::ops::Range;
@@ -48,7 +49,7 @@ pub fn shipped_material(name: &str) -> Option<&'static str> {
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy; an unknown name lists the shipped ones.
-pub fn read_material(name: &str) -> Result<Material, SceneError> {
+pub fn read_material(name: &str) -> Result<Material, Error> {
     named(name, &(0..name.len()), &Document::new("the name of the material", name), Path::new(""))
 }
 
@@ -57,7 +58,7 @@ pub(super) fn material(
     choice: &Located<MaterialChoice>,
     document: &Document,
     base: &Path,
-) -> Result<Material, SceneError> {
+) -> Result<Material, Error> {
     match &choice.value {
         MaterialChoice::Table(table) => from_table(table, document, &choice.span, "inline"),
         MaterialChoice::Named(name) => named(name, &choice.span, document, base),
@@ -69,7 +70,7 @@ fn named(
     span: &Range<usize>,
     scene: &Document,
     base: &Path,
-) -> Result<Material, SceneError> {
+) -> Result<Material, Error> {
     // A shipped name.
     if let Some(text) = shipped_material(name) {
         let document = Document::new(format!("materials/{name}.toml"), text);
@@ -89,13 +90,8 @@ fn named(
 
     // A file beside the scene.
     let path = base.join(name);
-    let document = read::text(&path, name, read::LARGEST_TOML).map_err(|error| {
-        if error.span.is_some() {
-            return error;
-        }
-        let help = read::beside("scene", &error.help);
-        scene.error(span.clone(), error.message, help).of_file(error.unread)
-    })?;
+    let document = read::text(&path, name, read::LARGEST_TOML)
+        .map_err(|error| scene.error_of_named(span, error, "scene"))?;
     if document.text == scene.text {
         return Err(scene.error(
             span.clone(),
@@ -107,7 +103,7 @@ fn named(
     from_file(&document, &stem.to_string_lossy())
 }
 
-fn from_file(document: &Document, name: &str) -> Result<Material, SceneError> {
+fn from_file(document: &Document, name: &str) -> Result<Material, Error> {
     let table: MaterialTable = read::keys(document)?;
     if table.source.is_none() {
         let first_line = document.text.find('\n').unwrap_or(document.text.len());
@@ -126,7 +122,7 @@ fn from_table(
     document: &Document,
     place: &Range<usize>,
     name: &str,
-) -> Result<Material, SceneError> {
+) -> Result<Material, Error> {
     if let Some(Located { value: FabricKey::Unidirectional, span }) = &table.fabric {
         return Err(document.error(
             span.clone(),
@@ -173,7 +169,7 @@ fn from_table(
 }
 
 /// How much the properties scatter.
-fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, SceneError> {
+fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, Error> {
     let Some(given) = &table.scatter else { return Ok(Scatter::default()) };
     let share = |share: &Option<Quantity<Ratio>>| {
         let Some(share) = share else { return Ok(None) };
@@ -202,7 +198,7 @@ fn section(
     table: &MaterialTable,
     document: &Document,
     place: &Range<usize>,
-) -> Result<(Section, [Option<MomentCurve>; 2]), SceneError> {
+) -> Result<(Section, [Option<MomentCurve>; 2]), Error> {
     let (_, dimension) = table.mass.with_dimension(document)?;
     let by_area = table.bending_rigidity_warp.is_some() || table.bending_rigidity_weft.is_some();
     let per_length = dimension == Some(Dimension::LINE_MASS)
@@ -258,7 +254,7 @@ fn section(
 fn bending(
     given: &Located<Curve<BendingRigidity, MomentTable>>,
     document: &Document,
-) -> Result<(f64, Option<MomentCurve>), SceneError> {
+) -> Result<(f64, Option<MomentCurve>), Error> {
     match &given.value {
         Curve::Slope(rigidity) => {
             let rigidity = Located { value: rigidity.clone(), span: given.span.clone() };
@@ -275,7 +271,7 @@ fn bounded_rigidity<M: Measure>(
     rigidity: &Quantity<M>,
     document: &Document,
     usual: &Usual,
-) -> Result<f64, SceneError> {
+) -> Result<f64, Error> {
     let value = rigidity.not_negative(document)?;
     if value == 0.0 {
         return Ok(value);

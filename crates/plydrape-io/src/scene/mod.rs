@@ -1,7 +1,7 @@
 //! A scene: everything one drape needs, read from a TOML file and checked.
 //!
 //! A file becomes a scene in three stages, each refusing what it cannot pass on with the place in
-//! the file, what is wrong there and what would be right ([`SceneError`]):
+//! the file, what is wrong there and what would be right ([`Diagnostic`]):
 //!
 //! 1. `read`, `tree`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
@@ -22,7 +22,7 @@ mod cut;
 mod diagnostic;
 mod drawing;
 mod dxf;
-mod error;
+
 mod errors;
 mod file;
 mod fit;
@@ -46,6 +46,7 @@ mod release;
 mod schema;
 mod settings;
 mod sheet;
+mod source;
 mod start;
 mod target;
 mod tool;
@@ -56,13 +57,15 @@ mod usual;
 
 pub use argument::{Measured, quantity};
 pub use book::{Book, BookPly, is_book, parse_book, read_book};
-pub use error::{SceneError, Unread};
+
 pub use fit::{Reading, Table as FitTable, read_fit};
 pub use ideal::IdealDrape;
 pub use material::{read_material, shipped_material, shipped_materials};
 pub use offset::{SeenOffset, json_offset, parse_offset, read_offset};
 pub use schema::schema;
 
+use crate::Error;
+use crate::error::Diagnostic;
 use crate::store::file_kind::FileKind;
 use crate::store::{input, shown};
 use located::Located;
@@ -82,7 +85,7 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy.
-pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
+pub fn read(path: &Path) -> Result<SceneFile, Error> {
     read_for(path, None, None)
 }
 
@@ -94,7 +97,7 @@ pub fn read_for(
     path: &Path,
     model: Option<Model>,
     also: Option<Model>,
-) -> Result<SceneFile, SceneError> {
+) -> Result<SceneFile, Error> {
     let (document, base) = open(path)?;
     let mut file = keys(&document)?;
     choose_models(&mut file, model, also);
@@ -121,15 +124,15 @@ fn choose_models(file: &mut file::SceneKeys, model: Option<Model>, also: Option<
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy. A ply that runs off the mold or folds is none.
-pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, SceneError> {
+pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, Error> {
     let (document, base) = open(path)?;
     ideal::ideal_drape(&keys(&document)?, &document, base)
 }
 
 /// The text of a scene file, and the folder of the files it names.
-fn open(path: &Path) -> Result<(error::Document, &Path), SceneError> {
+fn open(path: &Path) -> Result<(source::Document, &Path), Error> {
     let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
-    if let Err(error) = &mut document {
+    if let Err(Error::Scene(error)) = &mut document {
         if path.is_dir() {
             error.help = in_folder(path);
         } else if !path.exists() {
@@ -165,11 +168,11 @@ fn in_folder(path: &Path) -> String {
 }
 
 /// The refusal of a file that is something else than a scene, if its bytes tell.
-fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<SceneError> {
+fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<Error> {
     let kind = FileKind::of(bytes).filter(|kind| *kind != FileKind::Scene)?;
     let file = shown::name(name);
     let message = format!("`{file}` is {}, not a scene", kind.name());
-    Some(error::Document::new(name, "").error_anywhere(message, kind.in_place_of_a_scene(&file)))
+    Some(source::Document::new(name, "").error_anywhere(message, kind.in_place_of_a_scene(&file)))
 }
 
 /// Reads and checks the text of a scene; files it names are relative to `base`, and `name` stands
@@ -177,16 +180,16 @@ fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<SceneError> {
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy.
-pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, SceneError> {
-    scene(&error::Document::new(name, text), base)
+pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, Error> {
+    scene(&source::Document::new(name, text), base)
 }
 
 /// Reads and checks the table `[ply]` of a scene's text alone; a material file is relative to `base`.
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy.
-pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, SceneError> {
-    let document = error::Document::new(name, text);
+pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, Error> {
+    let document = source::Document::new(name, text);
     let keys = keys(&document)?;
     check::ply(&keys.ply, keys.grippers.as_ref().map(|table| &table.value), &document, base)
 }
@@ -202,8 +205,8 @@ pub fn parse_for(
     made: Option<Mold>,
     model: Option<Model>,
     also: Option<Model>,
-) -> Result<SceneFile, SceneError> {
-    let document = error::Document::new(name, text);
+) -> Result<SceneFile, Error> {
+    let document = source::Document::new(name, text);
     let mut file = keys(&document)?;
     choose_models(&mut file, model, also);
     match (&file.mold, &made) {
@@ -216,12 +219,12 @@ pub fn parse_for(
     }
 }
 
-fn scene(document: &error::Document, base: &Path) -> Result<SceneFile, SceneError> {
+fn scene(document: &source::Document, base: &Path) -> Result<SceneFile, Error> {
     check::scene(&keys(document)?, None, document, base)
 }
 
 /// Files that a text may name: every value that is the path of one, relative to `base`.
-fn named(document: &error::Document, base: &Path) -> Vec<PathBuf> {
+fn named(document: &source::Document, base: &Path) -> Vec<PathBuf> {
     fn search(value: &DeValue, base: &Path, out: &mut Vec<PathBuf>) {
         match value {
             DeValue::String(name) => {
@@ -243,7 +246,7 @@ fn named(document: &error::Document, base: &Path) -> Vec<PathBuf> {
     out
 }
 
-fn keys(document: &error::Document) -> Result<file::SceneKeys, SceneError> {
+fn keys(document: &source::Document) -> Result<file::SceneKeys, Error> {
     if document.text.trim().is_empty() {
         return Err(document.error_anywhere(
             format!("`{}` is empty", document.file),
@@ -272,7 +275,7 @@ pub struct SceneFile {
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.
     pub thickness: Option<f64>,
     /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
-    pub plan_refusal: Option<Box<SceneError>>,
+    pub plan_refusal: Option<Box<Diagnostic>>,
 }
 
 impl Deref for SceneFile {

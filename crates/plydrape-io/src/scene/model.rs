@@ -1,9 +1,10 @@
 //! Which models drape a scene, and whether each of them can.
 
-use super::error::{Document, SceneError};
 use super::file::{MethodKey, MountTable, SceneKeys};
 use super::located::Located;
 use super::sheet;
+use super::source::Document;
+use crate::Error;
 use crate::store::size::PlanSheets;
 use plydrape::ModelError;
 use plydrape::layup::{Layup, Model, Settings};
@@ -27,7 +28,7 @@ impl<'a> Models<'a> {
         file: &'a SceneKeys,
         decides: Model,
         document: &'a Document,
-    ) -> Result<Self, SceneError> {
+    ) -> Result<Self, Error> {
         let also = file.model.also.as_ref();
         let also = also.map(|Located { value, span }| (Model::from(*value), span));
         let models = Models { file, document, decides, also };
@@ -47,7 +48,7 @@ impl<'a> Models<'a> {
     }
 
     /// Refuses catenaries where no lines run between the cups, and the stepwise planner where these are no whole array.
-    pub fn check_lines(&self, ply: &Ply) -> Result<(), SceneError> {
+    pub fn check_lines(&self, ply: &Ply) -> Result<(), Error> {
         let lines = ply.lines();
         let stepwise = matches!(self.file.plan.method, Some(MethodKey::Stepwise));
         let sheet = "drape and plan it with the sheet, as kind = \"sheet\" in [model] and method = \"path\" in [plan] do";
@@ -69,7 +70,7 @@ impl<'a> Models<'a> {
     }
 
     /// Refuses mounts that give where catenaries hold the grippers: as a model, or in the stepwise planner.
-    pub fn check_mounts(&self) -> Result<(), SceneError> {
+    pub fn check_mounts(&self) -> Result<(), Error> {
         let grippers = self.file.grippers.as_ref();
         let mounts = grippers.and_then(|table| table.value.stiffness.as_ref());
         let gives = |mount: &&Located<MountTable>| {
@@ -101,7 +102,7 @@ impl<'a> Models<'a> {
         ply: &Ply,
         settings: &Settings,
         steps: usize,
-    ) -> Result<Option<PlanSheets>, SceneError> {
+    ) -> Result<Option<PlanSheets>, Error> {
         let fits =
             |otherwise| sheet::fits(self.file, ply, settings, steps, otherwise, self.document);
         match (self.decides, self.also) {
@@ -116,7 +117,7 @@ impl<'a> Models<'a> {
     }
 
     /// Refuses a layup that a model cannot be made of, whatever it lacks.
-    pub fn check_built(&self, layup: &Layup) -> Result<(), SceneError> {
+    pub fn check_built(&self, layup: &Layup) -> Result<(), Error> {
         let named = [Some(self.decides), self.also.map(|(model, _)| model)];
         for model in named.into_iter().flatten() {
             if let Err(fault) = ModelError::check(layup, model) {
@@ -130,7 +131,7 @@ impl<'a> Models<'a> {
     }
 
     /// A fault at a place of the scene; at none where a caller of the program has named the model.
-    fn error(&self, span: &Range<usize>, message: &str, help: &str) -> SceneError {
+    fn error(&self, span: &Range<usize>, message: &str, help: &str) -> Error {
         match span.is_empty() {
             true => self.document.error_anywhere(message, help),
             false => self.document.error(span.clone(), message, help),
@@ -170,7 +171,10 @@ mod tests {
         assert!(!parse(&scene(""), Path::new(""), "").unwrap().also);
         assert!(parse(&scene("also = \"catenaries\""), Path::new(""), "").unwrap().also);
         let fault = parse(&scene("also = \"sheet\""), Path::new(""), "").unwrap_err();
-        assert!(fault.message.contains("is that one") && fault.span.is_some(), "{fault}");
+        assert!(
+            fault.message().contains("is that one") && fault.diagnostic().unwrap().span.is_some(),
+            "{fault}"
+        );
 
         std::fs::write(&file, scene("also = \"catenaries\"")).unwrap();
         let read = |model, also| read_for(&file, model, also);
@@ -179,6 +183,9 @@ mod tests {
         assert_eq!((catenaries.layup.settings.model, catenaries.also), (Model::Catenaries, false));
         assert!(read(Some(Model::Catenaries), Some(Model::Sheet)).unwrap().also);
         let fault = read(None, Some(Model::Sheet)).unwrap_err();
-        assert!(fault.message.contains("is that one") && fault.span.is_none(), "{fault}");
+        assert!(
+            fault.message().contains("is that one") && fault.diagnostic().unwrap().span.is_none(),
+            "{fault}"
+        );
     }
 }

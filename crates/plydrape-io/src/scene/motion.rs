@@ -1,9 +1,10 @@
 //! Gripper positions over the steps of a straight motion, or of a ply that is held.
 
-use super::error::{Document, SceneError};
 use super::file::{MotionKind, MotionTable};
 use super::located::{Count, Located, Whole};
 use super::places::Places;
+use super::source::Document;
+use crate::Error;
 use plydrape::geometry::vector;
 use plydrape::layup::Target;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
@@ -21,7 +22,7 @@ pub(super) fn motion(
     target: Option<&Target>,
     ply: &Ply,
     document: &Document,
-) -> Result<Motion, SceneError> {
+) -> Result<Motion, Error> {
     let keys = table.map(|t| &t.value);
     let kind = match keys {
         Some(keys) => keys.kind,
@@ -68,7 +69,7 @@ pub(super) fn motion(
 }
 
 /// Why a plan of a scene with this motion is refused: it has a time law of its own and would ignore the duration.
-pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<SceneError> {
+pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Error> {
     let span = &keys.duration.as_ref()?.span;
     let written = document.excerpt(span);
     Some(document.error(
@@ -83,11 +84,7 @@ pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Scene
     ))
 }
 
-fn hold(
-    keys: Option<&MotionTable>,
-    start: &Places,
-    document: &Document,
-) -> Result<Motion, SceneError> {
+fn hold(keys: Option<&MotionTable>, start: &Places, document: &Document) -> Result<Motion, Error> {
     let misplaced = keys.and_then(|keys| {
         let steps = keys.steps.as_ref().map(|steps| &steps.span);
         steps.or(keys.duration.as_ref().map(|duration| &duration.span))
@@ -106,7 +103,7 @@ fn step_count(
     steps: &Located<Count>,
     grippers: usize,
     document: &Document,
-) -> Result<usize, SceneError> {
+) -> Result<usize, Error> {
     let Whole(written) = steps.value;
     let most = MOST_STEPS.min(MOST_POSITIONS / grippers);
     match usize::try_from(written) {
@@ -130,7 +127,7 @@ fn between(start: &[[f64; 3]], target: &[[f64; 3]], t: f64) -> Vec<[f64; 3]> {
 }
 
 /// Refuses grippers that pass straight above each other on their way.
-fn check_runs(motion: &Motion, start: &Places, ply: &Ply) -> Result<(), SceneError> {
+fn check_runs(motion: &Motion, start: &Places, ply: &Ply) -> Result<(), Error> {
     for (step, positions) in motion.positions.iter().enumerate().skip(1) {
         let places = Places {
             points: positions.clone(),

@@ -1,9 +1,10 @@
 //! Where a camera saw the ply: the file of `plydrape replan --picked`.
 
-use super::error::{Document, SceneError};
 use super::located::{Fixed, Located};
 use super::quantity::{Angle, Length, Quantity};
 use super::read;
+use super::source::Document;
+use crate::Error;
 use plydrape::pick_up::Offset;
 use serde::Deserialize;
 use std::path::Path;
@@ -58,7 +59,7 @@ struct PointTable {
 ///
 /// # Errors
 /// The first fault found, with its place and a remedy.
-pub fn read_offset(path: &Path, tolerance: f64) -> Result<SeenOffset, SceneError> {
+pub fn read_offset(path: &Path, tolerance: f64) -> Result<SeenOffset, Error> {
     let document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML)?;
     offset(&document, tolerance)
 }
@@ -67,7 +68,7 @@ pub fn read_offset(path: &Path, tolerance: f64) -> Result<SeenOffset, SceneError
 ///
 /// # Errors
 /// As [`read_offset`].
-pub fn parse_offset(text: &str, name: &str, tolerance: f64) -> Result<SeenOffset, SceneError> {
+pub fn parse_offset(text: &str, name: &str, tolerance: f64) -> Result<SeenOffset, Error> {
     offset(&Document::new(name, text), tolerance)
 }
 
@@ -75,7 +76,7 @@ pub fn parse_offset(text: &str, name: &str, tolerance: f64) -> Result<SeenOffset
 ///
 /// # Errors
 /// As [`read_offset`]; the place is none, since a message of one line has no lines.
-pub fn json_offset(text: &str, tolerance: f64) -> Result<SeenOffset, SceneError> {
+pub fn json_offset(text: &str, tolerance: f64) -> Result<SeenOffset, Error> {
     let document = Document::new("standard input", "");
     let help = "an object is wanted, as in {\"offset\": {\"x\": 0.003, \"y\": \"-1.5 mm\", \"yaw\": \"0.8 deg\"}}";
     let value: serde_json::Value = serde_json::from_str(text)
@@ -88,10 +89,9 @@ pub fn json_offset(text: &str, tolerance: f64) -> Result<SeenOffset, SceneError>
     let text: String = keys.collect::<Option<_>>().ok_or_else(|| {
         document.error_anywhere("a value is null, which means nothing here", help)
     })?;
-    parse_offset(&text, "standard input", tolerance).map_err(|fault| SceneError {
-        span: None,
-        text: "".into(),
-        ..fault
+    parse_offset(&text, "standard input", tolerance).map_err(|error| match error {
+        Error::Scene(fault) => document.error_anywhere(fault.message, fault.help),
+        other => other,
     })
 }
 
@@ -123,9 +123,9 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, SceneError> {
+fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
     let OffsetFile { offset, point, tolerance: own } = read::keys(document)?;
-    let pair = |fixed: &Fixed<Quantity<Length>, 2>| -> Result<[f64; 2], SceneError> {
+    let pair = |fixed: &Fixed<Quantity<Length>, 2>| -> Result<[f64; 2], Error> {
         Ok([place(&fixed.0[0], document)?, place(&fixed.0[1], document)?])
     };
     match (offset, point.as_slice()) {
@@ -153,7 +153,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, SceneError>
             let pairs = point
                 .iter()
                 .map(|point| Ok((pair(&point.value.planned)?, pair(&point.value.seen)?)));
-            let pairs: Vec<_> = pairs.collect::<Result<_, SceneError>>()?;
+            let pairs: Vec<_> = pairs.collect::<Result<_, Error>>()?;
             let tolerance = match own {
                 Some(own) => own.positive(document)?,
                 None => tolerance,
@@ -182,7 +182,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, SceneError>
 }
 
 /// A coordinate or a shift (m).
-fn place(given: &Quantity<Length>, document: &Document) -> Result<f64, SceneError> {
+fn place(given: &Quantity<Length>, document: &Document) -> Result<f64, Error> {
     let value = given.si(document)?;
     match value.abs() <= plydrape::ply::FARTHEST {
         true => Ok(value),
@@ -195,7 +195,7 @@ fn place(given: &Quantity<Length>, document: &Document) -> Result<f64, SceneErro
 }
 
 /// A yaw (rad).
-fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
+fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
     let value = given.si(document)?;
     match value.abs() <= std::f64::consts::PI {
         true => Ok(value),
@@ -211,7 +211,7 @@ fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> Result<SeenOffset, SceneError> {
+    fn parse(text: &str) -> Result<SeenOffset, Error> {
         parse_offset(text, "offset.toml", 2e-3)
     }
 
@@ -269,9 +269,10 @@ mod tests {
         ];
         for (text, expected) in cases {
             let fault = parse(text).unwrap_err();
-            assert!(fault.message.contains(expected), "{text}: {fault}");
+            assert!(fault.message().contains(expected), "{text}: {fault}");
             assert!(
-                !fault.help.is_empty() && (text.is_empty() || fault.span.is_some()),
+                !fault.help().is_empty()
+                    && (text.is_empty() || fault.diagnostic().unwrap().span.is_some()),
                 "{fault:?}"
             );
         }
@@ -284,7 +285,7 @@ mod tests {
             ("{}", "neither"),
         ] {
             let fault = json_offset(text, 2e-3).unwrap_err();
-            assert!(fault.message.contains(expected), "{text}: {fault}");
+            assert!(fault.message().contains(expected), "{text}: {fault}");
         }
     }
 }

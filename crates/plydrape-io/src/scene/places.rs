@@ -2,12 +2,13 @@
 
 use super::choice::{Positions, PositionsRow};
 use super::csv::{Column, Csv, Row};
-use super::error::{Document, SceneError};
 use super::heading::coordinates;
 use super::located::Located;
 use super::quantity::rounded;
 use super::read;
+use super::source::Document;
 use super::units::Dimension;
+use crate::Error;
 use plydrape::ply::{Grid, GripperId, PlaceError, Ply, gripper_name};
 use std::ops::Range;
 use std::path::Path;
@@ -52,7 +53,7 @@ impl Places {
         ply: &Ply,
         scene: &Document,
         base: &Path,
-    ) -> Result<Self, SceneError> {
+    ) -> Result<Self, Error> {
         match &positions.value {
             Positions::Table(rows) => from_table(rows, &positions.span, ply, scene),
             Positions::File(name) => {
@@ -63,7 +64,7 @@ impl Places {
     }
 
     /// An error at the gripper with an index.
-    pub fn error(&self, index: usize, message: String, help: impl Into<String>) -> SceneError {
+    pub fn error(&self, index: usize, message: String, help: impl Into<String>) -> Error {
         let span = self.spans.get(index).or_else(|| self.spans.first());
         match span {
             Some(span) => self.document.error(span.clone(), message, help),
@@ -72,7 +73,7 @@ impl Places {
     }
 
     /// Refuses neighbors further apart than the ply between them.
-    pub fn check_reach(&self, ply: &Ply) -> Result<(), SceneError> {
+    pub fn check_reach(&self, ply: &Ply) -> Result<(), Error> {
         // a line across the yarns may be longer than flat: the ply shears
         let fibres = ply.neighbours().into_iter().filter(|pair| pair.fibre.is_some());
         fibres.into_iter().try_for_each(|pair| {
@@ -101,7 +102,7 @@ impl Places {
     }
 
     /// Refuses what [`Ply::check_places`] does, neighbors (all but) straight above each other above all.
-    pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), SceneError> {
+    pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), Error> {
         ply.check_places(&self.points).map_err(|fault| match fault {
             PlaceError::Steep { a, b, run, length, .. } => self.error(
                 ply.index(b).unwrap_or(0),
@@ -137,14 +138,9 @@ pub(super) fn csv_file(
     span: &Range<usize>,
     scene: &Document,
     base: &Path,
-) -> Result<Document, SceneError> {
-    read::text(&base.join(name), name, read::LARGEST_CSV).map_err(|error| {
-        if error.span.is_some() {
-            return error;
-        }
-        let help = read::beside("scene", &error.help);
-        scene.error(span.clone(), error.message, help).of_file(error.unread)
-    })
+) -> Result<Document, Error> {
+    read::text(&base.join(name), name, read::LARGEST_CSV)
+        .map_err(|error| scene.error_of_named(span, error, "scene"))
 }
 
 fn from_table(
@@ -152,7 +148,7 @@ fn from_table(
     span: &Range<usize>,
     ply: &Ply,
     scene: &Document,
-) -> Result<Places, SceneError> {
+) -> Result<Places, Error> {
     let grid = ply.grid;
     if grid == Grid::NONE {
         return Err(scene.error(
@@ -193,7 +189,7 @@ fn from_table(
     Ok(places)
 }
 
-fn from_csv(document: Document, ply: &Ply) -> Result<Places, SceneError> {
+fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
     let mut points = vec![None; ply.grippers()];
     let mut spans = vec![0..0; ply.grippers()];
     let header = {
@@ -251,7 +247,7 @@ pub(super) fn index(gripper: GripperId, ply: &Ply) -> Result<usize, (String, Str
 }
 
 /// The position (m) in three columns of a row.
-pub(super) fn point(row: &Row, columns: [usize; 3]) -> Result<[f64; 3], SceneError> {
+pub(super) fn point(row: &Row, columns: [usize; 3]) -> Result<[f64; 3], Error> {
     let mut point = [0.0; 3];
     for (coordinate, column) in point.iter_mut().zip(columns) {
         *coordinate = row.number(column)?;

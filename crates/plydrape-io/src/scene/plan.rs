@@ -1,9 +1,10 @@
 //! How a motion is planned.
 
-use super::error::{Document, SceneError};
 use super::file::{MethodKey, PlanTable};
 use super::located::{Count, Located, Seed, Whole};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::motion::MOST_POSITIONS;
 use plydrape::scene::{Plan, PlanMethod};
 
@@ -15,11 +16,7 @@ const MOST_EVALUATIONS: usize = 1_000_000;
 const RATES: [f64; 2] = [0.1, 1e4];
 
 /// Checks the table `[plan]`.
-pub(super) fn plan(
-    table: &PlanTable,
-    grippers: usize,
-    document: &Document,
-) -> Result<Plan, SceneError> {
+pub(super) fn plan(table: &PlanTable, grippers: usize, document: &Document) -> Result<Plan, Error> {
     let default = Plan::default();
     let most_steps = MOST_STEPS.min(MOST_POSITIONS / grippers);
     Ok(Plan {
@@ -58,7 +55,7 @@ fn count(
     [least, most]: [usize; 2],
     of: &str,
     document: &Document,
-) -> Result<usize, SceneError> {
+) -> Result<usize, Error> {
     let Whole(value) = written.value;
     if let Ok(value) = usize::try_from(value)
         && (least..=most).contains(&value)
@@ -80,7 +77,7 @@ fn count(
 }
 
 /// The seed of a search or of a sample.
-pub(super) fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, SceneError> {
+pub(super) fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, Error> {
     let Whole(value) = seed.value;
     u64::try_from(value).map_err(|_| {
         document.error(

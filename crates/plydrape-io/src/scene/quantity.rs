@@ -1,9 +1,11 @@
 //! Measured values of a scene file, held against the dimension and the range that they must have.
 
-use super::error::{Document, SceneError};
 use super::located::Located;
-use super::units::{self, Dimension, UnitError};
+use super::source::Document;
+use super::units::{self, Dimension};
 use super::usual::Usual;
+use crate::Error;
+use crate::error::Fault;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Visitor};
 use std::borrow::Cow;
@@ -121,7 +123,7 @@ pub(super) type Quantity<M> = Located<Unchecked<M>>;
 
 impl<M: Measure> Quantity<M> {
     /// The finite value in SI units.
-    pub fn si(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn si(&self, document: &Document) -> Result<f64, Error> {
         let value = self.si_or_infinite(document)?;
         if value.is_finite() {
             return Ok(value);
@@ -134,7 +136,7 @@ impl<M: Measure> Quantity<M> {
     }
 
     /// The value in SI units; infinity passes, a value that is not a number does not.
-    pub fn si_or_infinite(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn si_or_infinite(&self, document: &Document) -> Result<f64, Error> {
         let (value, _) = self.with_dimension(document)?;
         if !value.is_nan() {
             return Ok(value);
@@ -147,10 +149,7 @@ impl<M: Measure> Quantity<M> {
     }
 
     /// The value in SI units and its dimension, `None` where a plain number leaves it open.
-    pub fn with_dimension(
-        &self,
-        document: &Document,
-    ) -> Result<(f64, Option<Dimension>), SceneError> {
+    pub fn with_dimension(&self, document: &Document) -> Result<(f64, Option<Dimension>), Error> {
         let error =
             |message: String, help: String| document.error(self.span.clone(), message, help);
         let remedy = format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE);
@@ -160,12 +159,13 @@ impl<M: Measure> Quantity<M> {
         };
         let shown = document.excerpt(&self.span);
         let (value, dimension) = units::quantity(text).map_err(|fault| {
-            let help = match fault {
-                UnitError::NoNumber => remedy.clone(),
-                UnitError::DecimalComma => fault.help(),
-                _ => format!("{remedy}; {}", fault.help()),
+            let Fault { message, help } = fault;
+            let help = match &*message {
+                units::DECIMAL_COMMA => help,
+                _ if help.is_empty() => remedy.clone(),
+                _ => format!("{remedy}; {help}"),
             };
-            error(format!("{shown} cannot be read: {fault}"), help)
+            error(format!("{shown} cannot be read: {message}"), help)
         })?;
         match dimension {
             Some(found) if M::DIMENSIONS.contains(&found) => {
@@ -183,7 +183,7 @@ impl<M: Measure> Quantity<M> {
     }
 
     /// A value above zero.
-    pub fn positive(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn positive(&self, document: &Document) -> Result<f64, Error> {
         let value = self.si(document)?;
         if value > 0.0 {
             return Ok(value);
@@ -202,14 +202,14 @@ impl<M: Measure> Quantity<M> {
         document: &Document,
         bounds: [f64; 2],
         usual: &Usual,
-    ) -> Result<f64, SceneError> {
+    ) -> Result<f64, Error> {
         self.positive(document)?;
         self.believed(document, usual)?;
         self.within_for(document, bounds, "a ply")
     }
 
     /// Refuses a plain number that is far from what is found in practice.
-    pub fn believed(&self, document: &Document, usual: &Usual) -> Result<(), SceneError> {
+    pub fn believed(&self, document: &Document, usual: &Usual) -> Result<(), Error> {
         let number = match self.value.raw {
             Raw::Number(number) if number != 0.0 && number.is_finite() && !usual.holds(number) => {
                 number
@@ -246,7 +246,7 @@ impl<M: Measure> Quantity<M> {
         document: &Document,
         [low, high]: [f64; 2],
         what: &str,
-    ) -> Result<f64, SceneError> {
+    ) -> Result<f64, Error> {
         let value = self.positive(document)?;
         if (low..=high).contains(&value) {
             return Ok(value);
@@ -260,7 +260,7 @@ impl<M: Measure> Quantity<M> {
     }
 
     /// A value of zero or more.
-    pub fn not_negative(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn not_negative(&self, document: &Document) -> Result<f64, Error> {
         let value = self.si(document)?;
         if value >= 0.0 {
             return Ok(value);
@@ -295,7 +295,7 @@ const SIZES: [f64; 2] = [1e-6, 1e4];
 
 impl Quantity<Length> {
     /// A size between 1 µm and 10 km (m).
-    pub fn size(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
+    pub fn size(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
         let value = self.positive(document)?;
         self.believed(document, usual)?;
         if (SIZES[0]..=SIZES[1]).contains(&value) {
@@ -305,13 +305,13 @@ impl Quantity<Length> {
     }
 
     /// A size that may be zero, up to 10 km (m).
-    pub fn size_or_zero(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
+    pub fn size_or_zero(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
         let value = self.not_negative(document)?;
         if value == 0.0 { Ok(value) } else { self.size(document, usual) }
     }
 
     /// A coordinate of at most 10 km to either side (m).
-    pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
+    pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
         let value = self.si(document)?;
         self.believed(document, usual)?;
         if value.abs() <= SIZES[1] {
@@ -321,7 +321,7 @@ impl Quantity<Length> {
     }
 
     /// Refuses a value (m) that nothing in a scene has.
-    pub fn out_of_scale(&self, document: &Document, value: f64) -> SceneError {
+    pub fn out_of_scale(&self, document: &Document, value: f64) -> Error {
         document.error(
             self.span.clone(),
             format!(
@@ -342,13 +342,13 @@ pub(super) fn rounded(value: f64) -> String {
 
 impl Quantity<Angle> {
     /// An angle above zero and below a right angle (rad).
-    pub fn acute(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn acute(&self, document: &Document) -> Result<f64, Error> {
         self.positive(document)?;
         self.below_right_angle(document)
     }
 
     /// An angle from zero to below a right angle (rad).
-    pub fn below_right_angle(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn below_right_angle(&self, document: &Document) -> Result<f64, Error> {
         let value = self.not_negative(document)?;
         if value < std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9) {
             return Ok(value);
@@ -432,7 +432,7 @@ impl<M: Measure> JsonSchema for Unchecked<M> {
 mod tests {
     use super::*;
 
-    fn read<M: Measure>(text: &str) -> Result<f64, SceneError> {
+    fn read<M: Measure>(text: &str) -> Result<f64, Error> {
         let document = Document::new("", text);
         Located { value: Unchecked::<M>::of_argument(text), span: 0..text.len() }.si(&document)
     }
@@ -445,7 +445,7 @@ mod tests {
         assert!((rigidity - 2000.0 * 9.806_65e-8).abs() < 1e-18, "{rigidity}");
         let rigidity = read::<FlexuralRigidity>("500 g cm^2").unwrap();
         assert!((rigidity - 500.0 * 9.806_65e-7).abs() < 1e-15, "{rigidity}");
-        assert_eq!(read::<BendingRigidity>("2e-4 N m"), Ok(2e-4));
+        assert_eq!(read::<BendingRigidity>("2e-4 N m").unwrap(), 2e-4);
         assert!(read::<Force>("2 kg").is_err());
         assert!(read::<Length>("2 g m").is_err());
     }

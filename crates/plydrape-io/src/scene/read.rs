@@ -1,7 +1,9 @@
 //! From bytes to a text, and from a text to the keys of a file.
 
-use super::error::{Document, SceneError, Unread};
+use super::source::Document;
 use super::{diagnostic, tree};
+use crate::Error;
+use crate::error::{Diagnostic, Fault};
 use crate::store::file_kind::{self, FileKind};
 use crate::store::{input, shown};
 use serde::de::DeserializeOwned;
@@ -17,7 +19,7 @@ pub(super) const LARGEST_CSV: u64 = 1 << 30;
 const LONGEST_PATH: usize = 400;
 
 /// Reads a file, named `name` in messages.
-pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, SceneError> {
+pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Error> {
     let nothing = Document::new(name, "");
     let name = shown::excerpt(name, LONGEST_PATH);
     if path.is_dir() {
@@ -30,20 +32,20 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Sc
             "is it the right file? large tables of gripper positions belong into a CSV file",
         ),
         kind => {
-            let unread = Some(Box::new(Unread { path: path.into(), kind }));
-            let [message, help] = unreadable(path, &name, &error);
-            nothing.error_anywhere(message, help).of_file(unread)
+            let Fault { message, help } = unreadable(path, &name, &error);
+            Diagnostic { unread: Some((path.into(), kind)), ..nothing.fault(message, help) }.into()
         }
     })
 }
 
 /// Why a file, named `name`, cannot be read, and what to do; nothing where the message says all.
-pub(super) fn unreadable(path: &Path, name: &str, error: &std::io::Error) -> [String; 2] {
+fn unreadable(path: &Path, name: &str, error: &std::io::Error) -> Fault {
     let help = not_found(path, error).or_else(|| not_readable(path, error)).or_else(|| {
         let written = path.to_string_lossy();
         (written != name).then(|| format!("looked for {}", short(&written)))
     });
-    [format!("`{}` cannot be read: {}", short(name), reason(error)), help.unwrap_or_default()]
+    let message = format!("`{}` cannot be read: {}", short(name), reason(error));
+    Fault::new(message, help.unwrap_or_default())
 }
 
 /// What helps with a file that a scene or a book names.
@@ -103,12 +105,12 @@ pub(super) const BACKSLASHES: &str =
     "in double quotes a backslash begins an escape: write a path with forward slashes, or";
 
 /// Reads a text file, named `name` in messages.
-pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
+pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
     decoded(bytes(path, name, largest)?, name)
 }
 
 /// Reads a table of a laboratory: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.
-pub(super) fn lab_text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
+pub(super) fn lab_text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
     let bytes = bytes(path, name, largest)?;
     let is_table = matches!(FileKind::of(&bytes), None | Some(FileKind::Table));
     let marked = [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| bytes.starts_with(*mark));
@@ -120,7 +122,7 @@ pub(super) fn lab_text(path: &Path, name: &str, largest: u64) -> Result<Document
 }
 
 /// A text from its bytes.
-fn decoded(bytes: Vec<u8>, name: &str) -> Result<Document, SceneError> {
+fn decoded(bytes: Vec<u8>, name: &str) -> Result<Document, Error> {
     match String::from_utf8(bytes) {
         // Spreadsheets and some editors put a byte order mark first.
         Ok(text) => Ok(Document::new(name, text.trim_start_matches('\u{feff}'))),
@@ -159,6 +161,6 @@ fn reason(error: &std::io::Error) -> String {
 }
 
 /// Reads the keys of a TOML text.
-pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, SceneError> {
+pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, Error> {
     tree::read(&document.text).map_err(|fault| diagnostic::scene_error(document, fault))
 }

@@ -1,8 +1,9 @@
 //! When the pads let go of the ply.
 
-use super::error::{Document, SceneError};
 use super::file::{OrderKey, ReleaseTable};
 use super::located::Located;
+use super::source::Document;
+use crate::Error;
 use plydrape::layup::{Model, Release, ReleaseOrder};
 
 /// Shortest and longest dwell (s).
@@ -14,7 +15,7 @@ pub(super) fn release(
     model: Model,
     on_mold: bool,
     document: &Document,
-) -> Result<Release, SceneError> {
+) -> Result<Release, Error> {
     let Located { value: ReleaseTable { order, dwell }, span } = table;
     if model == Model::Catenaries {
         return Err(document.error(

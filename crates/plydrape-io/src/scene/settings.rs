@@ -1,13 +1,14 @@
 //! Rules of the model, of contact, of the sheet and of the pads.
 
 use super::choice::FrictionChoice;
-use super::error::{Document, SceneError};
 use super::file::{
     EndKey, GrippersTable, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey, TimeKey,
 };
 use super::located::{Located, Whole};
 use super::quantity::{Force, Quantity, Stiffness};
+use super::source::Document;
 use super::usual;
+use crate::Error;
 use plydrape::layup::{
     ContactEnd, ContactSettings, Friction, PadSettings, Settings, SheetSettings, SheetTime,
     SlopeRule, Stepping,
@@ -30,7 +31,7 @@ pub(super) fn settings(
     file: &SceneKeys,
     ply: &Ply,
     document: &Document,
-) -> Result<Settings, SceneError> {
+) -> Result<Settings, Error> {
     let (model, usual) = (&file.model, Settings::default());
     let axial_stiffness = match &model.axial_stiffness {
         Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
@@ -74,11 +75,7 @@ pub(super) fn settings(
     })
 }
 
-fn contact(
-    file: &SceneKeys,
-    ply: &Ply,
-    document: &Document,
-) -> Result<ContactSettings, SceneError> {
+fn contact(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<ContactSettings, Error> {
     let (contact, usual) = (&file.contact, ContactSettings::default());
     let tolerance = match &contact.tolerance {
         Some(tolerance) => {
@@ -123,11 +120,7 @@ fn contact(
     })
 }
 
-fn sheet(
-    table: &SheetTable,
-    overhang: f64,
-    document: &Document,
-) -> Result<SheetSettings, SceneError> {
+fn sheet(table: &SheetTable, overhang: f64, document: &Document) -> Result<SheetSettings, Error> {
     let usual = SheetSettings::default();
     Ok(SheetSettings {
         mesh: table.mesh.as_ref().map(|mesh| mesh.size(document, &usual::MESH)).transpose()?,
@@ -157,7 +150,7 @@ fn sheet(
     })
 }
 
-fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, SceneError> {
+fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, Error> {
     let usual = PadSettings::default();
     let mount = |key: Option<&Quantity<Stiffness>>| {
         key.map(|key| {

@@ -1,7 +1,8 @@
 //! What a scene must have to be draped as a sheet.
 
-use super::error::{Document, SceneError};
 use super::file::SceneKeys;
+use super::source::Document;
+use crate::Error;
 use crate::store::shown::millimetres;
 use crate::store::size::{self, PlanSheets};
 use plydrape::layup::Settings;
@@ -22,7 +23,7 @@ pub(super) fn fits(
     steps: usize,
     otherwise: &str,
     document: &Document,
-) -> Result<PlanSheets, SceneError> {
+) -> Result<PlanSheets, Error> {
     stiffness(&file.ply.value.material.span, &ply.material, otherwise, document)?;
     let around = Around { file, ply, settings, document };
     around.pads()?;
@@ -35,7 +36,7 @@ pub(super) fn fits(
         document.error(
             span,
             fault.to_string(),
-            format!("{}; a coarser `mesh` has fewer nodes", fault.remedy()),
+            format!("{}; a coarser `mesh` has fewer nodes", fault.help()),
         )
     })?;
     let coarse = mesh.max(TUNING.mesh * pitch(ply));
@@ -48,7 +49,7 @@ fn stiffness(
     material: &Material,
     otherwise: &str,
     document: &Document,
-) -> Result<(), SceneError> {
+) -> Result<(), Error> {
     let rigid = match material.section {
         Section::Line { flexural_rigidity, .. } => flexural_rigidity > 0.0,
         Section::Areal { warp_rigidity, weft_rigidity, .. } => {
@@ -105,7 +106,7 @@ struct Around<'a> {
 
 impl Around<'_> {
     /// Refuses pads that overlap or hang over the boundary.
-    fn pads(&self) -> Result<(), SceneError> {
+    fn pads(&self) -> Result<(), Error> {
         let radius = self.settings.pad.radius;
         let Some(span) = self.pad_span().filter(|_| radius > 0.0) else { return Ok(()) };
         let (pitch, overhang) = (pitch(self.ply), self.settings.sheet.overhang);
@@ -139,7 +140,7 @@ impl Around<'_> {
     }
 
     /// The largest distance between lines of nodes (m); refuses one that leaves no line between two pads.
-    fn mesh(&self) -> Result<f64, SceneError> {
+    fn mesh(&self) -> Result<f64, Error> {
         let mesh = self.settings.sheet.mesh.unwrap_or(pitch(self.ply) / LINES);
         let most = coarsest_mesh(pitch(self.ply), self.settings.pad.radius);
         if mesh <= most * (1.0 + ROUNDING) {

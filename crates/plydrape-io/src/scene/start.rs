@@ -2,7 +2,8 @@
 
 use super::check::Surroundings;
 use super::choice::Place;
-use super::error::SceneError;
+use crate::Error;
+
 use super::file::GrippersTable;
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
@@ -22,7 +23,7 @@ pub(super) fn start(
     table: &Located<GrippersTable>,
     around: &Surroundings,
     target: Option<&Target>,
-) -> Result<Places, SceneError> {
+) -> Result<Places, Error> {
     let keys = &table.value;
     let &Surroundings { ply, document, base, .. } = around;
     match (&keys.positions, &keys.spacing, &keys.height) {
@@ -84,7 +85,7 @@ fn rectangle(
     height: &Quantity<Length>,
     around: &Surroundings,
     target: Option<&Target>,
-) -> Result<Places, SceneError> {
+) -> Result<Places, Error> {
     let &Surroundings { ply, document, .. } = around;
     let place = spacing.0[0].span.start..spacing.0[1].span.end;
     let distance = |n: usize| spacing.0[n].size(document, &usual::SPACING);
@@ -147,7 +148,7 @@ fn is_centred(keys: &GrippersTable) -> bool {
 }
 
 /// The plane above which the rectangle lies: the mold, or z = 0.
-fn ground(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, SceneError> {
+fn ground(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, Error> {
     let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     let Some(parallel) = keys.parallel_to_mold.as_ref().filter(|parallel| parallel.value) else {
         return Ok(level);
@@ -189,7 +190,7 @@ fn heading_of(points: &[[f64; 3]], ply: &Ply) -> f64 {
 }
 
 /// Refuses a start that cannot be: fabric too short, spans straight up, grippers in the mold.
-pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneError> {
+pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), Error> {
     let &Surroundings { ply, mold, tolerance, .. } = around;
     places.check_reach(ply)?;
     places.check_run(ply, "at the start")?;
@@ -216,6 +217,8 @@ pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneE
         help += &format!("; below the grippers it reaches up to z = {:.1} mm", top * 1e3);
     }
     let mut error = places.error(index, message, help);
-    error.span = places.height.clone().or(error.span);
+    if let (Error::Scene(fault), Some(height)) = (&mut error, &places.height) {
+        fault.span = Some(height.clone());
+    }
     Err(error)
 }

@@ -1,11 +1,12 @@
 //! Where the ply shall end: the ideal drape on the mold, or positions as given.
 
 use super::csv::Csv;
-use super::error::{Document, SceneError};
 use super::file::TargetTable;
 use super::layup::{free, layup, round};
 use super::located::Located;
 use super::places::{Places, X, Y, Z, csv_file, point};
+use super::source::Document;
+use crate::Error;
 use plydrape::layup::Target;
 use plydrape::mold::Mold;
 use plydrape::net::{CurveError, Free, Missing, Net, PlacementError, Reason, Seeds, Wanted};
@@ -20,7 +21,7 @@ pub(super) fn target(
     mold: Option<&Mold>,
     document: &Document,
     base: &Path,
-) -> Result<Target, SceneError> {
+) -> Result<Target, Error> {
     let keys = &table.value;
     if let Some(positions) = &keys.positions {
         if let Some(key) = laying_key(keys) {
@@ -72,7 +73,7 @@ pub(super) fn net(
     mold: &Mold,
     document: &Document,
     base: &Path,
-) -> Result<Laid, SceneError> {
+) -> Result<Laid, Error> {
     let keys = &table.value;
     let layup = layup(keys, &table.span, ply, mold, document)?;
     let outline = ply.cut.as_ref().map(|cut| &cut.outline);
@@ -99,7 +100,7 @@ fn wanted(
     mesh: f64,
     scene: &Document,
     base: &Path,
-) -> Result<Wanted, SceneError> {
+) -> Result<Wanted, Error> {
     let document = csv_file(&file.value, &file.span, scene, base)?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
     for row in Csv::new(&document, &[X, Y, Z])?.rows() {
@@ -145,7 +146,7 @@ fn no_net(
     table: &Located<TargetTable>,
     error: &PlacementError,
     document: &Document,
-) -> SceneError {
+) -> Error {
     let shear = keys.shear.as_ref().map(|shear| &shear.span);
     let origin = keys.origin.as_ref().map(|origin| &origin.span);
     let (key, help) = match error {
@@ -163,7 +164,7 @@ fn at_grippers(
     mold: &Mold,
     table: &Located<TargetTable>,
     document: &Document,
-) -> Result<Vec<[f64; 3]>, SceneError> {
+) -> Result<Vec<[f64; 3]>, Error> {
     let places: Vec<Option<[f64; 3]>> =
         (0..ply.grippers()).map(|index| net.place_or_node(mold, ply.place(index))).collect();
     let missing = places.iter().filter(|place| place.is_none()).count();

@@ -1,12 +1,13 @@
 //! How a robot carries the grippers.
 
-use super::error::{Document, SceneError};
 use super::file::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 use super::heading::{coordinates, pose};
 use super::layup::round;
 use super::located::Located;
 use super::quantity::{AngularRate, Length, Speed};
+use super::source::Document;
 use super::usual::Usual;
+use crate::Error;
 use plydrape::geometry::Pose;
 use plydrape::layup::Layup;
 use plydrape::measure::{Limits, Name, Practice};
@@ -26,7 +27,7 @@ pub(super) fn tool(
     start: &[[f64; 3]],
     limits: &Limits,
     document: &Document,
-) -> Result<Tool, SceneError> {
+) -> Result<Tool, Error> {
     let mut axes: Vec<Axis> = Vec::new();
     for written in table.axes.iter().flat_map(|axes| &axes.value) {
         let axis = axis(written, start, limits, document)?;
@@ -70,7 +71,7 @@ fn fixed_pads(
     layup: &Layup,
     start: &[[f64; 3]],
     document: &Document,
-) -> Result<Option<[[f64; 3]; 3]>, SceneError> {
+) -> Result<Option<[[f64; 3]; 3]>, Error> {
     let Some(joints) = table.joints.as_ref().filter(|joints| joints.value == JointsKey::None)
     else {
         return Ok(None);
@@ -85,7 +86,7 @@ fn fixed_pads(
     Ok(Some(layup.ply.flat_axes(start)))
 }
 
-fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, SceneError> {
+fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, Error> {
     match table {
         Some(PlacedTable { position, rotation }) => {
             pose(position.as_ref(), rotation.as_ref(), document)
@@ -99,7 +100,7 @@ fn axis(
     start: &[[f64; 3]],
     limits: &Limits,
     document: &Document,
-) -> Result<Axis, SceneError> {
+) -> Result<Axis, Error> {
     let table = &written.value;
     let stroke = coordinates(&table.stroke.value, document)?;
     if !(stroke[0] <= 0.0 && 0.0 <= stroke[1] && stroke[0] < stroke[1]) {

@@ -1,12 +1,13 @@
 //! Gripper positions over the steps from a CSV file.
 
 use super::csv::{Column, Csv, Row};
-use super::error::{Document, SceneError};
 use super::file::MotionTable;
 use super::located::Located;
 use super::motion::DURATIONS;
 use super::places::{Places, X, Y, Z, csv_file, index, point};
+use super::source::Document;
 use super::units::Dimension;
+use crate::Error;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
 use plydrape::ply::{GripperId, Ply, gripper_name, read_gripper_name};
 use std::ops::Range;
@@ -27,7 +28,7 @@ pub(super) fn trajectory(
     ply: &Ply,
     scene: &Document,
     base: &Path,
-) -> Result<(Motion, Places), SceneError> {
+) -> Result<(Motion, Places), Error> {
     let Some(name) = &table.value.file else {
         return Err(scene.error(
             table.span.clone(),
@@ -91,7 +92,7 @@ impl<'a> Steps<'a> {
         }
     }
 
-    fn add(&mut self, row: &Row) -> Result<(), SceneError> {
+    fn add(&mut self, row: &Row) -> Result<(), Error> {
         // A new time begins a new step.
         let written = row.number(0)?;
         if self.motion.times.is_empty() {
@@ -131,7 +132,7 @@ impl<'a> Steps<'a> {
         Ok(())
     }
 
-    fn begin(&mut self, time: f64, row: &Row) -> Result<(), SceneError> {
+    fn begin(&mut self, time: f64, row: &Row) -> Result<(), Error> {
         self.complete()?;
         let most = MOST_STEPS.min(MOST_POSITIONS / self.ply.grippers());
         if self.motion.times.len() == most || time > DURATIONS[1] {
@@ -148,7 +149,7 @@ impl<'a> Steps<'a> {
     }
 
     /// Refuses a step in which a gripper is missing or stands straight above another.
-    fn complete(&mut self) -> Result<(), SceneError> {
+    fn complete(&mut self) -> Result<(), Error> {
         let (Some(time), Some(points)) = (self.motion.times.last(), self.motion.positions.last())
         else {
             return Ok(());
@@ -177,7 +178,7 @@ impl<'a> Steps<'a> {
         ))
     }
 
-    fn finish(&mut self, header: Range<usize>) -> Result<(), SceneError> {
+    fn finish(&mut self, header: Range<usize>) -> Result<(), Error> {
         if self.motion.times.is_empty() {
             return Err(self.document.error(
                 header,
@@ -190,7 +191,7 @@ impl<'a> Steps<'a> {
 }
 
 /// A gripper by its name, see [`read_gripper_name`].
-fn gripper_id(row: &Row) -> Result<GripperId, SceneError> {
+fn gripper_id(row: &Row) -> Result<GripperId, Error> {
     let text = row.text(1)?;
     read_gripper_name(text).ok_or_else(|| {
         let help = "write grippers as g2_0, from g0_0; 2-0 and gripper_2_0 are read too";

@@ -5,7 +5,8 @@
 //! divides by the next symbol only, so that `N/m/s` is N/(m·s). Values come out in SI base units.
 //! An angle counts as a dimension of its own: a length in degrees is a mistake worth catching.
 
-use super::error::excerpt;
+use super::source::excerpt;
+use crate::error::Fault;
 use std::fmt;
 
 /// Powers of meter, kilogram, second and radian.
@@ -144,40 +145,22 @@ const UNITS: [(&str, f64, Dimension); 42] = [
     ("%", 1e-2, Dimension::NONE),
 ];
 
-/// Why a text is no number with a unit.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(super) enum UnitError {
-    #[error("it does not start with a number")]
-    NoNumber,
-    #[error("its number has a decimal comma")]
-    DecimalComma,
-    #[error("its number has a power of ten written out")]
-    PowerOfTen,
-    #[error("`{}` is no unit known here", excerpt(.0))]
-    Unknown(String),
-    #[error("`{}` is no whole power from -9 to 9", excerpt(.0))]
-    Power(String),
-    #[error("a unit is missing after `{0}`")]
-    Dangling(char),
+/// What is wrong with the number before a unit, where it has a decimal comma.
+pub(super) const DECIMAL_COMMA: &str = "its number has a decimal comma";
+
+/// A symbol that is no unit.
+fn unknown(symbol: &str) -> Fault {
+    let help = match nearest_unit(symbol) {
+        Some(unit) => format!("did you mean `{unit}`?"),
+        None => known_units(),
+    };
+    Fault::new(format!("`{}` is no unit known here", excerpt(symbol)), help)
 }
 
-impl UnitError {
-    /// What would be right.
-    pub fn help(&self) -> String {
-        match self {
-            UnitError::NoNumber => "write a number and a unit, as in \"98 mm\"".into(),
-            UnitError::DecimalComma => "write a decimal point, as in \"98.5 mm\"".into(),
-            UnitError::PowerOfTen => "write powers of ten by an e, as in \"9e-5 N m\"".into(),
-            UnitError::Unknown(symbol) => match nearest_unit(symbol) {
-                Some(unit) => format!("did you mean `{unit}`?"),
-                None => known_units(),
-            },
-            UnitError::Power(_) => "write powers as in m^2, m², or s^-2".into(),
-            UnitError::Dangling(_) => {
-                "write units as products and quotients, as in \"N m^2\" or \"kg/m\"".into()
-            }
-        }
-    }
+/// An operator that no unit follows.
+fn dangling(operator: char) -> Fault {
+    let help = "write units as products and quotients, as in \"N m^2\" or \"kg/m\"";
+    Fault::new(format!("a unit is missing after `{operator}`"), help)
 }
 
 /// The symbols, each once: without those that are another way to type µ.
@@ -221,16 +204,18 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
 /// Reads a number with or without a unit: its value in SI base units, and its dimension.
 ///
 /// `None` as the dimension means that no unit was written.
-pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), UnitError> {
+pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), Fault> {
     let text = text.trim();
     let (number, rest) = text.split_at(number_length(text));
-    let value: f64 = number.parse().map_err(|_| UnitError::NoNumber)?;
+    let value: f64 =
+        number.parse().map_err(|_| Fault::new("it does not start with a number", ""))?;
     if rest.starts_with(',') {
-        return Err(UnitError::DecimalComma);
+        return Err(Fault::new(DECIMAL_COMMA, "write a decimal point, as in \"98.5 mm\""));
     }
     if rest.trim_start().strip_prefix(TIMES).is_some_and(|tail| tail.trim_start().starts_with("10"))
     {
-        return Err(UnitError::PowerOfTen);
+        let help = "write powers of ten by an e, as in \"9e-5 N m\"";
+        return Err(Fault::new("its number has a power of ten written out", help));
     }
     if rest.trim().is_empty() {
         return Ok((value, None));
@@ -240,7 +225,7 @@ pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), UnitError
 }
 
 /// Reads a unit alone: its size in SI base units, and its dimension.
-pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
+pub(super) fn unit(text: &str) -> Result<(f64, Dimension), Fault> {
     let mut total = (1.0, Dimension::NONE);
     let mut rest = text.trim();
     let mut sign = 1;
@@ -255,12 +240,11 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
         if symbol.is_empty() {
             let character = rest.chars().next().unwrap_or(' ');
             return Err(match operator {
-                Some(operator) => UnitError::Dangling(operator),
-                None => UnitError::Unknown(character.to_string()),
+                Some(operator) => dangling(operator),
+                None => unknown(&character.to_string()),
             });
         }
-        let [before, last] =
-            joined(symbol).ok_or_else(|| UnitError::Unknown(symbol.to_string()))?;
+        let [before, last] = joined(symbol).ok_or_else(|| unknown(symbol))?;
         let (power, tail) = power(tail)?;
 
         // Into the product, or under the slash before it. A power belongs to what stands beside it: Nm² is N·m².
@@ -279,7 +263,7 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
         }
     }
     match operator {
-        Some(operator) => Err(UnitError::Dangling(operator)),
+        Some(operator) => Err(dangling(operator)),
         None => Ok(total),
     }
 }
@@ -319,7 +303,7 @@ fn is_power(c: char) -> bool {
 }
 
 /// The power at the head of a text, 1 if there is none, and what follows it.
-fn power(text: &str) -> Result<(i32, &str), UnitError> {
+fn power(text: &str) -> Result<(i32, &str), Fault> {
     let end = text.find(is_separator).unwrap_or(text.len());
     let (written, tail) = text.split_at(end);
     if written.is_empty() {
@@ -334,7 +318,10 @@ fn power(text: &str) -> Result<(i32, &str), UnitError> {
         written.strip_prefix('^').unwrap_or(written).chars().map(lowered).collect();
     match digits.parse::<i32>() {
         Ok(value) if value.abs() <= 9 => Ok((value, tail)),
-        _ => Err(UnitError::Power(written.to_string())),
+        _ => Err(Fault::new(
+            format!("`{}` is no whole power from -9 to 9", excerpt(written)),
+            "write powers as in m^2, m², or s^-2",
+        )),
     }
 }
 
@@ -396,7 +383,7 @@ mod tests {
             ("0.02 N m/m", 0.02, Dimension::FORCE),
         ];
         for (text, value, dimension) in cases {
-            let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+            let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
             assert!((v - value).abs() <= 1e-15 * value.abs(), "{text}: {v}");
             assert_eq!(d, Some(dimension), "{text}");
         }
@@ -439,7 +426,7 @@ mod tests {
             ("90 °/s", std::f64::consts::FRAC_PI_2, Dimension::ANGULAR_RATE),
         ];
         for (text, value, dimension) in cases {
-            let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+            let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
             assert!((v - value).abs() <= 1e-14 * value.abs(), "{text}: {v}");
             assert_eq!(d, Some(dimension), "{text}");
         }
@@ -447,20 +434,29 @@ mod tests {
 
     #[test]
     fn what_is_no_quantity_is_refused_by_its_fault() {
-        assert_eq!(quantity("mm"), Err(UnitError::NoNumber));
-        assert_eq!(quantity("98,5 mm"), Err(UnitError::DecimalComma));
-        assert_eq!(quantity("9 MM"), Err(UnitError::Unknown("MM".into())));
+        let refused = |text: &str, message: &str, help: &str| {
+            let fault = quantity(text).unwrap_err();
+            assert!(
+                fault.message.contains(message) && fault.help.contains(help),
+                "{text}: {fault:?}"
+            );
+        };
+        refused("mm", "does not start with a number", "");
+        refused("98,5 mm", DECIMAL_COMMA, "\"98.5 mm\"");
         for text in ["9×10^-5 N m", "9 x 10-5 N m", "9*10^-5 N m", "9·10⁻⁵ N m"] {
-            assert_eq!(quantity(text), Err(UnitError::PowerOfTen), "{text}");
+            refused(text, "a power of ten written out", "9e-5");
         }
-        assert_eq!(quantity("300 gm/m2"), Err(UnitError::Unknown("gm".into())));
-        assert!(UnitError::Unknown("gm".into()).help().contains("did you mean `g`?"));
-        assert!(UnitError::Unknown("NM".into()).help().contains("did you mean `Nm`?"));
-        assert_eq!(quantity("9 kg/"), Err(UnitError::Dangling('/')));
-        assert_eq!(quantity("9 kg//m"), Err(UnitError::Dangling('/')));
-        assert_eq!(quantity("9 m^x"), Err(UnitError::Power("^x".into())));
-        assert!(UnitError::Unknown("hours".into()).help().contains("did you mean `h`?"));
-        assert!(UnitError::Unknown("MM".into()).help().contains("did you mean `mm`?"));
+        for (symbol, unit) in [("MM", "mm"), ("gm/m2", "g"), ("NM", "Nm"), ("hours", "h")] {
+            let written = symbol.trim_end_matches("/m2");
+            refused(
+                &format!("9 {symbol}"),
+                &format!("`{written}` is no unit known here"),
+                &format!("did you mean `{unit}`?"),
+            );
+        }
+        refused("9 kg/", "a unit is missing after `/`", "products and quotients");
+        refused("9 kg//m", "a unit is missing after `/`", "products and quotients");
+        refused("9 m^x", "`^x` is no whole power from -9 to 9", "m^2");
     }
 
     proptest! {

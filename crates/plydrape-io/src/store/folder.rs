@@ -9,7 +9,7 @@
 //! A run claims the folder with a lock of the operating system, which ends with the process, however it ends. What
 //! runs that were killed have left is cleared by the next one.
 
-use crate::OutputError;
+use crate::Error;
 use crate::store::manifest::{Manifest, NAME as MANIFEST, Stamp, Stamping};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -63,15 +63,15 @@ impl Folder {
     /// Claims a folder for files that a command writes; it is made if it is missing.
     ///
     /// # Errors
-    /// [`OutputError::Busy`] if another run has claimed it, the other variants where the folder or the disk refuses.
-    pub fn claim(dir: &Path, by: &'static str) -> Result<Folder, OutputError> {
+    /// [`Error::Busy`] if another run has claimed it, the other variants where the folder or the disk refuses.
+    pub fn claim(dir: &Path, by: &'static str) -> Result<Folder, Error> {
         let made = make(dir)?;
-        let unreadable = |e| OutputError::io("open the folder", dir, e);
+        let unreadable = |e| Error::write("open the folder", dir, e);
         let lock = File::open(dir).map_err(unreadable)?;
         match lock.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
-                return Err(OutputError::Busy { path: dir.into(), owner: owner(dir) });
+                return Err(Error::Busy { path: dir.into(), owner: owner(dir) });
             }
             // a disk without locks: two runs at a time are then not noticed
             Err(TryLockError::Error(_)) => {}
@@ -87,7 +87,7 @@ impl Folder {
         if noted.is_err() && made {
             let _ = fs::remove_dir(dir);
         }
-        let stage = noted.map_err(|e| OutputError::io("write into", dir, e))?;
+        let stage = noted.map_err(|e| Error::write("write into", dir, e))?;
         Ok(Folder { dir: dir.into(), by, made, stage: Some(stage), _lock: lock })
     }
 
@@ -100,14 +100,14 @@ impl Folder {
     /// Refuses to replace a file that the run itself has read: `names` are those that it will write.
     ///
     /// # Errors
-    /// [`OutputError::Input`] with the first such file.
-    pub fn refuse_inputs(&self, names: &[&str], read: &[PathBuf]) -> Result<(), OutputError> {
+    /// [`Error::Input`] with the first such file.
+    pub fn refuse_inputs(&self, names: &[&str], read: &[PathBuf]) -> Result<(), Error> {
         let same = |name: &&&str| {
             let place = fs::canonicalize(self.dir.join(name)).ok();
             place.is_some() && read.iter().any(|file| fs::canonicalize(file).ok() == place)
         };
         match names.iter().find(same) {
-            Some(name) => Err(OutputError::Input { path: self.dir.join(name) }),
+            Some(name) => Err(Error::Input { path: self.dir.join(name) }),
             None => Ok(()),
         }
     }
@@ -119,13 +119,13 @@ impl Folder {
     /// that this run has `read`, are removed.
     ///
     /// # Errors
-    /// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
+    /// [`Error::Foreign`] if a file in the way was not written by plydrape or was changed since;
     /// the other variants where the folder or the disk refuses.
     pub fn write<C: Content>(
         self,
         files: &[(&str, C)],
         read: &[PathBuf],
-    ) -> Result<Vec<PathBuf>, OutputError> {
+    ) -> Result<Vec<PathBuf>, Error> {
         self.stage_files(files, read)?.write()
     }
 
@@ -138,7 +138,7 @@ impl Folder {
         self,
         files: &[(&str, C)],
         read: &[PathBuf],
-    ) -> Result<Staged, OutputError> {
+    ) -> Result<Staged, Error> {
         self.put(files, Some(read))
     }
 
@@ -146,7 +146,7 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::write`].
-    pub fn write_more<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, OutputError> {
+    pub fn write_more<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, Error> {
         self.put(files, None)?.write()
     }
 
@@ -154,17 +154,17 @@ impl Folder {
         self,
         files: &[(&str, C)],
         read: Option<&[PathBuf]>,
-    ) -> Result<Staged, OutputError> {
+    ) -> Result<Staged, Error> {
         // Nothing is touched before every name is known to be free or our own.
         let dir = self.dir.clone();
         let earlier = Manifest::read(&dir)?;
         for (name, _) in files {
             let path = dir.join(name);
             if !Manifest::is_plain(name) {
-                return Err(OutputError::Foreign { path });
+                return Err(Error::Foreign { path });
             }
             if fs::symlink_metadata(&path).is_ok() && !earlier.holds(&dir, name) {
-                return Err(OutputError::Foreign { path });
+                return Err(Error::Foreign { path });
             }
         }
         let is_read = |name: &str| {
@@ -211,13 +211,13 @@ impl Staged {
     ///
     /// # Errors
     /// Where the disk refuses; the folder is then as it was.
-    pub fn write(self) -> Result<Vec<PathBuf>, OutputError> {
+    pub fn write(self) -> Result<Vec<PathBuf>, Error> {
         let mut paths = write_together(vec![self])?;
         Ok(paths.pop().unwrap_or_default())
     }
 
     /// Moves in, the list first: a cut in power from here on leaves only files that it knows.
-    fn move_in(&mut self) -> Result<Option<Moves>, OutputError> {
+    fn move_in(&mut self) -> Result<Option<Moves>, Error> {
         let Some(stage) = self.folder.stage.take() else { return Ok(None) };
         let mut moves = Moves::new(&self.folder.dir, stage);
         let moved = moves.put("both", MANIFEST).and_then(|()| {
@@ -239,7 +239,7 @@ impl Staged {
 ///
 /// # Errors
 /// Where the disk refuses; all folders are then as they were.
-pub fn write_together(mut staged: Vec<Staged>) -> Result<Vec<Vec<PathBuf>>, OutputError> {
+pub fn write_together(mut staged: Vec<Staged>) -> Result<Vec<Vec<PathBuf>>, Error> {
     let mut done = Vec::with_capacity(staged.len());
     for one in &mut staged {
         match one.move_in() {
@@ -273,11 +273,7 @@ impl Drop for Folder {
 ///
 /// # Errors
 /// As [`Folder::claim`] and [`Folder::write`].
-pub fn write(
-    dir: &Path,
-    by: &'static str,
-    files: &[(&str, &[u8])],
-) -> Result<Vec<PathBuf>, OutputError> {
+pub fn write(dir: &Path, by: &'static str, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Error> {
     Folder::claim(dir, by)?.write(files, &[])
 }
 
@@ -285,11 +281,7 @@ pub fn write(
 ///
 /// # Errors
 /// As [`Folder::claim`] and [`Folder::write_more`].
-pub fn add(
-    dir: &Path,
-    by: &'static str,
-    files: &[(&str, &[u8])],
-) -> Result<Vec<PathBuf>, OutputError> {
+pub fn add(dir: &Path, by: &'static str, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Error> {
     Folder::claim(dir, by)?.write_more(files)
 }
 
@@ -316,16 +308,16 @@ fn owner(dir: &Path) -> String {
 }
 
 /// Makes the folder; true if it was not there before.
-fn make(dir: &Path) -> Result<bool, OutputError> {
+fn make(dir: &Path) -> Result<bool, Error> {
     match fs::metadata(dir) {
         Ok(found) if found.is_dir() => Ok(false),
-        Ok(_) => Err(OutputError::NotAFolder { path: dir.into() }),
+        Ok(_) => Err(Error::NotAFolder { path: dir.into() }),
         Err(_) => match fs::create_dir_all(dir) {
             Ok(()) => Ok(true),
             Err(e) if matches!(e.kind(), ErrorKind::NotADirectory | ErrorKind::AlreadyExists) => {
-                Err(OutputError::NotAFolder { path: dir.into() })
+                Err(Error::NotAFolder { path: dir.into() })
             }
-            Err(e) => Err(OutputError::io("make the folder", dir, e)),
+            Err(e) => Err(Error::write("make the folder", dir, e)),
         },
     }
 }
@@ -335,7 +327,7 @@ fn stage_file<C: Content>(
     dir: &Path,
     name: &str,
     content: &C,
-) -> Result<Stamp, OutputError> {
+) -> Result<Stamp, Error> {
     let write = |file: File| {
         let mut to = Stamping::new(BufWriter::new(&file));
         content.write(&mut to)?;
@@ -346,7 +338,7 @@ fn stage_file<C: Content>(
     };
     File::create_new(stage.join(format!("new-{name}")))
         .and_then(write)
-        .map_err(|e| OutputError::io("write", &dir.join(name), e))
+        .map_err(|e| Error::write("write", &dir.join(name), e))
 }
 
 /// Files moved into the folder so far, and what was there before each.
@@ -363,9 +355,9 @@ impl Moves {
     }
 
     /// Renames a staged file to its place; the earlier file, if any, stays kept in the stage.
-    fn put(&mut self, staged: &str, name: &str) -> Result<(), OutputError> {
+    fn put(&mut self, staged: &str, name: &str) -> Result<(), Error> {
         let place = self.dir.join(name);
-        let fault = |e| OutputError::io("write", &place, e);
+        let fault = |e| Error::write("write", &place, e);
         let kept = self.keep(name).map_err(fault)?;
         fs::rename(self.stage.path().join(format!("new-{staged}")), &place).map_err(fault)?;
         self.done.push((name.to_owned(), kept));
@@ -373,9 +365,9 @@ impl Moves {
     }
 
     /// Removes a stale file, keeping it in the stage.
-    fn take(&mut self, name: &str) -> Result<(), OutputError> {
+    fn take(&mut self, name: &str) -> Result<(), Error> {
         let place = self.dir.join(name);
-        let fault = |e| OutputError::io("remove", &place, e);
+        let fault = |e| Error::write("remove", &place, e);
         let kept = self.keep(name).map_err(fault)?;
         fs::remove_file(&place).map_err(fault)?;
         self.done.push((name.to_owned(), kept));
@@ -393,7 +385,7 @@ impl Moves {
     }
 
     /// Brings the earlier files back; if even that fails, they stay in the stage, which the error names.
-    fn undo(self, fault: OutputError) -> OutputError {
+    fn undo(self, fault: Error) -> Error {
         let mut failed = false;
         for (name, kept) in self.done.iter().rev() {
             let place = self.dir.join(name);
@@ -408,7 +400,7 @@ impl Moves {
             let kept = self.stage.keep();
             // without its owner no later run takes it for one that may be cleared
             let _ = fs::remove_file(kept.join(OWNER));
-            OutputError::Torn { path: self.dir, kept, cause: Box::new(fault) }
+            Error::Torn { path: self.dir, kept, cause: Box::new(fault) }
         } else {
             fault
         }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Error;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -40,7 +41,7 @@ fn a_file_of_the_users_is_never_overwritten() {
     let before = contents(dir.path());
     let fault =
         write(dir.path(), "simulate", &[("steps.csv", b"s"), ("result.json", b"r")]).unwrap_err();
-    assert!(matches!(&fault, OutputError::Foreign { path } if path.ends_with("result.json")));
+    assert!(matches!(&fault, Error::Foreign { path } if path.ends_with("result.json")));
     assert!(fault.to_string().contains("-o"), "{fault}");
     assert_eq!(contents(dir.path()), before);
 }
@@ -85,7 +86,7 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     moves.take("gone").unwrap();
     // Never staged, so the rename fails as it would on a broken disk.
     let fault = moves.put("c", "c").unwrap_err();
-    assert!(matches!(moves.undo(fault), OutputError::Io { .. }));
+    assert!(matches!(moves.undo(fault), Error::Io { .. }));
     assert_eq!(contents(dir.path()), before);
 }
 
@@ -104,7 +105,7 @@ fn a_move_that_fails_in_one_folder_is_undone_in_all() {
     };
     let staged: Vec<Staged> = dirs.iter().map(stage).collect();
     fs::remove_file(staged[1].folder.stage().join("new-b")).unwrap();
-    assert!(matches!(write_together(staged), Err(OutputError::Io { .. })));
+    assert!(matches!(write_together(staged), Err(Error::Io { .. })));
     assert_eq!(dirs.each_ref().map(|dir| contents(dir)), before);
 
     let staged: Vec<Staged> = dirs.iter().map(stage).collect();
@@ -144,7 +145,7 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     assert!(write(&dir, "simulate", &[("a", b"1")]).is_err());
     assert!(home.path().join("victim").exists());
     fs::write(dir.join(MANIFEST), "my own notes").unwrap();
-    assert!(matches!(write(&dir, "simulate", &[("a", b"1")]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(write(&dir, "simulate", &[("a", b"1")]), Err(Error::Foreign { .. })));
     for name in ["", "..", "../a", "a/b", "/a", ".plydrape"] {
         assert!(write(home.path(), "simulate", &[(name, b"1")]).is_err(), "{name:?}");
     }
@@ -159,7 +160,7 @@ fn a_link_is_not_followed() {
     write(&dir, "simulate", &[("a", b"1")]).unwrap();
     fs::rename(dir.join("a"), home.path().join("a")).unwrap();
     std::os::unix::fs::symlink(home.path().join("a"), dir.join("a")).unwrap();
-    assert!(matches!(write(&dir, "simulate", &[("a", b"2")]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(write(&dir, "simulate", &[("a", b"2")]), Err(Error::Foreign { .. })));
 }
 
 /// A path that is a file, or runs through one, says so.
@@ -170,7 +171,7 @@ fn a_path_that_is_a_file_is_refused_by_name() {
     fs::write(&file, "f").unwrap();
     for path in [file.clone(), file.join("below")] {
         let fault = write(&path, "simulate", &[("a", b"1")]).unwrap_err();
-        assert!(matches!(fault, OutputError::NotAFolder { .. }), "{fault}");
+        assert!(matches!(fault, Error::NotAFolder { .. }), "{fault}");
     }
     assert_eq!(fs::read(&file).unwrap(), b"f");
 }
@@ -234,7 +235,7 @@ fn added_files_stand_beside_earlier_ones() {
     let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
     assert_eq!([read("a.csv"), read("b.csv"), read("c.csv")], [b"1", b"4", b"3"]);
     std::fs::write(dir.join("c.csv"), "mine").unwrap();
-    assert!(matches!(add(dir, "report", &[("c.csv", b"5")]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(add(dir, "report", &[("c.csv", b"5")]), Err(Error::Foreign { .. })));
     add(dir, "report", &[("b.csv", b"6")]).unwrap();
     write(dir, "simulate", &[("d.csv", b"7")]).unwrap();
     // the one that the other command has replaced is that command's now
@@ -305,7 +306,7 @@ fn old_files_of_other_commands_and_inputs_stay() {
     assert_eq!(names(dir.path()), [".plydrape", "in", "more", "old", "plan.json", "result.json"]);
     let folder = Folder::claim(dir.path(), "simulate").unwrap();
     let read = [dir.path().join("in")];
-    assert!(matches!(folder.refuse_inputs(&["a", "in"], &read), Err(OutputError::Input { .. })));
+    assert!(matches!(folder.refuse_inputs(&["a", "in"], &read), Err(Error::Input { .. })));
     folder.refuse_inputs(&["a"], &read).unwrap();
     folder.write(&[("result.json", &b"3"[..])], &read).unwrap();
     assert_eq!(names(dir.path()), [".plydrape", "in", "old", "plan.json", "result.json"]);

@@ -1,6 +1,6 @@
 //! The list `.plydrape` of what plydrape wrote into a folder: by which command, checksum and length of each file.
 
-use crate::OutputError;
+use crate::Error;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,8 +13,8 @@ pub(crate) const NAME: &str = ".plydrape";
 /// CRC-32 (IEEE) and length in bytes of one content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Stamp {
-    crc32: u32,
-    length: u64,
+    pub crc32: u32,
+    pub length: u64,
 }
 
 /// What plydrape has written under one name.
@@ -83,18 +83,18 @@ impl<W: Write> Write for Stamping<W> {
 
 impl Manifest {
     /// The list of a folder; empty where there is none.
-    pub(crate) fn read(dir: &Path) -> Result<Self, OutputError> {
+    pub(crate) fn read(dir: &Path) -> Result<Self, Error> {
         let path = dir.join(NAME);
         let text = match fs::read(&path) {
             Ok(text) => text,
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Self::default()),
-            Err(e) => return Err(OutputError::io("read", &path, e)),
+            Err(e) => return Err(Error::write("read", &path, e)),
         };
         let list = serde_json::from_slice(&text)
             .or_else(|_| serde_json::from_slice(&text).map(Self::earlier))
-            .map_err(|_| OutputError::Foreign { path: path.clone() })?;
+            .map_err(|_| Error::Foreign { path: path.clone() })?;
         // A name with a path in it could reach out of the folder.
-        if list.names().all(Self::is_plain) { Ok(list) } else { Err(OutputError::Foreign { path }) }
+        if list.names().all(Self::is_plain) { Ok(list) } else { Err(Error::Foreign { path }) }
     }
 
     /// The list as it was before it named commands.
@@ -165,8 +165,8 @@ impl Manifest {
     }
 
     /// The list as JSON, one line.
-    pub(crate) fn text(&self) -> Result<String, OutputError> {
-        Ok(crate::store::json::of(self)?)
+    pub(crate) fn text(&self) -> Result<String, Error> {
+        crate::store::json::of(self)
     }
 
     /// True for a file name without any path, other than the list's own.

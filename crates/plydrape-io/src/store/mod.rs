@@ -1,12 +1,10 @@
 //! What keeps files whole: folders that are written at once, JSON without NaN, regular files alone, sizes that fit the memory.
 
-pub(crate) mod error;
 pub(crate) mod file_kind;
 pub mod folder;
 pub mod format;
 pub mod input;
 pub mod json;
 pub(crate) mod manifest;
-pub(crate) mod read_error;
 pub mod shown;
 pub mod size;

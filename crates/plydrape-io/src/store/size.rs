@@ -3,6 +3,7 @@
 //! Estimates are of the right order, not exact: they shall keep a small file from filling the memory of a machine. The bytes of
 //! each kind of work were measured as the largest resident size of a release build, divided by the number of parts.
 
+use crate::{Error, error};
 use plydrape::ply::Ply;
 use plydrape::scene::{Plan, PlanMethod};
 use std::env;
@@ -47,51 +48,6 @@ const TRIANGLE: f64 = 500.0;
 /// Memory per byte of a result file that is read and made into something else.
 const RESULT: f64 = 10.0;
 
-/// Why work is refused before it is begun.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SizeError {
-    /// It would take more memory than the budget.
-    #[error("{what} would take about {} of memory; {} are allowed", shown(*estimate), shown(*budget))]
-    TooLarge {
-        /// What is too large, with its numbers.
-        what: String,
-        /// Memory that it would take (bytes).
-        estimate: f64,
-        /// Memory that it may take (bytes).
-        budget: f64,
-    },
-    /// The budget is no size.
-    #[error("the environment variable {VARIABLE} is {text:?}, which is no size above 0")]
-    Budget {
-        /// What it is.
-        text: String,
-    },
-}
-
-impl SizeError {
-    /// What would help.
-    #[must_use]
-    pub fn remedy(&self) -> &'static str {
-        match self {
-            SizeError::TooLarge { .. } => {
-                "make it smaller, or allow more with the environment variable PLYDRAPE_MEMORY, as in PLYDRAPE_MEMORY=\"16 GB\""
-            }
-            SizeError::Budget { .. } => {
-                "write a number and a unit, as in PLYDRAPE_MEMORY=\"16 GB\""
-            }
-        }
-    }
-}
-
-/// A size with two digits and its unit.
-#[must_use]
-pub fn shown(bytes: f64) -> String {
-    let (unit, size) =
-        UNITS[..4].iter().rev().find(|(_, size)| bytes >= *size).unwrap_or(&UNITS[0]);
-    let value = bytes / size;
-    if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
-}
-
 /// A size as a user writes it, in bytes.
 fn parse(text: &str) -> Option<f64> {
     let text = text.trim();
@@ -107,13 +63,20 @@ fn parse(text: &str) -> Option<f64> {
 /// The budget (bytes).
 ///
 /// # Errors
-/// [`SizeError::Budget`] if [`VARIABLE`] is set and no size.
-pub fn budget() -> Result<f64, SizeError> {
+/// [`Error::NotPossible`] if [`VARIABLE`] is set and no size.
+pub fn budget() -> Result<f64, Error> {
     match env::var_os(VARIABLE).filter(|text| !text.is_empty()) {
         None => Ok(BUDGET),
         Some(text) => {
             let text = text.to_string_lossy();
-            parse(&text).ok_or_else(|| SizeError::Budget { text: text.into_owned() })
+            parse(&text).ok_or_else(|| {
+                Error::not_possible(
+                    format!(
+                        "the environment variable {VARIABLE} is {text:?}, which is no size above 0"
+                    ),
+                    "write a number and a unit, as in PLYDRAPE_MEMORY=\"16 GB\"",
+                )
+            })
         }
     }
 }
@@ -121,20 +84,20 @@ pub fn budget() -> Result<f64, SizeError> {
 /// Refuses work that would take so many bytes, if that is beyond the budget; `what` names it with its numbers.
 ///
 /// # Errors
-/// [`SizeError`] if it would, or if the budget is no size.
-pub fn check(estimate: f64, what: impl FnOnce() -> String) -> Result<(), SizeError> {
+/// [`Error::TooLarge`] if it would, and as [`budget`].
+pub fn check(estimate: f64, what: impl FnOnce() -> String) -> Result<(), Error> {
     let budget = budget()?;
     if estimate <= budget {
         return Ok(());
     }
-    Err(SizeError::TooLarge { what: what(), estimate, budget })
+    Err(Error::TooLarge { what: what(), estimate, budget })
 }
 
 /// Refuses a drape whose result would be too large.
 ///
 /// # Errors
 /// As [`check`].
-pub fn drape(ply: &Ply, count: usize) -> Result<(), SizeError> {
+pub fn drape(ply: &Ply, count: usize) -> Result<(), Error> {
     check(of_steps(ply, count), || steps("the result", ply, count))
 }
 
@@ -154,7 +117,7 @@ pub struct PlanSheets {
 ///
 /// # Errors
 /// As [`check`].
-pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), SizeError> {
+pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let (program, cores) = match plan.method {
         PlanMethod::Path => (0.0, cores),
@@ -176,7 +139,7 @@ pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Si
 ///
 /// # Errors
 /// As [`check`].
-pub fn derivatives(ply: &Ply) -> Result<(), SizeError> {
+pub fn derivatives(ply: &Ply) -> Result<(), Error> {
     let grippers = ply.grippers();
     let (rows, columns) = (ply.lines().catenaries(), 3 * grippers);
     check(DERIVATIVE * rows as f64 * columns as f64, || {
@@ -202,7 +165,7 @@ fn steps(what: &str, ply: &Ply, steps: usize) -> String {
 ///
 /// # Errors
 /// As [`check`].
-pub fn sheet(nodes: f64, states: usize) -> Result<(), SizeError> {
+pub fn sheet(nodes: f64, states: usize) -> Result<(), Error> {
     check(of_sheet(nodes, states), || {
         format!("a sheet of {nodes:.0} nodes that keeps {states} states")
     })
@@ -218,7 +181,7 @@ pub fn of_sheet(nodes: f64, states: usize) -> f64 {
 ///
 /// # Errors
 /// As [`check`].
-pub fn mesh(triangles: f64) -> Result<(), SizeError> {
+pub fn mesh(triangles: f64) -> Result<(), Error> {
     check(TRIANGLE * triangles, || format!("a mesh of {triangles:.0} triangles"))
 }
 
@@ -226,8 +189,8 @@ pub fn mesh(triangles: f64) -> Result<(), SizeError> {
 ///
 /// # Errors
 /// As [`check`].
-pub fn result(bytes: u64) -> Result<(), SizeError> {
-    check(RESULT * bytes as f64, || format!("a result file of {}", shown(bytes as f64)))
+pub fn result(bytes: u64) -> Result<(), Error> {
+    check(RESULT * bytes as f64, || format!("a result file of {}", error::bytes(bytes as f64)))
 }
 
 #[cfg(test)]
@@ -255,12 +218,12 @@ mod tests {
     /// The message says what, how much, how much is allowed and how to allow more.
     #[test]
     fn what_is_too_large_is_refused_with_its_estimate_and_a_remedy() {
-        assert_eq!(check(BUDGET, || unreachable!()), Ok(()));
+        assert!(check(BUDGET, || unreachable!()).is_ok());
         let refused = check(2.5 * BUDGET, || "a heap".into()).unwrap_err();
         assert_eq!(
             refused.to_string(),
             "a heap would take about 10 GB of memory; 4.0 GB are allowed"
         );
-        assert!(refused.remedy().contains("PLYDRAPE_MEMORY=\"16 GB\""));
+        assert!(refused.help().contains("PLYDRAPE_MEMORY=\"16 GB\""));
     }
 }

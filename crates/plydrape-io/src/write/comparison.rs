@@ -3,7 +3,7 @@
 use crate::store::json::finite;
 use crate::text::strategy::Row;
 use crate::write::csv;
-use crate::{Content, Folder, OutputError};
+use crate::{Content, Error, Folder};
 use ::csv::Writer;
 use plydrape::measure::Name;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ pub const NAME: &str = "comparison.csv";
 ///
 /// # Errors
 /// If the table cannot be formed; memory apart there is no known case.
-pub fn table(rows: &[Row]) -> Result<String, ::csv::Error> {
+pub fn table(rows: &[Row]) -> Result<String, Error> {
     let mut columns: Vec<(Name, &str)> = Vec::new();
     for verdict in rows.iter().flat_map(|row| &row.limits) {
         if !columns.iter().any(|(name, _)| *name == verdict.name) {
@@ -57,12 +57,8 @@ pub fn table(rows: &[Row]) -> Result<String, ::csv::Error> {
 /// Writes the table into a folder and returns its path; files that the run has `read` are not removed.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses.
-pub fn write_into(
-    folder: Folder,
-    rows: &[Row],
-    read: &[PathBuf],
-) -> Result<Vec<PathBuf>, OutputError> {
+/// [`Error`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses.
+pub fn write_into(folder: Folder, rows: &[Row], read: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     finite::check(rows)?;
     let table = table(rows)?;
     let table = table.as_bytes();

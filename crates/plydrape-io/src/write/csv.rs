@@ -7,10 +7,10 @@
 //! Beside the poses stand the expected loads of the ply on the grippers, and where mounts yield their preload and stiffness, see `loads.rs`. Where the scene says when pads let go, the column `vacuum` is 1 as long as a gripper
 //! holds and 0 from its release on; the tables then end with the last release.
 
-use crate::OutputError;
+use crate::Error;
 use crate::result::{ResultFile, Turned};
 use crate::write::loads::{Load, Loads, Stiffness};
-use ::csv::{Error, Writer};
+use ::csv::Writer;
 use plydrape::draping::record::CatenaryStep;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
@@ -93,7 +93,7 @@ pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
 ///
 /// # Errors
 /// As [`motion`], if plan and steps do not belong together.
-pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
+pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, Error> {
     match (&result.plan, result.motion()?) {
         (Some(plan), Some(Turned { motion, attitudes })) => {
             let (ply, loads) = (&result.scene.ply, Loads::of(result));
@@ -110,14 +110,14 @@ pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError
 /// A scene can follow it: `[motion]`, `kind = "file"`.
 ///
 /// # Errors
-/// [`OutputError::Motion`] if motion, attitudes and ply differ in grippers, or the rate gives no or too
+/// [`Error::Motion`] if motion, attitudes and ply differ in grippers, or the rate gives no or too
 /// many samples.
 pub fn motion(
     motion: &TimedMotion,
     attitudes: &Attitudes,
     ply: &Ply,
     rate: f64,
-) -> Result<String, OutputError> {
+) -> Result<String, Error> {
     sampled(motion, attitudes, ply, rate, Poses::new(None, None)?, None)
 }
 
@@ -128,7 +128,7 @@ fn sampled(
     rate: f64,
     mut table: Poses,
     until: Option<f64>,
-) -> Result<String, OutputError> {
+) -> Result<String, Error> {
     for found in [motion.grippers(), attitudes.grippers()] {
         if found != ply.grippers() {
             return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
@@ -139,7 +139,7 @@ fn sampled(
         let poses = motion.at(at).into_iter().zip(attitudes.at(at)).enumerate();
         table.add(time, poses.map(|(n, (place, quaternion))| (ply.id(n), place, quaternion)))?;
     }
-    Ok(text(table.table)?)
+    text(table.table)
 }
 
 /// The times (s) at which the motion of a plan is written: at a rate (Hz) to its end, and on until the last pads let go.
@@ -253,7 +253,7 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 pub(crate) fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
-    let bytes = table.into_inner().map_err(|e| e.into_error())?;
+    let bytes = table.into_inner().map_err(|e| ::csv::Error::from(e.into_error()))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

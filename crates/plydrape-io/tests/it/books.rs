@@ -3,7 +3,8 @@
 use crate::common::drape_sheet;
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
-use plydrape_io::scene::{self, Book, SceneError};
+use plydrape_io::Error;
+use plydrape_io::scene::{self, Book};
 use std::path::Path;
 
 /// What the plies of these books share: a plane, an array of 3 × 2 cups, straight paths.
@@ -11,7 +12,7 @@ const SHARED: &str = "title = \"Part\"\n[mold]\nkind = \"plane\"\n[ply]\nmateria
     grippers = [3, 2]\ncell = [0.1, 0.1]\narray = { margin = \"10 mm\" }\n[grippers]\nspacing = [0.1, 0.1]\nheight = \"20 mm\"\n\
     origin = \"centred\"\n[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"25 mm\"\n";
 
-fn read(text: &str) -> Result<Book, SceneError> {
+fn read(text: &str) -> Result<Book, Error> {
     scene::parse_book(text, Path::new(""), "plies.toml")
 }
 
@@ -31,7 +32,7 @@ const SIZE: [f64; 2] = [0.24, 0.14];
 /// What a book refuses: the line and column, and all of the message.
 fn refused(text: &str) -> (Option<(usize, usize)>, String) {
     let error = read(text).expect_err("refused");
-    (error.line_column(), format!("{}; {}", error.message, error.help))
+    (error.diagnostic().unwrap().line_column(), format!("{}; {}", error.message(), error.help()))
 }
 
 fn line_of(text: &str, part: &str) -> usize {
@@ -134,11 +135,15 @@ fn a_ply_may_be_a_scene_file_without_a_mold() {
     assert_eq!(book.plies[1].lies_on, [0]);
     std::fs::write(dir.path().join("one.toml"), scene + "[mold]\nkind = \"plane\"\n").unwrap();
     let error = scene::parse_book(head, dir.path(), "plies.toml").unwrap_err();
-    assert!(error.file.ends_with("one.toml") && error.line_column().is_some(), "{error}");
-    assert!(error.message.contains("no mold of its own"), "{error}");
+    assert!(
+        error.diagnostic().unwrap().file.ends_with("one.toml")
+            && error.diagnostic().unwrap().line_column().is_some(),
+        "{error}"
+    );
+    assert!(error.message().contains("no mold of its own"), "{error}");
     let unused = head.replace("[[plies]]\nscene", "[limits]\nheight = 0.001\n[[plies]]\nscene");
     let error = scene::parse_book(&unused, dir.path(), "plies.toml").unwrap_err();
-    assert!(error.message.contains("a scene file"), "{error}");
+    assert!(error.message().contains("a scene file"), "{error}");
 }
 
 #[test]
@@ -201,8 +206,11 @@ fn what_is_wrong_in_a_book_is_refused_with_its_place_and_its_ply() {
 fn a_book_is_no_scene() {
     let text = format!("{SHARED}{}", ply("a", SIZE, [0.0; 2]));
     let error = scene::parse(&text, Path::new(""), "plies.toml").unwrap_err();
-    assert_eq!(error.line_column(), Some((line_of(&text, "[[plies]]"), 1)));
-    assert!(error.message.contains("plybook") && error.help.contains("plydrape plan"), "{error}");
+    assert_eq!(error.diagnostic().unwrap().line_column(), Some((line_of(&text, "[[plies]]"), 1)));
+    assert!(
+        error.message().contains("plybook") && error.help().contains("plydrape plan"),
+        "{error}"
+    );
 }
 
 /// Every place where the trellis would be used reads the material: scenes, books, ideal drapes and plies alone.
@@ -219,7 +227,7 @@ fn a_unidirectional_ply_is_refused_with_its_reason() {
         scene::parse(scene_text, Path::new(""), "scene").unwrap_err(),
         scene::parse_ply(scene_text, Path::new(""), "scene").unwrap_err(),
     ] {
-        assert!(error.message.contains("does not shear as a trellis"), "{error}");
+        assert!(error.message().contains("does not shear as a trellis"), "{error}");
     }
     let woven = text.replace("unidirectional", "woven");
     assert!(read(&woven).is_ok(), "{:?}", read(&woven).err());

@@ -9,8 +9,9 @@ use plydrape::measure::Verdict;
 use plydrape::mold::Pose;
 use plydrape::planner;
 use plydrape::scene::Scene;
+use plydrape_io::Error;
 use plydrape_io::result::ResultFile;
-use plydrape_io::scene::{self, SceneError};
+use plydrape_io::scene::{self};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -27,7 +28,7 @@ fn passing(more: &str) -> String {
 const CUP: &str =
     "[[bodies]]\nname = \"cup\"\non = \"pad\"\ncylinder = { radius = \"15 mm\", to = \"30 mm\" }\n";
 
-fn parse(text: &str) -> Result<Scene, SceneError> {
+fn parse(text: &str) -> Result<Scene, Error> {
     let base = Path::new(env!("CARGO_MANIFEST_DIR"));
     scene::parse(text, base, "scene.toml").map(|file| file.scene)
 }

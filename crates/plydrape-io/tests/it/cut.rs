@@ -150,7 +150,7 @@ fn cups_hold_where_there_is_ply_around_them() {
     assert_eq!(ids, [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [0, 2]]);
     let text = format!("[ply]\n{}\nmaterial = \"krogh2018\"\n", ply(""));
     let refused = scene::parse(&text, Path::new(""), "scene").unwrap_err();
-    assert!(refused.help.contains("leave-off"), "{refused}");
+    assert!(refused.help().contains("leave-off"), "{refused}");
 }
 
 /// A drape of a ply with a hole, across the yarns of which its cups stand, is written to every file and read back; the

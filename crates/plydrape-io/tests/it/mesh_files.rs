@@ -3,7 +3,7 @@
 
 use plydrape::mold::Pose;
 use plydrape::mold::mesh::{Mesh, MeshReport};
-use plydrape_io::read::mesh::MeshFileError;
+use plydrape_io::Error;
 use std::path::Path;
 
 type Point = [f64; 3];
@@ -13,11 +13,11 @@ fn still() -> Pose {
 }
 
 /// A fault and its remedy on one line.
-fn message(fault: &MeshFileError) -> String {
-    format!("{fault}; {}\n", fault.remedy())
+fn message(fault: &Error) -> String {
+    format!("{fault}; {}\n", fault.help())
 }
 
-fn parse(file: &str, contents: impl AsRef<[u8]>) -> Result<(Mesh, MeshReport), MeshFileError> {
+fn parse(file: &str, contents: impl AsRef<[u8]>) -> Result<(Mesh, MeshReport), Error> {
     plydrape_io::read::mesh::parse(file, contents.as_ref(), 1.0, &still())
 }
 
@@ -457,5 +457,5 @@ fn no_damage_to_a_file_makes_a_panic() {
 fn a_semicolon_in_a_file_is_part_of_the_fault() {
     let fault = parse("a.obj", "wall; floor\n").unwrap_err();
     assert!(fault.to_string().contains("`wall; floor`"), "{fault}");
-    assert!(!fault.remedy().contains("floor"), "{}", fault.remedy());
+    assert!(!fault.help().contains("floor"), "{}", fault.help());
 }

@@ -3,10 +3,11 @@
 use plydrape::mold::{Face, Graph, Mold, Surface};
 use plydrape::net::{EdgeRule, Generators};
 use plydrape::scene::Scene;
-use plydrape_io::scene::{self, SceneError};
+use plydrape_io::Error;
+use plydrape_io::scene::{self};
 use std::path::Path;
 
-fn read(mold: &str, target: &str, grippers: &str) -> Result<Scene, SceneError> {
+fn read(mold: &str, target: &str, grippers: &str) -> Result<Scene, Error> {
     let text = format!(
         "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 4]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
          [mold]\n{mold}\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.8\n{grippers}\n{target}\n"
@@ -211,5 +212,5 @@ fn a_start_in_the_hollow_of_a_trough_is_above_it() {
     let trough = "kind = \"cylinder\"\nradius = 1\nside = \"inside\"\nposition = [0, 0.147, 1.5]";
     assert!(read(trough, "", "").is_ok());
     let outside = read("kind = \"cylinder\"\nradius = 1\nposition = [0, 0.147, 0]", "", "");
-    assert!(outside.unwrap_err().message.contains("inside the mold"));
+    assert!(outside.unwrap_err().message().contains("inside the mold"));
 }

@@ -2,7 +2,6 @@
 
 use crate::common::paper_ply;
 use plydrape::motion::{Attitudes, Bounds, MotionError, TimedMotion};
-use plydrape_io::OutputError;
 use plydrape_io::scene;
 use plydrape_io::write::csv;
 use proptest::prelude::*;
@@ -461,7 +460,8 @@ fn a_scene_follows_the_dense_table() {
 
     let other = paper_ply(4, 3);
     let refused = csv::motion(&motion, &attitudes, &other, 100.0);
-    assert!(matches!(refused, Err(OutputError::Motion(MotionError::Grippers { .. }))));
+    let expected = MotionError::Grippers { found: ply.grippers(), expected: other.grippers() };
+    assert_eq!(refused.unwrap_err().to_string(), expected.to_string());
 }
 
 /// Random smooth paths of two grippers: sums of a few waves and a straight way, uneven steps.

@@ -373,7 +373,7 @@ fn a_start_beyond_the_fabric_is_no_scene() {
     let wide = Example::of("01_flat_sheared_mold")
         .with("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]");
     let refused = scene::parse(&wide.text, &wide.folder, "scene.toml").expect_err("overstretched");
-    assert!(refused.message.contains("101") && !refused.help.is_empty(), "{refused:?}");
+    assert!(refused.message().contains("101") && !refused.help().is_empty(), "{refused:?}");
 }
 
 /// A search that goes on begins with the plan that an earlier one found: with one drape to spend it ends where that one did.

@@ -6,7 +6,8 @@ use plydrape::material::{Section, ShearCurve, TensionLaw};
 use plydrape::measure::Limits;
 use plydrape::measure::Name;
 use plydrape::scene::Scene;
-use plydrape_io::scene::{self, SceneError, SceneFile};
+use plydrape_io::Error;
+use plydrape_io::scene::{self, SceneFile};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +15,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-fn parse(text: &str) -> Result<SceneFile, SceneError> {
+fn parse(text: &str) -> Result<SceneFile, Error> {
     scene::parse(text, Path::new(env!("CARGO_MANIFEST_DIR")), "scene.toml")
 }
 
@@ -269,10 +270,10 @@ fn a_value_with_its_unit_is_believed_where_a_plain_number_is_not() {
         ))
     };
     let error = scene("100", "1").unwrap_err();
-    assert_eq!(error.message, "`100` would make cells of 100 m");
-    assert!(error.help.starts_with("did you mean \"100 mm\"?"), "{error}");
+    assert_eq!(error.message(), "`100` would make cells of 100 m");
+    assert!(error.help().starts_with("did you mean \"100 mm\"?"), "{error}");
     assert_eq!(scene("\"100 m\"", "1").unwrap().layup.ply.cell, [100.0; 2]);
-    assert!(scene("0.1", "75").unwrap_err().help.starts_with("did you mean \"75 mm\"?"));
+    assert!(scene("0.1", "75").unwrap_err().help().starts_with("did you mean \"75 mm\"?"));
     assert!(scene("0.1", "\"75 m\"").is_ok());
     // a table of positions is read as one is
     assert!(scene("1", "0").is_ok());
@@ -489,9 +490,9 @@ proptest! {
         match parse(&text) {
             Ok(scene) => assert_finite(&scene),
             Err(error) => {
-                prop_assert!(!error.message.is_empty() && !error.help.is_empty());
-                if let Some(span) = error.span.clone() {
-                    prop_assert!(error.text.get(span).is_some());
+                prop_assert!(!error.message().is_empty() && !error.help().is_empty());
+                if let Some(span) = error.diagnostic().unwrap().span.clone() {
+                    prop_assert!(error.diagnostic().unwrap().text.get(span).is_some());
                 }
             }
         }

@@ -16,7 +16,10 @@ const CRATES: [(&str, &str); 8] = [
     ),
     ("plydrape-catenary", "catenary elastica equilibrium draping sensitivity stepwise"),
     ("plydrape", "fit sheet pick_up measure errors scene outcome planner"),
-    ("plydrape-io", "store read result scene text write robot page export fit plan replan sample"),
+    (
+        "plydrape-io",
+        "error store read result scene text write robot page export fit plan replan sample",
+    ),
     (
         "plydrape-cli",
         "failure argument outcome results numbers watch search compare errors model plan check complete export new fit limits net \

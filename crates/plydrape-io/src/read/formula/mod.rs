@@ -1,13 +1,13 @@
 //! A mold written as a formula: from its text to the operations that the engine evaluates.
 
-mod error;
+mod fault;
 mod parser;
 #[cfg(test)]
 mod tests;
 
-use error::MOST_TEXT;
-pub use error::{FormulaError, FormulaFault};
-
+use crate::Error;
+use crate::error::Diagnostic;
+use fault::{MOST_TEXT, Misread};
 use plydrape::mold::formula::Formula;
 
 /// Reads a height z = f(x, y), all in meters.
@@ -17,11 +17,18 @@ use plydrape::mold::formula::Formula;
 /// `-x^2` is −(x²), `2^3^2` is 2⁹. `**` is another way to write `^`.
 ///
 /// # Errors
-/// Where the text is no formula, and why.
-pub fn read(text: &str) -> Result<Formula, FormulaError> {
+/// [`Error::Scene`] with the place in the text, what is wrong there and what would be right.
+pub fn read(text: &str) -> Result<Formula, Error> {
+    formula(text).map_err(|Misread { at, fault }| {
+        let whole = Diagnostic::new("formula", fault.message, fault.help);
+        Diagnostic { text: text.into(), span: Some(at), ..whole }.into()
+    })
+}
+
+fn formula(text: &str) -> Result<Formula, Misread> {
+    let whole = |fault| Misread { at: 0..text.len(), fault };
     if text.len() > MOST_TEXT {
-        return Err(FormulaError { at: 0..text.len(), fault: FormulaFault::Long(text.len()) });
+        return Err(whole(fault::long(text.len())));
     }
-    let depth = || FormulaError { at: 0..text.len(), fault: FormulaFault::Depth };
-    Formula::new(text, parser::program(text)?).ok_or_else(depth)
+    Formula::new(text, parser::program(text)?).ok_or_else(|| whole(fault::depth()))
 }

@@ -1,6 +1,7 @@
 //! From the text of a formula to its operations: winnow reads it, by the precedence of its operators.
 
-use super::{FormulaError, FormulaFault};
+use super::fault::{self, Misread};
+use crate::error::Fault;
 use plydrape::mold::formula::{FUNCTIONS, Operation};
 use std::ops::Range;
 use winnow::ascii::digit1;
@@ -23,7 +24,7 @@ const POWER: i64 = 7;
 /// Operations, each behind its operands.
 type Program = Vec<Operation>;
 type Input<'a> = Stateful<LocatingSlice<&'a str>, State<'a>>;
-type Parsed<T> = ModalResult<T, FormulaError>;
+type Parsed<T> = ModalResult<T, Misread>;
 
 #[derive(Debug)]
 struct State<'a> {
@@ -33,7 +34,7 @@ struct State<'a> {
 }
 
 /// The operations of a formula.
-pub(super) fn program(text: &str) -> Result<Program, FormulaError> {
+pub(super) fn program(text: &str) -> Result<Program, Misread> {
     let input = Input { input: LocatingSlice::new(text), state: State { text, depth: 0 } };
     let end = alt((eof.void(), misplaced));
     delimited(spaces, formula, end).parse(input).map_err(|error| error.into_inner())
@@ -43,7 +44,7 @@ fn formula(i: &mut Input) -> Parsed<Program> {
     expression(operand).prefix(prefix).infix(infix).parse_next(i)
 }
 
-fn infix<'a>(i: &mut Input<'a>) -> Parsed<Infix<Input<'a>, Program, ErrMode<FormulaError>>> {
+fn infix<'a>(i: &mut Input<'a>) -> Parsed<Infix<Input<'a>, Program, ErrMode<Misread>>> {
     let operator = alt((
         (alt(("**", "^")), deeper).value(Infix::Right(POWER, |i: &mut Input, a, b| {
             i.state.depth -= 1;
@@ -57,7 +58,7 @@ fn infix<'a>(i: &mut Input<'a>) -> Parsed<Infix<Input<'a>, Program, ErrMode<Form
     terminated(operator, spaces).parse_next(i)
 }
 
-fn prefix<'a>(i: &mut Input<'a>) -> Parsed<Prefix<Input<'a>, Program, ErrMode<FormulaError>>> {
+fn prefix<'a>(i: &mut Input<'a>) -> Parsed<Prefix<Input<'a>, Program, ErrMode<Misread>>> {
     let sign = alt((
         alt(("-", "−")).value(Prefix(SIGN, |i: &mut Input, a| {
             i.state.depth -= 1;
@@ -87,7 +88,7 @@ fn bracket(i: &mut Input) -> Parsed<Program> {
     ("(", deeper, spaces).parse_next(i)?;
     let inner = cut_err(formula).parse_next(i)?;
     if i.is_empty() {
-        return refuse(open..open + 1, FormulaFault::Bracket);
+        return refuse(open..open + 1, fault::bracket());
     }
     alt((")".void(), misplaced)).parse_next(i)?;
     i.state.depth -= 1;
@@ -100,7 +101,7 @@ fn number(i: &mut Input) -> Parsed<Program> {
     let (written, at) = number.with_span().parse_next(i)?;
     match written.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(vec![Operation::Number(value)]),
-        _ => refuse(at, FormulaFault::Number(written.into())),
+        _ => refuse(at, fault::number(written)),
     }
 }
 
@@ -111,13 +112,13 @@ fn named(i: &mut Input) -> Parsed<Program> {
         ("x", _) => Ok(vec![Operation::X]),
         ("y", _) => Ok(vec![Operation::Y]),
         ("pi" | "π", _) => Ok(vec![Operation::Number(std::f64::consts::PI)]),
-        (_, Some(_)) if !i.starts_with('(') => refuse(at, FormulaFault::Argument(name.into())),
+        (_, Some(_)) if !i.starts_with('(') => refuse(at, fault::argument(name)),
         (_, Some((_, function))) => {
             let mut program = bracket(i)?;
             program.push(Operation::Call(*function));
             Ok(program)
         }
-        (_, None) => refuse(at, FormulaFault::Name(name.into())),
+        (_, None) => refuse(at, fault::name(name)),
     }
 }
 
@@ -135,7 +136,7 @@ fn spaces(i: &mut Input) -> Parsed<()> {
 fn deeper(i: &mut Input) -> Parsed<()> {
     i.state.depth += 1;
     if i.state.depth > DEEPEST {
-        return refuse(before(i), FormulaFault::Depth);
+        return refuse(before(i), fault::depth());
     }
     Ok(())
 }
@@ -166,8 +167,8 @@ fn power(mut base: Program, exponent: Program) -> Program {
     base
 }
 
-fn refuse<T>(at: Range<usize>, fault: FormulaFault) -> Parsed<T> {
-    Err(ErrMode::Cut(FormulaError { at, fault }))
+fn refuse<T>(at: Range<usize>, fault: Fault) -> Parsed<T> {
+    Err(ErrMode::Cut(Misread { at, fault }))
 }
 
 /// Where the operator or bracket before this place stands.
@@ -181,32 +182,34 @@ fn before(i: &Input) -> Range<usize> {
 /// What is wrong with what stands behind a whole value.
 fn misplaced(i: &mut Input) -> Parsed<()> {
     if let Some((word, at)) = opt(alt((word, "(")).with_span()).parse_next(i)? {
-        return refuse(at, FormulaFault::Operator(word.into()));
+        return refuse(at, fault::operator(word));
     }
     let (sign, at) = any.with_span().parse_next(i)?;
-    refuse(at, if sign == ')' { FormulaFault::Bracket } else { FormulaFault::Character(sign) })
+    refuse(at, if sign == ')' { fault::bracket() } else { fault::character(sign) })
 }
 
-impl ParserError<Input<'_>> for FormulaError {
+impl ParserError<Input<'_>> for Misread {
     type Inner = Self;
 
     /// What is wrong where a value is due and none is found; nothing else that is looked for has to be there.
     fn from_input(i: &Input) -> Self {
         let (start, before) = (i.current_token_start(), before(i));
         let operator = &i.state.text[before.clone()];
-        let missing = FormulaFault::Value(operator.into());
+        let missing = fault::value(&format!("after `{operator}`"));
         let Some(sign) = i.chars().next() else {
             return match operator {
-                "" => FormulaError { at: 0..start, fault: FormulaFault::Empty },
-                _ => FormulaError { at: before, fault: missing },
+                "" => Misread { at: 0..start, fault: fault::empty() },
+                _ => Misread { at: before, fault: missing },
             };
         };
         let at = start..start + sign.len_utf8();
         match (sign, operator) {
-            (')', "") => FormulaError { at, fault: FormulaFault::Bracket },
-            ('*' | '/' | '^', "") => FormulaError { at, fault: FormulaFault::ValueBefore(sign) },
-            ('*' | '/' | '^' | ')', _) => FormulaError { at: before, fault: missing },
-            _ => FormulaError { at, fault: FormulaFault::Character(sign) },
+            (')', "") => Misread { at, fault: fault::bracket() },
+            ('*' | '/' | '^', "") => {
+                Misread { at, fault: fault::value(&format!("before `{sign}`")) }
+            }
+            ('*' | '/' | '^' | ')', _) => Misread { at: before, fault: missing },
+            _ => Misread { at, fault: fault::character(sign) },
         }
     }
 

@@ -1,16 +1,18 @@
 //! What a formula says, and its derivatives against central differences.
 
-use super::{FormulaFault, read as parse};
+use super::fault::{self, Misread};
+use super::formula as parse;
+use crate::error::Fault;
 use plydrape::mold::formula::Formula;
 use std::ops::Range;
 
 fn read(text: &str) -> Formula {
-    parse(text).unwrap_or_else(|e| panic!("{text}: {e}"))
+    parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
-fn refusal(text: &str) -> (Range<usize>, FormulaFault) {
-    let error = parse(text).unwrap_err();
-    (error.at, error.fault)
+fn refusal(text: &str) -> (Range<usize>, Fault) {
+    let Misread { at, fault } = parse(text).unwrap_err();
+    (at, fault)
 }
 
 /// By the rules of algebra; a minus before a power does not belong to its base.
@@ -103,27 +105,26 @@ fn where_a_formula_has_no_slope_is_found() {
 
 #[test]
 fn a_fault_is_found_at_its_place() {
-    let name = |name: &str| FormulaFault::Name(name.into());
-    assert_eq!(refusal("0.1*z"), (4..5, name("z")));
-    assert_eq!(refusal("x + u^2"), (4..5, name("u")));
-    assert_eq!(refusal("xy"), (0..2, name("xy")));
-    assert_eq!(refusal("2x"), (1..2, FormulaFault::Operator("x".into())));
-    assert_eq!(refusal("x (y)"), (2..3, FormulaFault::Operator("(".into())));
-    assert_eq!(refusal("x + "), (2..3, FormulaFault::Value("+".into())));
-    assert_eq!(refusal("x + * y"), (2..3, FormulaFault::Value("+".into())));
-    assert_eq!(refusal("* y"), (0..1, FormulaFault::ValueBefore('*')));
-    assert_eq!(refusal("()"), (0..1, FormulaFault::Value("(".into())));
-    assert_eq!(refusal("2*(x + y"), (2..3, FormulaFault::Bracket));
-    assert_eq!(refusal("x + y)"), (5..6, FormulaFault::Bracket));
-    assert_eq!(refusal("sin x"), (0..3, FormulaFault::Argument("sin".into())));
-    assert_eq!(refusal("0,1*x"), (1..2, FormulaFault::Character(',')));
-    assert_eq!(refusal("z = x"), (0..1, name("z")));
-    assert_eq!(refusal("1e999"), (0..5, FormulaFault::Number("1e999".into())));
-    assert_eq!(refusal("."), (0..1, FormulaFault::Number(".".into())));
-    assert_eq!(refusal("1.2.3*x"), (0..5, FormulaFault::Number("1.2.3".into())));
-    assert_eq!(refusal("  "), (0..2, FormulaFault::Empty));
+    assert_eq!(refusal("0.1*z"), (4..5, fault::name("z")));
+    assert_eq!(refusal("x + u^2"), (4..5, fault::name("u")));
+    assert_eq!(refusal("xy"), (0..2, fault::name("xy")));
+    assert_eq!(refusal("2x"), (1..2, fault::operator("x")));
+    assert_eq!(refusal("x (y)"), (2..3, fault::operator("(")));
+    assert_eq!(refusal("x + "), (2..3, fault::value("after `+`")));
+    assert_eq!(refusal("x + * y"), (2..3, fault::value("after `+`")));
+    assert_eq!(refusal("* y"), (0..1, fault::value("before `*`")));
+    assert_eq!(refusal("()"), (0..1, fault::value("after `(`")));
+    assert_eq!(refusal("2*(x + y"), (2..3, fault::bracket()));
+    assert_eq!(refusal("x + y)"), (5..6, fault::bracket()));
+    assert_eq!(refusal("sin x"), (0..3, fault::argument("sin")));
+    assert_eq!(refusal("0,1*x"), (1..2, fault::character(',')));
+    assert_eq!(refusal("z = x"), (0..1, fault::name("z")));
+    assert_eq!(refusal("1e999"), (0..5, fault::number("1e999")));
+    assert_eq!(refusal("."), (0..1, fault::number(".")));
+    assert_eq!(refusal("1.2.3*x"), (0..5, fault::number("1.2.3")));
+    assert_eq!(refusal("  "), (0..2, fault::empty()));
     for deep in ["(", "-", "x^", "1 + 2*sin("] {
-        assert_eq!(refusal(&deep.repeat(900)).1, FormulaFault::Depth, "{deep}");
+        assert_eq!(refusal(&deep.repeat(900)).1, fault::depth(), "{deep}");
     }
 }
 
@@ -134,7 +135,7 @@ fn deep_brackets_have_room_on_the_stack() {
     // every bracket takes v to 1 + 2 v
     assert_eq!(value, 2f64.powi(31) - 1.0);
     let too_deep = format!("{}x{}", "1 + 2*(".repeat(60), ")".repeat(60));
-    assert_eq!(refusal(&too_deep).1, FormulaFault::Depth);
+    assert_eq!(refusal(&too_deep).1, fault::depth());
 }
 
 proptest::proptest! {
@@ -148,7 +149,7 @@ proptest::proptest! {
                 }
                 Err(error) => {
                     proptest::prop_assert!(text.get(error.at.clone()).is_some());
-                    proptest::prop_assert!(!error.fault.help().is_empty());
+                    proptest::prop_assert!(!error.fault.help.is_empty());
                 }
             }
         }

@@ -5,10 +5,10 @@
 //! first and then turned about an axis. Sets, materials and steps are passed over; a keyword that would
 //! change the geometry is refused.
 
-use super::MeshFileError;
 use super::element::surface;
 use super::instance::{Placing, turned};
-use super::text::Lines;
+use super::text::{CORRECT, Lines, refused};
+use crate::Error;
 use crate::store::size;
 use plydrape::mold::mesh::Soup;
 use std::collections::HashMap;
@@ -95,7 +95,7 @@ struct Reader<'a> {
     skipped: Vec<(String, usize)>,
 }
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
     let mut reader = Reader {
         file,
         lines: Lines::new(file, bytes)?,
@@ -112,7 +112,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
 }
 
 impl Reader<'_> {
-    fn lines(&mut self) -> Result<(), MeshFileError> {
+    fn lines(&mut self) -> Result<(), Error> {
         while let Some(line) = self.lines.next() {
             if line.is_empty() || line.starts_with("**") {
                 continue;
@@ -142,7 +142,7 @@ impl Reader<'_> {
         }
     }
 
-    fn keyword(&mut self, line: &str) -> Result<(), MeshFileError> {
+    fn keyword(&mut self, line: &str) -> Result<(), Error> {
         let mut fields = line[1..].split(',').map(str::trim);
         let name = fields.next().unwrap_or_default().to_ascii_uppercase();
         let name = name.split_ascii_whitespace().collect::<Vec<_>>().join(" ");
@@ -206,34 +206,26 @@ impl Reader<'_> {
             "END INSTANCE" => return Err(self.lines.fault(line, "`*Instance` before it")),
             _ => {
                 if let Some((_, remedy)) = REFUSED.iter().find(|(refused, _)| *refused == name) {
-                    return Err(MeshFileError::Keyword {
-                        file: self.file.to_owned(),
-                        line: number,
-                        keyword: format!("*{name}"),
-                        remedy,
-                    });
+                    let message = format!("*{name} is not read");
+                    return Err(refused(self.file, number, message, *remedy));
                 }
             }
         }
         Ok(())
     }
 
-    fn refused(&self, keyword: &str, remedy: &'static str) -> MeshFileError {
-        let (file, line) = (self.file.to_owned(), self.lines.number);
-        MeshFileError::Keyword { file, line, keyword: keyword.to_owned(), remedy }
+    fn refused(&self, keyword: &str, remedy: &str) -> Error {
+        refused(self.file, self.lines.number, format!("{keyword} is not read"), remedy)
     }
 
-    fn part(&self, part: &str) -> Result<usize, MeshFileError> {
+    fn part(&self, part: &str) -> Result<usize, Error> {
         let names = || self.parts.iter().map(|scope| scope.name.trim_start_matches("part "));
         let quoted = format!("`{part}`");
         names().position(|name| name.eq_ignore_ascii_case(&quoted)).ok_or_else(|| {
             let known = names().collect::<Vec<_>>().join(", ");
-            MeshFileError::Part {
-                file: self.file.to_owned(),
-                line: self.lines.number,
-                part: part.to_owned(),
-                known: if known.is_empty() { "none".to_owned() } else { known },
-            }
+            let known = if known.is_empty() { "none" } else { &known };
+            let message = format!("there is no part `{part}`");
+            refused(self.file, self.lines.number, message, format!("parts are {known}"))
         })
     }
 
@@ -246,7 +238,7 @@ impl Reader<'_> {
         }
     }
 
-    fn data(&mut self, line: &str) -> Result<(), MeshFileError> {
+    fn data(&mut self, line: &str) -> Result<(), Error> {
         match self.data {
             Data::Ignored => Ok(()),
             Data::Skipped => {
@@ -305,7 +297,7 @@ impl Reader<'_> {
         }
     }
 
-    fn node(&mut self, line: &str) -> Result<(), MeshFileError> {
+    fn node(&mut self, line: &str) -> Result<(), Error> {
         let expected = "a node: `number, x, y, z`";
         let mut fields = line.split(',').map(str::trim);
         let number = fields.next().and_then(|field| field.parse().ok()).filter(|n| *n > 0);
@@ -318,12 +310,12 @@ impl Reader<'_> {
         }
         let now = self.lines.number;
         match self.scope().nodes.insert(node, (point, now)) {
-            Some((other, before)) if other != point => Err(MeshFileError::NodeTwice {
-                file: self.file.to_owned(),
-                line: now,
-                node,
-                before,
-            }),
+            Some((other, before)) if other != point => {
+                let message = format!(
+                    "node {node} is defined again at another place; it stands in line {before} already"
+                );
+                Err(refused(self.file, now, message, "give it a number of its own"))
+            }
             _ => Ok(()),
         }
     }
@@ -337,7 +329,7 @@ impl Reader<'_> {
     }
 
     /// All elements in their places.
-    fn soup(self) -> Result<Soup, MeshFileError> {
+    fn soup(self) -> Result<Soup, Error> {
         let mut soup = Soup::new("element");
         let Reader { file, flat, parts, instances, .. } = self;
         // an instance is a line, and all elements of its part once more
@@ -349,8 +341,7 @@ impl Reader<'_> {
         for instance in &instances {
             all += instance.part.map_or(0.0, |part| of_parts[part]) + triangles(&instance.own);
         }
-        let too_large = |source| MeshFileError::Size { file: file.to_owned(), source };
-        size::mesh(all).map_err(too_large)?;
+        size::mesh(all).map_err(|error| error.of_file(file))?;
         add(&mut soup, file, &flat, &Placing::default())?;
         for instance in &instances {
             if let Some(part) = instance.part {
@@ -373,7 +364,7 @@ fn element_line(nodes: usize) -> String {
 }
 
 /// Adds the elements of a scope in their place.
-fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<(), MeshFileError> {
+fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<(), Error> {
     let mut indices: HashMap<u64, u32> = HashMap::with_capacity(scope.nodes.len());
     for element in &scope.elements {
         let mut corners = [0; 4];
@@ -381,12 +372,13 @@ fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<
             *corner = match indices.get(node) {
                 Some(index) => *index,
                 None => {
-                    let (point, _) = scope.nodes.get(node).ok_or_else(|| MeshFileError::Node {
-                        file: file.to_owned(),
-                        line: element.line,
-                        element: element.number,
-                        node: *node,
-                        scope: scope.name.clone(),
+                    let (point, _) = scope.nodes.get(node).ok_or_else(|| {
+                        let Element { number, line, .. } = element;
+                        let message = format!(
+                            "element {number} uses node {node}, which {} does not define",
+                            scope.name
+                        );
+                        refused(file, *line, message, CORRECT)
                     })?;
                     let index = soup.points.len() as u32;
                     soup.points.push(turned(*point, placing));

@@ -1,16 +1,14 @@
 //! Meshes from STL, OBJ and Abaqus files.
 
 mod element;
-mod error;
 mod inp;
 mod instance;
 mod obj;
 mod stl;
 mod text;
 
-pub use error::MeshFileError;
-
-use crate::store::size;
+use crate::Error;
+use crate::store::{input, size};
 use plydrape::mold::mesh::{Mesh, MeshReport};
 use plydrape::mold::{MeshError, Pose};
 use std::path::Path;
@@ -23,11 +21,10 @@ pub(crate) const LARGEST: u64 = 1 << 30;
 /// Coordinates are multiplied by `scale` (m per unit of the file), then placed by `pose`.
 ///
 /// # Errors
-/// If the file cannot be read, its contents are no mesh, or the mesh is no mold: see [`MeshFileError`].
-pub fn read(path: &Path, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), MeshFileError> {
+/// If the file cannot be read, its contents are no mesh, or the mesh is no mold: see [`Error`].
+pub fn read(path: &Path, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), Error> {
     let file = path.display().to_string();
-    let unreadable = |source| MeshFileError::Unreadable { file: file.clone(), source };
-    let bytes = crate::store::input::bytes(path, LARGEST).map_err(unreadable)?;
+    let bytes = input::bytes(path, LARGEST).map_err(|source| Error::read(path, source))?;
     parse(&file, &bytes, scale, pose)
 }
 
@@ -40,9 +37,8 @@ pub fn parse(
     bytes: &[u8],
     scale: f64,
     pose: &Pose,
-) -> Result<(Mesh, MeshReport), MeshFileError> {
-    let too_large = |source| MeshFileError::Size { file: file.to_owned(), source };
-    let no_mold = |source| MeshFileError::Mesh { file: file.to_owned(), source };
+) -> Result<(Mesh, MeshReport), Error> {
+    let no_mold = |fault: MeshError| Error::file(file, format!("{file}: {fault}"), fault.remedy());
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
     if bytes.trim_ascii().is_empty() && !extension.is_empty() {
         let others = ": the file is empty".to_owned();
@@ -53,10 +49,17 @@ pub fn parse(
         "obj" => obj::read(file, bytes)?,
         "inp" => inp::read(file, bytes)?,
         _ => {
-            let (file, extension) = (file.to_owned(), extension.into_owned());
-            return Err(MeshFileError::Format { file, extension });
+            let message = match &*extension {
+                "" => format!("{file}: the file name has no ending"),
+                _ => format!("{file}: the file name ends in .{extension}"),
+            };
+            return Err(Error::file(
+                file,
+                message,
+                "the name of a mesh ends in .stl, .obj or .inp",
+            ));
         }
     };
-    size::mesh(soup.triangles.len() as f64).map_err(too_large)?;
+    size::mesh(soup.triangles.len() as f64).map_err(|error| error.of_file(file))?;
     Mesh::of_soup(soup, scale, pose).map_err(no_mold)
 }

@@ -1,13 +1,15 @@
 //! OBJ files: vertices and polygons. Texture, normals, groups and materials are passed over.
 
-use super::MeshFileError;
-use super::text::Lines;
+use super::text::{Lines, refused};
+use crate::Error;
 use plydrape::mold::mesh::Soup;
 
 /// Most corners of a face: a cut looks at every corner from every other, so its time grows with their cube.
 const MOST_CORNERS: usize = 1000;
 /// Most looks of all cuts, cubes of corners summed; they take about a minute.
 const MOST_CUTS: f64 = 2e10;
+/// What to do about faces of too many corners.
+const CUT: &str = "export the surface as triangles or quadrilaterals";
 /// Statements that say nothing about the surface.
 const IGNORED: [&str; 20] = [
     "vt",
@@ -32,7 +34,7 @@ const IGNORED: [&str; 20] = [
     "csh",
 ];
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
     let mut lines = Lines::new(file, bytes)?;
     let mut soup = Soup::new("face");
     // faces may come before their vertices: line, and corners in `corners`
@@ -94,8 +96,9 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
     for (&(line, end), number) in faces.iter().zip(1..) {
         let corners = end - start;
         if corners > MOST_CORNERS {
-            let file = file.to_owned();
-            return Err(MeshFileError::Corners { file, line, number, corners, most: MOST_CORNERS });
+            let message =
+                format!("face {number} has {corners} corners; {MOST_CORNERS} are the most");
+            return Err(refused(file, line, message, CUT));
         }
         largest = largest.max(corners);
         if corners > 4 {
@@ -104,7 +107,10 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
         start = end;
     }
     if cuts > MOST_CUTS {
-        return Err(MeshFileError::Cutting { file: file.to_owned(), corners: largest });
+        let message = format!(
+            "{file}: its faces of up to {largest} corners would take too long to cut into triangles"
+        );
+        return Err(Error::file(file, message, CUT));
     }
 
     let mut start = 0;
@@ -115,8 +121,13 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
             let vertices = soup.points.len();
             let index = usize::try_from(vertex).ok().filter(|n| (1..=vertices).contains(n));
             let Some(index) = index else {
-                let file = file.to_owned();
-                return Err(MeshFileError::Vertex { file, line, number, vertex, vertices });
+                let message = format!("face {number} uses vertex {vertex}");
+                return Err(refused(
+                    file,
+                    line,
+                    message,
+                    format!("the file has {vertices} vertices"),
+                ));
             };
             face.push(index as u32 - 1);
         }

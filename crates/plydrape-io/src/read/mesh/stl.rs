@@ -3,15 +3,15 @@
 //! A binary file is 80 bytes of anything, the number n of triangles and n records of 50 bytes; it is known
 //! by its length, as its first bytes may well read `solid`. Normals in the file are not used.
 
-use super::MeshFileError;
-use super::text::Lines;
+use super::text::{CORRECT, INCOMPLETE, Lines};
+use crate::Error;
 use plydrape::mold::mesh::Soup;
 
 /// Bytes before the first triangle of a binary file, and of each triangle.
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
     let triangles = bytes.get(80..HEADER).map(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]));
     let expected = triangles.map(|n| HEADER as u64 + RECORD as u64 * u64::from(n));
     let start = bytes.trim_ascii_start();
@@ -19,22 +19,18 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
     match (triangles, expected) {
         (_, Some(expected)) if expected == bytes.len() as u64 => binary(file, bytes),
         _ if (solid || triangles.is_none()) && !bytes.contains(&0) => text(file, bytes),
-        (Some(triangles), Some(expected)) => Err(MeshFileError::Length {
-            file: file.to_owned(),
-            triangles,
-            expected,
-            bytes: bytes.len() as u64,
-        }),
-        _ => Err(MeshFileError::Length {
-            file: file.to_owned(),
-            triangles: 0,
-            expected: HEADER as u64,
-            bytes: bytes.len() as u64,
-        }),
+        _ => {
+            let (triangles, bytes) = (triangles.unwrap_or(0), bytes.len());
+            let expected = expected.unwrap_or(HEADER as u64);
+            let message = format!(
+                "{file}: a binary STL file of {triangles} triangles has {expected} bytes, this one has {bytes}"
+            );
+            Err(Error::file(file, message, INCOMPLETE))
+        }
     }
 }
 
-fn binary(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
+fn binary(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
     let mut soup = Soup::new("triangle");
     let records = bytes[HEADER..].chunks_exact(RECORD);
     soup.points.reserve(3 * records.len());
@@ -53,7 +49,10 @@ fn binary(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
         };
         let corners = [0, 1, 2].map(corner);
         if let Some(&value) = corners.as_flattened().iter().find(|x| !x.is_finite()) {
-            return Err(MeshFileError::NotFinite { file: file.to_owned(), number, value });
+            let message = format!(
+                "{file}: a coordinate of triangle {number} is {value}, expected a finite number"
+            );
+            return Err(Error::file(file, message, CORRECT));
         }
         add(&mut soup, corners, number);
     }
@@ -66,7 +65,7 @@ fn add(soup: &mut Soup, corners: [[f64; 3]; 3], number: u64) {
     soup.push(&[first, first + 1, first + 2], number);
 }
 
-fn text(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
+fn text(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
     let mut lines = Lines::new(file, bytes)?;
     let mut soup = Soup::new("triangle");
     let mut inside = false;

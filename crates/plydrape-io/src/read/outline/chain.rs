@@ -1,7 +1,8 @@
 //! Curves that are joined end to end into closed lines.
 
 use super::entity::Curve;
-use super::error::{OutlineFault, Place};
+use super::place::{Place, mm};
+use crate::error::Fault;
 use plydrape::ply::Ring;
 
 /// A closed line, and a curve of it for messages.
@@ -16,8 +17,8 @@ pub struct Closed {
 /// All closed lines of curves, of which ends join within a distance (m).
 ///
 /// # Errors
-/// [`OutlineFault`] for an end that meets none, or more than one.
-pub fn closed(curves: Vec<Curve>, join: f64) -> Result<Vec<Closed>, OutlineFault> {
+/// [`Fault`] for an end that meets none, or more than one.
+pub fn closed(curves: Vec<Curve>, join: f64) -> Result<Vec<Closed>, Fault> {
     let mut found = Vec::new();
     let mut open = Vec::new();
     for mut curve in curves {
@@ -88,7 +89,7 @@ impl End {
 }
 
 /// For each end the one that it joins.
-fn partners(curves: &[Curve], join: f64) -> Result<Vec<End>, OutlineFault> {
+fn partners(curves: &[Curve], join: f64) -> Result<Vec<End>, Fault> {
     let ends = |curve| [false, true].map(|last| End { curve, last });
     let all: Vec<End> = (0..curves.len()).flat_map(ends).collect();
     let mut sorted: Vec<([f64; 2], End)> = all.iter().map(|end| (end.at(curves), *end)).collect();
@@ -102,7 +103,11 @@ fn partners(curves: &[Curve], join: f64) -> Result<Vec<End>, OutlineFault> {
             for (a, b) in [(end, other), (other, end)] {
                 if partners[a.index()].replace(*b).is_some() {
                     let count = all.iter().filter(|c| apart(c.at(curves), *at) <= join).count();
-                    return Err(OutlineFault::Branch { place: end.place(curves), count });
+                    let place = end.place(curves);
+                    return Err(Fault::new(
+                        format!("{count} curves end at {}, one of them {place}", mm(place.at)),
+                        "remove lines that are drawn twice, or choose the layer that has the outline alone",
+                    ));
                 }
             }
         }
@@ -114,8 +119,15 @@ fn partners(curves: &[Curve], join: f64) -> Result<Vec<End>, OutlineFault> {
         let far = |other: &&End| apart(at, other.at(curves));
         let next = others.min_by(|a, b| far(a).total_cmp(&far(b)));
         let next = next.map_or(at, |next| next.at(curves));
-        let width = apart(at, next);
-        return Err(OutlineFault::Gap { place: end.place(curves), next, width });
+        let place = end.place(curves);
+        return Err(Fault::new(
+            format!(
+                "{place} is not closed: it ends {:.3} mm from the nearest other open end, which is at {}",
+                apart(at, next) * 1e3,
+                mm(next)
+            ),
+            "join the ends in the drawing, or choose the layer that has the outline alone",
+        ));
     }
     Ok(partners.into_iter().flatten().collect())
 }

@@ -1,9 +1,10 @@
 //! The curves of a drawing: its entities, blocks placed, as polygons in meters.
 
 use super::Options;
-use super::error::{OutlineFault, Place};
 use super::flatten::{self, Arc, Limit, Nurbs, TooMany};
+use super::place::Place;
 use super::transform::Transform;
+use crate::error::Fault;
 use ::dxf::Drawing;
 use ::dxf::entities::{Entity, EntityType, Insert, Polyline, Spline};
 use ::dxf::{Point, Vector};
@@ -47,7 +48,7 @@ pub struct Curves {
 }
 
 /// All curves of a drawing; a unit of the drawing in meters.
-pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves, OutlineFault> {
+pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves, Fault> {
     let hidden = drawing.layers().filter(|layer| !layer.is_layer_on);
     let mut reader = Reader {
         blocks: drawing.blocks().map(|block| (key(&block.name), block)).collect(),
@@ -104,7 +105,7 @@ impl Reader<'_> {
         placed_on: Option<&str>,
         outer: &Transform,
         depth: usize,
-    ) -> Result<(), OutlineFault> {
+    ) -> Result<(), Fault> {
         let layer = match (placed_on, entity.common.layer.as_str()) {
             (Some(layer), "0") => layer,
             (_, layer) => layer,
@@ -115,8 +116,7 @@ impl Reader<'_> {
         let place =
             Place { entity: kind, layer: layer.to_owned(), at: outer.of([origin.x, origin.y]) };
         if self.visited > MOST_ENTITIES {
-            let what = "entities in blocks";
-            return Err(OutlineFault::Blocks { place, most: MOST_ENTITIES, what });
+            return Err(too_many_in_blocks(&place, MOST_ENTITIES, "entities in blocks"));
         }
         if let EntityType::Insert(insert) = &entity.specific {
             return self.place(insert, layer, &place, outer, depth);
@@ -130,8 +130,13 @@ impl Reader<'_> {
             self.found.others.insert(layer.to_owned());
             return Ok(());
         }
-        let not_finite = || OutlineFault::NotFinite { entity: kind, layer: layer.to_owned() };
-        let mirrored = mirrored(normal).ok_or_else(|| OutlineFault::Tilted(place.clone()))?;
+        let mirrored = mirrored(normal).ok_or_else(|| tilted(&place))?;
+        let not_finite = || {
+            let layer = layer.escape_debug();
+            let message =
+                format!("{kind} on layer `{layer}` has a coordinate that is no finite number");
+            Fault::new(message, "correct the drawing")
+        };
         let transform = if mirrored && in_own_plane(&entity.specific) {
             outer.after(&Transform::mirror())
         } else {
@@ -142,16 +147,21 @@ impl Reader<'_> {
             tolerance: self.tolerance / flatten::stretch(transform.x, transform.y),
             points: room,
         };
-        let too_many = |TooMany| OutlineFault::Points {
-            place: place.clone(),
-            tolerance: self.tolerance,
-            most: MOST_POINTS,
+        let tolerance = self.tolerance;
+        let too_many = |TooMany| {
+            let message = format!(
+                "followed to {:.3} mm, its curves have more than {MOST_POINTS} points; the last is {place}",
+                tolerance * 1e3
+            );
+            Fault::new(message, "give a larger tolerance")
         };
         if !place.at.iter().all(|c| c.is_finite()) {
             return Err(not_finite());
         }
         if let Some(z) = heights(&entity.specific) {
-            return Err(OutlineFault::NotFlat { place, z: z.map(|z| z * z_unit) });
+            let [low, high] = z.map(|z| z * z_unit * 1e3);
+            let message = format!("{place} is not flat: its z goes from {low:.3} to {high:.3} mm");
+            return Err(Fault::new(message, FLAT));
         }
         let flat = match &entity.specific {
             EntityType::Line(line) => {
@@ -218,17 +228,16 @@ impl Reader<'_> {
         place: &Place,
         outer: &Transform,
         depth: usize,
-    ) -> Result<(), OutlineFault> {
+    ) -> Result<(), Fault> {
         let Some(block) = self.blocks.get(&key(&insert.name)).copied() else {
-            let block = insert.name.clone();
-            return Err(OutlineFault::Block { place: place.clone(), block });
+            let name = insert.name.escape_debug();
+            let message = format!("{place} places the block `{name}`, which is not in the file");
+            return Err(Fault::new(message, EXPLODE));
         };
         if depth == MOST_DEPTH {
-            let (place, what) = (place.clone(), "blocks within one another");
-            return Err(OutlineFault::Blocks { place, most: MOST_DEPTH, what });
+            return Err(too_many_in_blocks(place, MOST_DEPTH, "blocks within one another"));
         }
-        let mirrored = mirrored(&insert.extrusion_direction)
-            .ok_or_else(|| OutlineFault::Tilted(place.clone()))?;
+        let mirrored = mirrored(&insert.extrusion_direction).ok_or_else(|| tilted(place))?;
         let outer = if mirrored { outer.after(&Transform::mirror()) } else { *outer };
         let outer = outer
             .after(&Transform::shift(plane(&insert.location)))
@@ -363,12 +372,30 @@ fn polyline(vertices: Vec<([f64; 2], f64)>, closed: bool, limit: Limit) -> Resul
     Ok(Flat { points, closed })
 }
 
-fn nurbs(spline: &Spline, place: &Place) -> Result<Nurbs, OutlineFault> {
+fn nurbs(spline: &Spline, place: &Place) -> Result<Nurbs, Fault> {
     if spline.control_points.is_empty() {
-        return Err(OutlineFault::FitPoints(place.clone()));
+        return Err(Fault::new(
+            format!("{place} has fit points and no control points"),
+            "save it with control points, or convert it to a polyline",
+        ));
     }
     let points: Vec<[f64; 2]> = spline.control_points.iter().map(plane).collect();
     let degree = usize::try_from(spline.degree_of_curve).unwrap_or(0);
     Nurbs::new(degree, spline.knot_values.clone(), &points, &spline.weight_values)
-        .map_err(|why| OutlineFault::Spline { place: place.clone(), why })
+        .map_err(|why| Fault::new(format!("{place} is no spline: {why}"), "correct the drawing"))
+}
+
+/// What to do about a curve that is not in the plane of the drawing.
+const FLAT: &str = "draw the outline flat, in the x-y plane";
+/// What to do about blocks.
+const EXPLODE: &str = "explode the block in the drawing";
+
+/// A curve in a plane that is not that of the drawing.
+fn tilted(place: &Place) -> Fault {
+    Fault::new(format!("{place} lies in a plane that is inclined to the drawing"), FLAT)
+}
+
+/// Blocks within blocks without end, or too many of them.
+fn too_many_in_blocks(place: &Place, most: usize, what: &str) -> Fault {
+    Fault::new(format!("{place} places more than {most} {what}"), EXPLODE)
 }

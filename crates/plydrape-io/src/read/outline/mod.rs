@@ -8,18 +8,19 @@
 
 mod chain;
 mod entity;
-mod error;
 mod flatten;
 mod pairs;
+mod place;
 #[cfg(test)]
 mod tests;
 mod transform;
 
-pub use error::{OutlineFault, OutlineFileError, Place};
-
+use crate::Error;
+use crate::error::{self, Fault};
 use crate::store::{input, size};
 use ::dxf::{Drawing, DxfError, enums::Units};
 use chain::Closed;
+use place::listed;
 use plydrape::ply::{Outline, Ring};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -31,7 +32,7 @@ const SMALLEST: f64 = 10.0;
 /// Memory that a byte of a drawing takes while it is read (bytes): 400 000 lines in 16 MB took 0.7 GB, and a copy of what is kept.
 const MEMORY: f64 = 60.0;
 /// Largest file that is opened (bytes).
-const LARGEST_FILE: u64 = 1 << 26;
+pub(crate) const LARGEST: u64 = 1 << 26;
 
 /// How a drawing is read.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,41 +58,52 @@ impl Options {
 /// The outline in a DXF file, in the coordinates of the drawing (m).
 ///
 /// # Errors
-/// [`OutlineFileError`] as [`read_dxf`], or if the file cannot be read.
-pub fn read(path: &Path, options: &Options) -> Result<Outline, OutlineFileError> {
-    let file = path.display().to_string();
-    match input::bytes(path, LARGEST_FILE) {
-        Ok(bytes) => read_dxf(&file, &bytes, options),
-        Err(source) => Err(OutlineFileError { file, fault: OutlineFault::Unreadable(source) }),
-    }
+/// As [`read_dxf`], or if the file cannot be read.
+pub fn read(path: &Path, options: &Options) -> Result<Outline, Error> {
+    let bytes = input::bytes(path, LARGEST).map_err(|source| Error::read(path, source))?;
+    read_dxf(&path.display().to_string(), &bytes, options)
 }
 
 /// The outline in the bytes of a DXF file, in the coordinates of the drawing (m).
 ///
 /// # Errors
-/// [`OutlineFileError`] for what is no DXF text or no outline: each says where, and has a remedy.
-pub fn read_dxf(file: &str, bytes: &[u8], options: &Options) -> Result<Outline, OutlineFileError> {
-    outline(bytes, options).map_err(|fault| OutlineFileError { file: file.to_owned(), fault })
+/// [`Error::File`] for what is no DXF text or no outline: it says where, and has a remedy.
+pub fn read_dxf(file: &str, bytes: &[u8], options: &Options) -> Result<Outline, Error> {
+    let size = bytes.len() as f64;
+    size::check(MEMORY * size, || format!("a drawing of {}", error::bytes(size)))
+        .map_err(|error| error.of_file(file))?;
+    outline(bytes, options)
+        .map_err(|Fault { message, help }| Error::file(file, format!("{file}: {message}"), help))
 }
 
-fn outline(bytes: &[u8], options: &Options) -> Result<Outline, OutlineFault> {
+/// What to do about a file that is no DXF text to its end.
+const INCOMPLETE: &str = "is the file complete? copy it or save it as ASCII DXF once more";
+
+fn outline(bytes: &[u8], options: &Options) -> Result<Outline, Fault> {
     let above_zero = |what, value: f64| match value.is_finite() && value > 0.0 {
         true => Ok(value),
-        false => Err(OutlineFault::Option { what, value }),
+        false => Err(Fault::new(
+            format!("{what} is {value}, expected a number above 0"),
+            "give a number above 0",
+        )),
     };
     let tolerance = above_zero("the tolerance (m)", options.tolerance)?;
     let join = above_zero("the share of the size within which ends join", options.join)?;
     let drawing = drawing(bytes)?;
     let unit = match options.unit {
         Some(unit) => above_zero("the unit of the drawing (m)", unit)?,
-        None => metres(drawing.header.default_drawing_units).ok_or(OutlineFault::Unitless)?,
+        None => metres(drawing.header.default_drawing_units).ok_or_else(|| {
+            Fault::new(
+                "its header gives no unit of length ($INSUNITS)",
+                "state the unit of the drawing, as in unit = \"mm\"",
+            )
+        })?,
     };
     check_layers(&drawing, options)?;
 
     let found = entity::curves(&drawing, unit, options)?;
     if found.curves.is_empty() {
-        let (layers, others) = (options.layers.clone(), found.others.into_iter().collect());
-        return Err(OutlineFault::Empty { layers, others });
+        return Err(empty(options, &found.others.into_iter().collect::<Vec<_>>()));
     }
     let size = extent(found.curves.iter().flat_map(|curve| &curve.points));
     let mut all = chain::closed(found.curves, join * size[0].hypot(size[1]))?;
@@ -99,30 +111,56 @@ fn outline(bytes: &[u8], options: &Options) -> Result<Outline, OutlineFault> {
     // the largest first; of two that are as large, the first of the file
     all.sort_by(|a, b| area(&b.ring).total_cmp(&area(&a.ring)));
     let Some(outer) = all.first() else {
-        let (layers, others) = (options.layers.clone(), Vec::new());
-        return Err(OutlineFault::Empty { layers, others });
+        return Err(empty(options, &[]));
     };
     let size = extent(&outer.ring);
     if size[0].max(size[1]) < SMALLEST * tolerance {
-        return Err(OutlineFault::Tiny { place: outer.place.clone(), size, tolerance });
+        let ([width, height], tolerance) = (size.map(|side| side * 1e3), tolerance * 1e3);
+        return Err(Fault::new(
+            format!(
+                "its largest closed line, {}, is {width:.4} mm by {height:.4} mm, which is too small for a tolerance of {tolerance:.4} mm",
+                outer.place
+            ),
+            "is the unit of the drawing right?",
+        ));
     }
     if let Some(inner) = all[1..].iter().find(|inner| !inside(&outer.ring, inner.ring[0])) {
-        return Err(OutlineFault::Several {
-            outer: outer.place.clone(),
-            inner: Box::new(inner.place.clone()),
-            layers: layers(&all),
-        });
+        let layers = layers(&all);
+        return Err(Fault::new(
+            format!(
+                "it has two outlines: {} is not inside the largest closed line, {}",
+                inner.place, outer.place
+            ),
+            match layers.len() {
+                0 | 1 => "leave one ply in the drawing, or put each on a layer of its own".into(),
+                _ => format!("choose a layer; those with closed lines are {}", listed(&layers)),
+            },
+        ));
     }
     let mut rings = all.into_iter().map(|closed| closed.ring);
     let boundary = rings.next().unwrap_or_default();
-    Outline::new(boundary, rings.collect()).map_err(OutlineFault::Outline)
+    Outline::new(boundary, rings.collect())
+        .map_err(|fault| Fault::new(fault.to_string(), "correct the drawing"))
+}
+
+/// A drawing with nothing that could be an outline; `others` are the layers that have curves.
+fn empty(options: &Options, others: &[String]) -> Fault {
+    let wanted = match options.layers.as_deref() {
+        None => "its visible layers".into(),
+        Some([layer]) => format!("layer `{}`", layer.escape_debug()),
+        Some(layers) => format!("layers {}", listed(layers)),
+    };
+    let help = match others {
+        [] => "draw the outline with lines, arcs, circles, ellipses, polylines or splines".into(),
+        others => format!("layers with lines or curves are {}", listed(others)),
+    };
+    Fault::new(format!("it has no lines or curves on {wanted}"), help)
 }
 
 /// What the library reads of a file.
-fn drawing(bytes: &[u8]) -> Result<Drawing, OutlineFault> {
-    let memory = MEMORY * bytes.len() as f64;
-    size::check(memory, || format!("a drawing of {}", size::shown(bytes.len() as f64)))
-        .map_err(OutlineFault::Size)?;
+fn drawing(bytes: &[u8]) -> Result<Drawing, Fault> {
+    let unread =
+        |what: String| Fault::new(format!("it is no complete DXF text: {what}"), INCOMPLETE);
     let kept = pairs::keep(bytes)?;
     let drawing = Drawing::load(&mut kept.text.as_slice()).map_err(|error| {
         let line = match &error {
@@ -137,15 +175,15 @@ fn drawing(bytes: &[u8]) -> Result<Drawing, OutlineFault> {
             _ => None,
         };
         match line.and_then(|line| kept.origin(line)) {
-            Some((line, code, found)) => OutlineFault::Value { line, code, found },
-            None => OutlineFault::Unread(error.to_string()),
+            Some((line, code, found)) => pairs::not_a_value(line, &code, &found),
+            None => unread(error.to_string()),
         }
     })?;
     let (found, expected) = (entity::count(&drawing), kept.entities);
     if found == expected {
         return Ok(drawing);
     }
-    Err(OutlineFault::Unread(format!("{found} of its {expected} entities can be read")))
+    Err(unread(format!("{found} of its {expected} entities can be read")))
 }
 
 /// A unit of a drawing (m); none if it has none.
@@ -168,7 +206,7 @@ fn metres(units: Units) -> Option<f64> {
 }
 
 /// Refuses layers that the drawing does not have.
-fn check_layers(drawing: &Drawing, options: &Options) -> Result<(), OutlineFault> {
+fn check_layers(drawing: &Drawing, options: &Options) -> Result<(), Fault> {
     let of_blocks = drawing.blocks().flat_map(|block| &block.entities);
     let used = drawing.entities().chain(of_blocks).map(|entity| entity.common.layer.as_str());
     let names = drawing.layers().map(|layer| layer.name.as_str()).chain(used);
@@ -177,10 +215,10 @@ fn check_layers(drawing: &Drawing, options: &Options) -> Result<(), OutlineFault
     let absent = |layer: &&String| !keys.contains(&entity::key(layer));
     match options.layers.iter().flatten().find(absent) {
         None => Ok(()),
-        Some(layer) => Err(OutlineFault::Layer {
-            layer: layer.clone(),
-            known: known.into_iter().map(str::to_owned).collect(),
-        }),
+        Some(layer) => Err(Fault::new(
+            format!("there is no layer `{}`", layer.escape_debug()),
+            format!("layers are {}", listed(&known.into_iter().collect::<Vec<_>>())),
+        )),
     }
 }
 

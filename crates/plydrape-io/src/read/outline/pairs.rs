@@ -5,7 +5,8 @@
 //! where a file is damaged, and groups within groups would take all of its stack. Where a number is none, the library leaves out
 //! the entity and all that follow it without a word, so numbers are checked here and entities are counted.
 
-use super::error::OutlineFault;
+use super::INCOMPLETE;
+use crate::error::Fault;
 
 /// The variables of the header that are kept.
 const VARIABLES: [&[u8]; 3] = [b"$ACADVER", b"$DWGCODEPAGE", b"$INSUNITS"];
@@ -70,8 +71,8 @@ enum State<'a> {
 /// What outlines are made of in a DXF text.
 ///
 /// # Errors
-/// [`OutlineFault`] for what is no DXF text, or ends before its end.
-pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
+/// [`Fault`] for what is no DXF text, or ends before its end.
+pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     for (start, kind) in [
         (&b"AutoCAD Binary DXF"[..], "a binary DXF file"),
@@ -79,7 +80,8 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
         (b"AC10", "a DWG file"),
     ] {
         if bytes.starts_with(start) {
-            return Err(OutlineFault::Format(kind));
+            let message = format!("it is {kind}, not a DXF text");
+            return Err(Fault::new(message, "save the drawing as ASCII DXF"));
         }
     }
     let mut kept = Kept { text: Vec::new(), entities: 0, lines: Vec::new() };
@@ -92,13 +94,18 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
     let mut frozen = false;
     loop {
         let (Some((at, code)), Some((_, value))) = (lines.next(), lines.next()) else {
-            return Err(OutlineFault::Ends { line: last });
+            let message = format!("the file ends at line {last} without its mark EOF");
+            return Err(Fault::new(message, INCOMPLETE));
         };
         let line = at + 2;
         last = line;
         let number = std::str::from_utf8(code).ok().and_then(|text| text.trim().parse().ok());
         let Some(number): Option<i32> = number else {
-            return Err(OutlineFault::Code { line: at + 1, found: shown(code) });
+            let (line, found) = (at + 1, shown(code));
+            let message = format!(
+                "line {line}: found `{found}`, expected a group code, which is a whole number"
+            );
+            return Err(Fault::new(message, INCOMPLETE));
         };
         let (code, name) = (code.trim_ascii(), value.trim_ascii());
         if number == COMMENT || number >= EXTENDED {
@@ -181,7 +188,7 @@ fn push_outside<'a>(
     kept: &mut Kept<'a>,
     groups: &mut usize,
     (line, number, code, value): (usize, i32, &'a [u8], &'a [u8]),
-) -> Result<(), OutlineFault> {
+) -> Result<(), Fault> {
     match (number, value.trim_ascii()) {
         (GROUP, b"}") => *groups = groups.saturating_sub(1),
         (GROUP, _) => *groups += 1,
@@ -196,7 +203,7 @@ fn push_outside<'a>(
 }
 
 /// Refuses a value that is no number where its group code asks for one.
-fn check(line: usize, number: i32, code: &[u8], value: &[u8]) -> Result<(), OutlineFault> {
+fn check(line: usize, number: i32, code: &[u8], value: &[u8]) -> Result<(), Fault> {
     let text = std::str::from_utf8(value).unwrap_or_default().trim();
     let is_right = match number {
         // short numbers are written as lengths by some programs
@@ -207,7 +214,12 @@ fn check(line: usize, number: i32, code: &[u8], value: &[u8]) -> Result<(), Outl
     if is_right {
         return Ok(());
     }
-    Err(OutlineFault::Value { line, code: shown(code), found: shown(value) })
+    Err(not_a_value(line, &shown(code), &shown(value)))
+}
+
+/// A value that is not what its group code asks for.
+pub fn not_a_value(line: usize, code: &str, found: &str) -> Fault {
+    Fault::new(format!("line {line}: group code {code} cannot be {found:?}"), INCOMPLETE)
 }
 
 /// A line as messages show it.

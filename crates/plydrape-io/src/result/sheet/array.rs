@@ -4,7 +4,6 @@
 //! spaces up to a multiple of 64 bytes, and the numbers, last index fastest.
 
 use super::{SheetMesh, SheetState};
-use std::io::{self, Write};
 
 /// What a dimension of an array counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -179,11 +178,11 @@ impl Values<'_> {
         }
     }
 
-    pub(super) fn write(&self, to: &mut impl Write) -> io::Result<()> {
+    pub(super) fn bytes(&self) -> Vec<u8> {
         match self {
-            Values::Real(values) => values.iter().try_for_each(|v| to.write_all(&v.to_le_bytes())),
-            Values::Index(values) => values.iter().try_for_each(|v| to.write_all(&v.to_le_bytes())),
-            Values::Flag(values) => values.iter().try_for_each(|v| to.write_all(&[u8::from(*v)])),
+            Values::Real(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Values::Index(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Values::Flag(values) => values.iter().map(|value| u8::from(*value)).collect(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the numbers of a sheet must be, when they are written and when they are read.
 
 use super::array::{ARRAYS, Array, OF_MESH, Sizes, Values, arrays};
-use super::{SheetError, SheetMesh, SheetState};
+use super::{SheetMesh, SheetState};
 
 /// Largest number in size: its square and its cube are far from overflow.
 const LARGEST: f64 = 1e30;
@@ -11,9 +11,9 @@ const UNIT: f64 = 1e-3;
 const MOST: u32 = i32::MAX as u32;
 
 /// The sizes of a sheet whose arrays belong together.
-pub(super) fn sizes(mesh: &SheetMesh) -> Sizes {
+pub(super) fn sizes(mesh: &SheetMesh, states: usize) -> Sizes {
     Sizes {
-        states: 0,
+        states,
         nodes: mesh.places.len(),
         segments: mesh.segments.len(),
         cells: mesh.cells.len(),
@@ -23,11 +23,7 @@ pub(super) fn sizes(mesh: &SheetMesh) -> Sizes {
 }
 
 /// Refuses a mesh whose arrays have other lengths than they must, or name nodes that it has not.
-pub(super) fn mesh(
-    mesh: &SheetMesh,
-    landing_step: &[u32],
-    sizes: &Sizes,
-) -> Result<(), SheetError> {
+pub(super) fn mesh(mesh: &SheetMesh, landing_step: &[u32], sizes: &Sizes) -> Result<(), String> {
     for (array, values) in ARRAYS[..OF_MESH].iter().zip(mesh.values(landing_step)) {
         sound(array, values, sizes)?;
         if let ("segments" | "cells", Values::Index(nodes)) = (array.name, values) {
@@ -44,7 +40,7 @@ pub(super) fn state(
     state: &SheetState,
     sizes: &Sizes,
     after: Option<(u32, f64)>,
-) -> Result<(), SheetError> {
+) -> Result<(), String> {
     let releases = state.pad_holds.is_some();
     for (array, values) in arrays(releases)[OF_MESH..].iter().zip(state.values()) {
         sound(array, values, sizes)?;
@@ -52,31 +48,30 @@ pub(super) fn state(
     if sizes.releases != releases {
         let of = |releases: bool| if releases { sizes.grippers } else { 0 };
         let (expected, found) = (of(sizes.releases), of(releases));
-        return Err(SheetError::Length { array: "pad_holds", expected, found });
+        return Err(length("pad_holds", found, expected));
     }
     for (n, q) in state.pad_rotation.iter().enumerate() {
         let length = q.iter().map(|q| q * q).sum::<f64>().sqrt();
         if (length - 1.0).abs() > UNIT {
             let rule = "it is the length of a quaternion, which must be 1";
-            return Err(SheetError::Value { array: "pad_rotation", index: n, value: length, rule });
+            return Err(value("pad_rotation", n, length, rule));
         }
     }
     let (step, time) = after.unwrap_or((1, f64::NEG_INFINITY));
     let rule = "states come in the order of steps and times, from step 1 on";
     if state.step < step {
-        let value = f64::from(state.step);
-        return Err(SheetError::Value { array: "step", index: 0, value, rule });
+        return Err(value("step", 0, f64::from(state.step), rule));
     }
     if state.time < time {
-        return Err(SheetError::Value { array: "time", index: 0, value: state.time, rule });
+        return Err(value("time", 0, state.time, rule));
     }
     Ok(())
 }
 
-fn sound(array: &Array, values: Values, sizes: &Sizes) -> Result<(), SheetError> {
+fn sound(array: &Array, values: Values, sizes: &Sizes) -> Result<(), String> {
     let (found, expected) = (values.len(), array.count(sizes));
     if found != expected {
-        return Err(SheetError::Length { array: array.name, expected, found });
+        return Err(length(array.name, found, expected));
     }
     match values {
         Values::Real(values) => {
@@ -94,14 +89,21 @@ fn sound(array: &Array, values: Values, sizes: &Sizes) -> Result<(), SheetError>
 fn refuse<T: Copy + Into<f64>>(
     array: &Array,
     values: &[T],
-    rule: &'static str,
+    rule: &str,
     fits: impl Fn(&T) -> bool,
-) -> Result<(), SheetError> {
+) -> Result<(), String> {
     match values.iter().position(|value| !fits(value)) {
         None => Ok(()),
-        Some(index) => {
-            let value = values[index].into();
-            Err(SheetError::Value { array: array.name, index, value, rule })
-        }
+        Some(index) => Err(value(array.name, index, values[index].into(), rule)),
     }
+}
+
+/// An array of another length than the sheet.
+fn length(array: &str, found: usize, expected: usize) -> String {
+    format!("`{array}` of the sheet has {found} numbers, not {expected}")
+}
+
+/// A number that is not what it must be.
+fn value(array: &str, index: usize, value: f64, rule: &str) -> String {
+    format!("`{array}[{index}]` of the sheet is {value}: {rule}")
 }

@@ -1,8 +1,9 @@
-//! A drape by any model, with the states of its sheet in a file: they go there as they come, or from memory.
+//! A drape by any model, with the states of its sheet in a file.
 
 use super::kept::SheetKept;
-use super::{SheetError, SheetMesh, SheetSpool, SheetState};
-use crate::store::size::{self, SizeError};
+use super::{SheetFile, SheetMesh, SheetState};
+use crate::Error;
+use crate::store::size;
 use plydrape::layup::Model;
 use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, ModelError, Step, Summary};
 use plydrape::scene::Scene;
@@ -11,51 +12,6 @@ use plydrape::sheet::{Fabric, Sheet, State, is_kept};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
-
-/// Why a scene was not draped by a model, or the states of its sheet were not kept.
-#[derive(Debug, thiserror::Error)]
-pub enum SheetDrapeError {
-    /// The scene lacks what the model needs.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// It would take too much memory.
-    #[error(transparent)]
-    Size(#[from] SizeError),
-    /// Its states could not be kept.
-    #[error(transparent)]
-    States(#[from] SheetError),
-}
-
-impl SheetDrapeError {
-    /// What would help.
-    #[must_use]
-    pub fn remedy(&self) -> &'static str {
-        match self {
-            SheetDrapeError::Model(fault) => model_remedy(fault),
-            SheetDrapeError::Size(fault) => fault.remedy(),
-            SheetDrapeError::States(SheetError::Io(_)) => {
-                "make room on the disk, or choose a folder on another one with -o"
-            }
-            SheetDrapeError::States(_) => {
-                "this is a fault of plydrape, please report it with the scene"
-            }
-        }
-    }
-}
-
-/// What would help where a scene lacks what a model needs.
-#[must_use]
-pub fn model_remedy(fault: &ModelError) -> &'static str {
-    match fault {
-        ModelError::Sheet(_) => {
-            "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
-        }
-        ModelError::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
-        ModelError::Mounts { .. } => {
-            "take the sheet (kind = \"sheet\" in [model]) and its planner (method = \"path\" in [plan]) alone, or leave out `stiffness` in [grippers]"
-        }
-    }
-}
 
 /// A finished drape by one model, the states of its sheet in a file.
 #[derive(Debug)]
@@ -85,13 +41,9 @@ impl SheetSize {
     /// That of the sheet of a scene.
     ///
     /// # Errors
-    /// [`SheetDrapeError`] if the scene has no sheet, or one that is too large.
-    pub fn of(scene: &Scene) -> Result<Self, SheetDrapeError> {
+    /// [`Error`] if the scene has no sheet, or one that is too large.
+    pub fn of(scene: &Scene) -> Result<Self, Error> {
         let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
-        SheetSize::of_sheet(&sheet, scene)
-    }
-
-    fn of_sheet(sheet: &Sheet, scene: &Scene) -> Result<Self, SheetDrapeError> {
         let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
         Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })
@@ -106,104 +58,60 @@ fn most_states(scene: &Scene) -> usize {
     layup.settings.sheet.keep.min(layup.motion.positions.len()) + released
 }
 
-/// Drapes a scene along its motion by a model, that which decides or the other one. States of the sheet go into a hidden folder within
-/// `dir` as they come; `progress` is called with each step that is done, and `stop` is asked often whether to end there, with what was
+/// Drapes a scene along its motion by a model, that which decides or the other one. The file of the sheet's states goes into a hidden
+/// folder within `dir`; `progress` is called with each step that is done, and `stop` is asked often whether to end there, with what was
 /// done so far.
 ///
 /// # Errors
-/// [`SheetDrapeError`] if the scene lacks what the model needs, has a sheet that is too large, or the disk refuses.
+/// [`Error`] if the scene lacks what the model needs, has a sheet that is too large, or the disk refuses.
 pub fn drape(
     scene: &Scene,
     model: Model,
     dir: &Path,
     stop: &(dyn Fn() -> bool + Sync),
     mut progress: impl FnMut(usize),
-) -> Result<KeptDrape, SheetDrapeError> {
+) -> Result<KeptDrape, Error> {
     let layup = &scene.layup;
     let (steps, keep) = (layup.motion.positions.len(), layup.settings.sheet.keep);
-    let mut spool = match model {
-        Model::Sheet => Some(Spool::new(scene, dir)?),
-        Model::Catenaries => None,
-    };
-
-    // the states that are kept, until the disk refuses one
-    let mut fault = None;
+    if model == Model::Sheet {
+        SheetSize::of(scene)?;
+    }
+    let mut states = Vec::new();
     let mut see = |step: usize, state: Option<&State>| {
         progress(step);
-        if let (Some(spool), Some(state)) = (&mut spool, state)
-            && is_kept(state.step, steps, keep)
-            && let Err(refused) = spool.push(state)
-        {
-            fault = Some(refused);
-            return ControlFlow::Break(());
-        }
+        states.extend(state.filter(|state| is_kept(state.step, steps, keep)).cloned());
         ControlFlow::Continue(())
     };
-    let drape = outcome::drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
-    if let Some(fault) = fault {
-        return Err(fault.into());
+    let mut drape = outcome::drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
+    if let Some(sheet) = &mut drape.sheet {
+        sheet.states = states;
     }
-    finished(drape, spool)
+    kept(drape, layup.release.is_some(), dir)
 }
 
-/// A drape whose states are in memory, with these in a file: they go into a hidden folder within `dir`, as those of [`drape`], and the file
-/// is the same.
+/// A drape with the states of its sheet in a file, which goes into a hidden folder within `dir`, as that of [`drape`()], and is the same.
 ///
 /// # Errors
-/// [`SheetDrapeError`] if the disk refuses.
-pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, SheetDrapeError> {
-    let Some(DrapedSheet { drape: draped, states }) = &drape.sheet else {
-        return finished(drape, None);
-    };
-    let releases = !draped.events.is_empty();
-    let mut spool = Spool::of_sheet(draped.sheet.clone(), releases, dir)?;
-    states.iter().try_for_each(|state| spool.push(state))?;
-    finished(drape, Some(spool))
+/// [`Error::Io`] if the disk refuses.
+pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, Error> {
+    let releases = drape.sheet.as_ref().is_some_and(|sheet| !sheet.drape.events.is_empty());
+    kept(drape, releases, dir)
 }
 
-/// The states of a drape of a sheet on their way into their file.
-struct Spool {
-    sheet: Sheet,
-    /// Whether pads let go, so that states say which of them hold.
-    releases: bool,
-    states: SheetSpool,
-    /// Step of the last state.
-    last: usize,
-}
-
-impl Spool {
-    fn new(scene: &Scene, dir: &Path) -> Result<Self, SheetDrapeError> {
-        let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
-        SheetSize::of_sheet(&sheet, scene)?;
-        Ok(Spool::of_sheet(sheet, scene.layup.release.is_some(), dir)?)
-    }
-
-    fn of_sheet(sheet: Sheet, releases: bool, dir: &Path) -> Result<Self, SheetError> {
-        let states = SheetSpool::new(dir, mesh(&sheet, releases))?;
-        Ok(Spool { sheet, releases, states, last: 0 })
-    }
-
-    fn push(&mut self, kept: &State) -> Result<(), SheetError> {
-        self.last = kept.step;
-        self.states.push(&state(kept, &self.sheet.fabric, self.releases))
-    }
-}
-
-/// The drape whose states are in the spool, those of a sheet.
-fn finished(drape: Drape, spool: Option<Spool>) -> Result<KeptDrape, SheetDrapeError> {
+/// A drape with its states in a file, which say which pads hold if they let go (`releases`).
+fn kept(drape: Drape, releases: bool, dir: &Path) -> Result<KeptDrape, Error> {
     let Drape { summary, steps, sheet, solving } = drape;
-    let states = match (spool, sheet) {
-        (Some(mut spool), Some(DrapedSheet { drape, .. })) => {
-            if drape.last.step != spool.last {
-                // where the drape ended early, its end is kept too
-                spool.push(&drape.last)?;
-            }
-            let landed = drape.landing_step.iter().map(|step| step.map_or(0, |n| n as u32));
-            let landed: Vec<u32> = landed.collect();
-            Some(SheetKept::made(spool.states.finish(&landed)?))
-        }
-        _ => None,
+    let file = |DrapedSheet { drape, states }: DrapedSheet| {
+        // where the drape ended early, its end is kept too
+        let end = states.last().is_none_or(|last| last.step != drape.last.step);
+        let states = states.iter().chain(end.then_some(&drape.last));
+        let states: Vec<_> =
+            states.map(|state| kept_state(state, &drape.sheet.fabric, releases)).collect();
+        let landed = drape.landing_step.iter().map(|step| step.map_or(0, |n| n as u32));
+        let landed: Vec<u32> = landed.collect();
+        SheetFile::new(dir, &mesh(&drape.sheet, releases), &landed, &states).map(SheetKept::made)
     };
+    let states = sheet.map(file).transpose()?;
     Ok(KeptDrape { summary, steps, states, solving })
 }
 
@@ -221,7 +129,7 @@ fn mesh(sheet: &Sheet, releases: bool) -> SheetMesh<'static> {
 }
 
 /// A state as it is kept: with the cells that are ply by half or more, and where pads let go with those that hold.
-fn state<'a>(state: &'a State, fabric: &Fabric, releases: bool) -> SheetState<'a> {
+fn kept_state<'a>(state: &'a State, fabric: &Fabric, releases: bool) -> SheetState<'a> {
     let all = fabric.cells.iter().all(Cell::is_ply);
     let of_ply = || fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
     let unknown = || vec![f64::NAN; state.positions.len()].into();

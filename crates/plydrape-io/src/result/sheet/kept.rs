@@ -1,7 +1,7 @@
 //! Where the states of a result's sheet are.
 
 use super::{NAME, SheetFile, SheetSeal, SheetStates};
-use crate::ReadError;
+use crate::Error;
 use crate::store::folder::Content;
 use std::fs::File;
 use std::io::{self, BufReader, Write};
@@ -45,8 +45,8 @@ impl SheetKept {
     /// Opens the file, to read single states.
     ///
     /// # Errors
-    /// [`ReadError`] if it cannot be read, or is not the one that the result was written with.
-    pub fn open(&self) -> Result<SheetStates, ReadError> {
+    /// [`Error`] if it cannot be read, or is not the one that the result was written with.
+    pub fn open(&self) -> Result<SheetStates, Error> {
         SheetStates::open(self.folder(), &self.seal)
     }
 

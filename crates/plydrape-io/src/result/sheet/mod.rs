@@ -1,9 +1,8 @@
 //! `sheet.npz`: the states of a sheet over its steps, as NumPy's arrays in a zip archive, beside `result.json`.
 //!
 //! `numpy.load` reads it; [`ARRAYS`] lists what it holds, little-endian and not compressed; the last of them is there only where
-//! pads let go. States are written and read one at
-//! a time, so that a long drape takes the memory of a few: [`SheetSpool`] spools each array into a file of its own and then
-//! puts them together, [`SheetStates`] reads single states. Same states, same bytes.
+//! pads let go. [`SheetFile`] is written once the drape is done, from the states that it kept, and is read one state at a time by
+//! [`SheetStates`]. Same states, same bytes.
 //!
 //! `result.json` names the file with its length and check sum ([`SheetSeal`]), so that no other one is taken for it.
 
@@ -12,25 +11,22 @@ mod check;
 mod cut_cell;
 mod drape;
 mod ended;
-mod error;
+mod file;
 mod kept;
-mod latch;
 mod read;
 mod seal;
 mod shown;
-mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
 pub(crate) use cut_cell::CutCell;
-pub use drape::{KeptDrape, SheetDrapeError, SheetSize, drape, keep, model_remedy};
+pub use drape::{KeptDrape, SheetSize, drape, keep};
 pub(crate) use ended::{ended, overstrained};
-pub use error::SheetError;
+pub use file::SheetFile;
 pub use kept::SheetKept;
 pub use read::SheetStates;
 pub use seal::SheetSeal;
 pub use shown::SheetSides;
 pub(crate) use shown::normal;
-pub use spool::{SheetFile, SheetSpool};
 
 use std::borrow::Cow;
 

@@ -2,7 +2,8 @@
 
 use super::array::{ARRAYS, BEFORE, MAGIC, OF_MESH, Sizes, arrays};
 use super::{SheetMesh, SheetSeal, SheetState, check};
-use crate::ReadError;
+use crate::Error;
+use crate::result::refusal;
 use crate::store::{input, size};
 use std::borrow::Cow;
 use std::fs::File;
@@ -26,12 +27,11 @@ impl SheetStates {
     /// Opens the file that a result names: `folder` is that of the result, `seal` what it says of the file.
     ///
     /// # Errors
-    /// [`ReadError`] if it cannot be read, or is not the one that the result was written with, or holds what no sheet has.
-    pub fn open(folder: &Path, seal: &SheetSeal) -> Result<Self, ReadError> {
+    /// [`Error`] if it cannot be read, or is not the one that the result was written with, or holds what no sheet has.
+    pub fn open(folder: &Path, seal: &SheetSeal) -> Result<Self, Error> {
         let path = folder.join(&seal.file);
-        let unreadable = |source| ReadError::Unreadable { path: path.clone(), source };
-        let changed =
-            |what: String| ReadError::Changed { path: path.clone(), reason: format!(": {what}") };
+        let unreadable = |source| unreadable(&path, source);
+        let changed = |what: String| refusal::changed(&path, &what);
         if Path::new(&seal.file).file_name().is_none_or(|name| *name != *seal.file) {
             return Err(changed("its name is none of a file beside its result".into()));
         }
@@ -53,7 +53,7 @@ impl SheetStates {
             .map(|a| (a.count(&sizes) * a.scalar.bytes()) as f64)
             .sum();
         size::check(memory, || format!("a state of a sheet of {} nodes", sizes.nodes))
-            .map_err(|source| ReadError::TooLarge { path: path.clone(), source })?;
+            .map_err(|error| error.of_file(format_args!("`{}`", path.display())))?;
         let empty = SheetMesh {
             places: Cow::default(),
             areas: Cow::default(),
@@ -71,8 +71,7 @@ impl SheetStates {
             landing_step: vec![],
         };
         states.read_mesh().map_err(unreadable)?;
-        check::mesh(&states.mesh, &states.landing_step, &sizes)
-            .map_err(|fault| changed(fault.to_string()))?;
+        check::mesh(&states.mesh, &states.landing_step, &sizes).map_err(changed)?;
         Ok(states)
     }
 
@@ -97,18 +96,14 @@ impl SheetStates {
     /// A state by its number from 0; none beyond the last.
     ///
     /// # Errors
-    /// [`ReadError`] if it cannot be read, or holds what no state has.
-    pub fn state(&mut self, n: usize) -> Result<Option<SheetState<'static>>, ReadError> {
+    /// [`Error`] if it cannot be read, or holds what no state has.
+    pub fn state(&mut self, n: usize) -> Result<Option<SheetState<'static>>, Error> {
         if n >= self.sizes.states {
             return Ok(None);
         }
-        let state = self
-            .read_state(n)
-            .map_err(|source| ReadError::Unreadable { path: self.path.clone(), source })?;
-        check::state(&state, &self.sizes, None).map_err(|fault| ReadError::Changed {
-            path: self.path.clone(),
-            reason: format!(": in state {n}, {fault}"),
-        })?;
+        let state = self.read_state(n).map_err(|source| unreadable(&self.path, source))?;
+        check::state(&state, &self.sizes, None)
+            .map_err(|fault| refusal::changed(&self.path, &format!("in state {n}, {fault}")))?;
         Ok(Some(state))
     }
 
@@ -161,6 +156,17 @@ impl SheetStates {
 
     fn flags(&mut self, array: usize, state: usize) -> io::Result<Vec<bool>> {
         Ok(self.bytes(array, state)?.iter().map(|byte| *byte != 0).collect())
+    }
+}
+
+/// The file cannot be read.
+fn unreadable(path: &Path, source: io::Error) -> Error {
+    match refusal::unreadable(path, source) {
+        Error::Io { path, message, source, .. } => {
+            let help = "put `sheet.npz` beside its result.json, or run the scene again".into();
+            Error::Io { path, message, help, source }
+        }
+        other => other,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What `result.json` says of the file, so that no other one is taken for it.
 
 use super::NAME;
+use crate::store::manifest::Stamp;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Read};
 
@@ -18,22 +19,8 @@ pub struct SheetSeal {
 
 impl SheetSeal {
     /// That of all that is left to read.
-    pub(super) fn of(mut content: impl Read) -> io::Result<Self> {
-        let mut sum = crc32fast::Hasher::new();
-        let mut chunk = vec![0; 1 << 16];
-        let mut length = 0;
-        loop {
-            match content.read(&mut chunk) {
-                Ok(0) => break,
-                Ok(count) => {
-                    sum.update(&chunk[..count]);
-                    length += count as u64;
-                }
-                Err(fault) if fault.kind() == io::ErrorKind::Interrupted => {}
-                Err(fault) => return Err(fault),
-            }
-        }
-        let checksum = format!("crc32:{:08x}", sum.finalize());
-        Ok(SheetSeal { file: NAME.into(), length, checksum })
+    pub(super) fn of(content: impl Read) -> io::Result<Self> {
+        let Stamp { crc32, length } = Stamp::of(content)?;
+        Ok(SheetSeal { file: NAME.into(), length, checksum: format!("crc32:{crc32:08x}") })
     }
 }

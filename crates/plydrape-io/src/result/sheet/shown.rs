@@ -1,7 +1,7 @@
 //! What pictures of a sheet need beside its arrays: the state of each step, the yarns around each cell, normals of pads.
 
 use super::{SheetMesh, SheetState, SheetStates};
-use crate::ReadError;
+use crate::Error;
 use plydrape::geometry::distance;
 use std::collections::HashMap;
 
@@ -9,8 +9,8 @@ impl SheetStates {
     /// The steps that have a state, each with the number of its last one.
     ///
     /// # Errors
-    /// [`ReadError`] as for [`SheetStates::state`].
-    pub fn steps(&mut self) -> Result<Vec<(usize, usize)>, ReadError> {
+    /// [`Error`] as for [`SheetStates::state`].
+    pub fn steps(&mut self) -> Result<Vec<(usize, usize)>, Error> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         for n in 0..self.states() {
             let Some(state) = self.state(n)? else { continue };

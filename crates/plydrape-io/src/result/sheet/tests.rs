@@ -1,5 +1,5 @@
 use super::*;
-use crate::ReadError;
+use crate::Error;
 use crate::store::folder::{Content, Folder};
 use std::fs;
 use std::path::Path;
@@ -46,17 +46,13 @@ fn state(mesh: &SheetMesh, step: u32) -> SheetState<'static> {
 
 /// The finished file of so many states.
 fn finished(dir: &Path, mesh: &SheetMesh<'static>, states: u32) -> SheetFile {
-    let mut spool = SheetSpool::new(dir, mesh.clone()).unwrap();
-    for step in 1..=states {
-        spool.push(&state(mesh, step)).unwrap();
-    }
-    assert_eq!(spool.states(), states as usize);
     let landed: Vec<u32> = (0..mesh.places.len() as u32).map(|n| n % (states + 1)).collect();
-    spool.finish(&landed).unwrap()
+    let states: Vec<_> = (1..=states).map(|step| state(mesh, step)).collect();
+    SheetFile::new(dir, mesh, &landed, &states).unwrap()
 }
 
 /// A file with any bytes, and the seal that fits them.
-fn forged(dir: &Path, bytes: &[u8]) -> Result<SheetStates, ReadError> {
+fn forged(dir: &Path, bytes: &[u8]) -> Result<SheetStates, Error> {
     fs::write(dir.join(NAME), bytes).unwrap();
     SheetStates::open(dir, &SheetSeal::of(bytes).unwrap())
 }
@@ -99,8 +95,8 @@ fn states_say_which_pads_hold_where_some_let_go() {
         assert_eq!(found.pad_holds.as_deref(), Some(&expected[..]));
     }
     for (mesh, other) in [(&held, &released), (&released, &held)] {
-        let mut spool = SheetSpool::new(dir.path(), mesh.clone()).unwrap();
-        assert!(spool.push(&state(other, 1)).unwrap_err().to_string().contains("pad_holds"));
+        let refused = SheetFile::new(dir.path(), mesh, &[0; 12], &[state(other, 1)]).unwrap_err();
+        assert!(refused.to_string().contains("pad_holds"), "{refused}");
     }
 }
 
@@ -158,59 +154,66 @@ fn the_sheet_of_the_dome_takes_less_than_ten_megabytes() {
     assert!((arrays..arrays + 6_000).contains(&length) && length < 10_000_000, "{length}");
 }
 
-/// Spools are in one hidden folder, which goes with the spool; a finished file holds no spools.
+/// A file is in a hidden folder of its own, which goes with it; states that are refused leave nothing.
 #[test]
-fn spools_are_gone_after_success_and_after_failure() {
+fn hidden_folders_are_gone_after_success_and_after_failure() {
     let dir = tempfile::tempdir().unwrap();
     let count = || fs::read_dir(dir.path()).unwrap().count();
     let mesh = mesh(3, 3);
-    let mut spool = SheetSpool::new(dir.path(), mesh.clone()).unwrap();
-    spool.push(&state(&mesh, 1)).unwrap();
-    assert_eq!(count(), 1);
-    assert!(spool.push(&SheetState { time: f64::NAN, ..state(&mesh, 2) }).is_err());
-    drop(spool);
+    let spoilt = SheetState { time: f64::NAN, ..state(&mesh, 1) };
+    assert!(SheetFile::new(dir.path(), &mesh, &[0; 9], &[spoilt]).is_err());
     assert_eq!(count(), 0);
 
     let file = finished(dir.path(), &mesh, 2);
+    assert_eq!(count(), 1);
     assert_eq!(fs::read_dir(file.path().parent().unwrap()).unwrap().count(), 1);
     drop(file);
     assert_eq!(count(), 0);
 
     let folder = dir.path().join("out");
     let claim = Folder::claim(&folder, "simulate").unwrap();
-    let spool = SheetSpool::new(claim.stage(), mesh).unwrap();
+    let file = finished(claim.stage(), &mesh, 2);
     drop(claim);
-    assert!(!folder.exists(), "a claim that wrote nothing leaves nothing, spools included");
-    drop(spool);
+    assert!(!folder.exists(), "a claim that wrote nothing leaves nothing, states included");
+    drop(file);
+}
+
+/// A folder that is not there stands for any disk that refuses.
+#[test]
+fn a_disk_that_refuses_is_an_error_with_a_remedy() {
+    let dir = tempfile::tempdir().unwrap();
+    let mesh = mesh(3, 3);
+    let refused = SheetFile::new(&dir.path().join("no"), &mesh, &[0; 9], &[state(&mesh, 1)]);
+    let refused = refused.unwrap_err();
+    assert!(matches!(refused, Error::Io { .. }) && refused.help().contains("-o"), "{refused}");
 }
 
 #[test]
 fn states_that_no_sheet_has_are_not_written() {
     let dir = tempfile::tempdir().unwrap();
     let mesh = mesh(3, 3);
-    let mut spool = SheetSpool::new(dir.path(), mesh.clone()).unwrap();
-    spool.push(&state(&mesh, 2)).unwrap();
+    let refused = |mesh: &SheetMesh, landed: &[u32], states: &[SheetState], says: &str| {
+        let error = SheetFile::new(dir.path(), mesh, landed, states).unwrap_err();
+        assert!(matches!(&error, Error::Internal(text) if text.contains(says)), "{error}");
+    };
     let sound = || state(&mesh, 3);
     for (spoilt, array) in [
-        (SheetState { positions: vec![[0.0; 3]; 8].into(), ..sound() }, "positions"),
-        (SheetState { shear: vec![f64::INFINITY; 4].into(), ..sound() }, "shear"),
-        (SheetState { height: vec![f64::INFINITY; 9].into(), ..sound() }, "height"),
-        (SheetState { tension: vec![f64::NAN; 12].into(), ..sound() }, "tension"),
-        (SheetState { pad_rotation: vec![[0.0; 4]; 4].into(), ..sound() }, "pad_rotation"),
-        (SheetState { step: 1, ..sound() }, "step"),
-        (SheetState { time: 0.1, ..sound() }, "time"),
+        (SheetState { positions: vec![[0.0; 3]; 8].into(), ..sound() }, "`positions"),
+        (SheetState { shear: vec![f64::INFINITY; 4].into(), ..sound() }, "`shear"),
+        (SheetState { height: vec![f64::INFINITY; 9].into(), ..sound() }, "`height"),
+        (SheetState { tension: vec![f64::NAN; 12].into(), ..sound() }, "`tension"),
+        (SheetState { pad_rotation: vec![[0.0; 4]; 4].into(), ..sound() }, "`pad_rotation"),
+        (SheetState { step: 1, ..sound() }, "`step"),
+        (SheetState { time: 0.1, ..sound() }, "`time"),
     ] {
-        let refused = spool.push(&spoilt).unwrap_err().to_string();
-        assert!(refused.contains(&format!("`{array}")), "{refused}");
+        refused(&mesh, &[0; 9], &[state(&mesh, 2), spoilt], array);
     }
-    spool.push(&SheetState { step: 2, time: 0.2, ..sound() }).unwrap();
-    assert_eq!(spool.states(), 2);
-    assert!(matches!(spool.finish(&[0; 8]), Err(SheetError::Length { array: "landing_step", .. })));
-
-    let empty = SheetSpool::new(dir.path(), mesh.clone()).unwrap();
-    assert!(matches!(empty.finish(&[0; 9]), Err(SheetError::Empty)));
-    let far = SheetMesh { segments: vec![[0, 9]; 12].into(), ..mesh };
-    assert!(matches!(SheetSpool::new(dir.path(), far), Err(SheetError::Value { .. })));
+    let twice = [state(&mesh, 2), SheetState { step: 2, time: 0.2, ..sound() }];
+    SheetFile::new(dir.path(), &mesh, &[0; 9], &twice).unwrap();
+    refused(&mesh, &[0; 8], &twice, "`landing_step` of the sheet has 8 numbers, not 9");
+    refused(&mesh, &[0; 9], &[], "the sheet has no state");
+    let far = SheetMesh { segments: vec![[0, 9]; 12].into(), ..mesh.clone() };
+    refused(&far, &[0; 9], &twice, "there is no such node");
 }
 
 /// The result's check sum tells a file that was cut, replaced, or changed in one bit.
@@ -227,15 +230,15 @@ fn a_file_that_is_not_the_results_own_is_refused() {
     for n in (0..bytes.len()).step_by(97) {
         let mut edited = bytes.clone();
         edited[n] ^= 1;
-        assert!(matches!(open(&edited), Err(ReadError::Changed { .. })), "{n}");
+        assert!(matches!(open(&edited), Err(Error::File { .. })), "{n}");
     }
-    assert!(matches!(open(&bytes[..bytes.len() - 1]), Err(ReadError::Changed { .. })));
-    assert!(matches!(open(&[&bytes[..], b"\n"].concat()), Err(ReadError::Changed { .. })));
+    assert!(matches!(open(&bytes[..bytes.len() - 1]), Err(Error::File { .. })));
+    assert!(matches!(open(&[&bytes[..], b"\n"].concat()), Err(Error::File { .. })));
     fs::remove_file(dir.path().join(NAME)).unwrap();
     let missing = SheetStates::open(dir.path(), file.seal());
-    assert!(matches!(missing, Err(ReadError::Unreadable { .. })));
+    assert!(matches!(missing, Err(Error::Io { .. })));
     let outside = SheetSeal { file: "../sheet.npz".into(), ..file.seal().clone() };
-    assert!(matches!(SheetStates::open(dir.path(), &outside), Err(ReadError::Changed { .. })));
+    assert!(matches!(SheetStates::open(dir.path(), &outside), Err(Error::File { .. })));
 }
 
 /// A seal that was made anew does not help: whatever the bytes are, they are read as a sheet or refused.
@@ -243,7 +246,7 @@ fn a_file_that_is_not_the_results_own_is_refused() {
 fn a_forged_file_is_refused_or_read_as_a_sheet() {
     let dir = tempfile::tempdir().unwrap();
     let bytes = fs::read(finished(dir.path(), &mesh(3, 3), 2).path()).unwrap();
-    let read = |bytes: &[u8]| -> Result<(), ReadError> {
+    let read = |bytes: &[u8]| -> Result<(), Error> {
         let mut states = forged(dir.path(), bytes)?;
         (0..states.states()).try_for_each(|n| states.state(n).map(drop))
     };

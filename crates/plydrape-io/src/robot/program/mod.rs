@@ -10,17 +10,15 @@
 
 mod blocks;
 mod context;
-mod error;
 pub(crate) mod pose;
 pub mod sampling;
 pub mod template;
 pub mod wide;
 
-pub use error::ProgramError;
 pub use sampling::Tolerance;
 pub use template::{Robot, Template};
 
-use crate::OutputError;
+use crate::Error;
 use crate::result::{ResultFile, Turned};
 use crate::store::shown;
 use crate::text::table;
@@ -105,8 +103,8 @@ impl Program {
     /// The program of a result: of a plan sampled at its rate, of a simulated drape in its steps.
     ///
     /// # Errors
-    /// [`OutputError`] if plan and steps do not belong together, or the times do not ascend.
-    pub fn of(result: &ResultFile) -> Result<Self, OutputError> {
+    /// [`Error`] if plan and steps do not belong together, or the times do not ascend.
+    pub fn of(result: &ResultFile) -> Result<Self, Error> {
         let ply = &result.scene.ply;
         let rate = result.plan.as_ref().map(|plan| plan.rate);
         let (times, mut pads) = pads(result)?;
@@ -165,15 +163,23 @@ impl Program {
     /// Refuses a program whose lists differ in length, whose times do not ascend from 0, or whose numbers are not finite.
     ///
     /// # Errors
-    /// [`ProgramError`] says what is wrong.
-    pub fn check(&self) -> Result<(), ProgramError> {
+    /// [`Error`] says what is wrong.
+    pub fn check(&self) -> Result<(), Error> {
         let count = self.times.len();
         if count == 0 || self.times[0] != 0.0 {
-            return Err(ProgramError::Start);
+            return Err(Error::not_possible(
+                "the motion has no point at 0 s: let it begin there",
+                "",
+            ));
         }
         for (n, pair) in self.times.windows(2).enumerate() {
             if !(pair[0] < pair[1] && pair[1].is_finite()) {
-                return Err(ProgramError::Times { point: n + 2, time: pair[1] });
+                let message = format!(
+                    "point {} at {} s is not after the one before: leave one of them out of the motion",
+                    n + 2,
+                    pair[1]
+                );
+                return Err(Error::not_possible(message, ""));
             }
         }
         let near = |pose: &Pose| {
@@ -193,7 +199,10 @@ impl Program {
                     .find(|pad| !(poses(&pad.poses) && tilts(pad)))
                     .map(|pad| &*pad.name)
             });
-        wrong.map_or(Ok(()), |what| Err(ProgramError::Values { what: what.into() }))
+        wrong.map_or(Ok(()), |what| {
+            let message = format!("{what} has not one finite value for each time of the program");
+            Err(Error::not_possible(message, ""))
+        })
     }
 
     /// The grippers in their order, by their pads.
@@ -203,7 +212,7 @@ impl Program {
 }
 
 /// The times of a motion (s), and its pads.
-fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), OutputError> {
+fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), Error> {
     let ply = &result.scene.ply;
     let mut pads: Vec<Pad> = (0..ply.grippers())
         .map(|n| Pad { name: gripper_name(ply.id(n)), poses: Vec::new(), tilts: Vec::new() })

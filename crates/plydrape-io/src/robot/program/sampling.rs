@@ -9,8 +9,9 @@
 //!
 //! The largest of both are measured over all samples and stand in the heads of the files.
 
+use super::Program;
 use super::pose::{angle, interpolated};
-use super::{Program, ProgramError};
+use crate::Error;
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::distance;
 use plydrape::ply::gripper_name;
@@ -37,11 +38,12 @@ impl Tolerance {
     /// Refuses what no sampling could keep.
     ///
     /// # Errors
-    /// [`ProgramError::Tolerance`].
-    pub fn check(&self) -> Result<(), ProgramError> {
+    /// [`Error::NotPossible`] if one of them is no number above 0.
+    pub fn check(&self) -> Result<(), Error> {
         for (what, value) in [("position error", self.position), ("angle error", self.angle)] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(ProgramError::Tolerance { what, value });
+                let message = format!("a {what} of {value} cannot be kept: give a number above 0");
+                return Err(Error::not_possible(message, ""));
             }
         }
         Ok(())

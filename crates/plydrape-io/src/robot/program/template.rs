@@ -6,8 +6,7 @@
 use super::blocks::Blocks;
 use super::context::contexts;
 use super::sampling::Track;
-use super::{Program, ProgramError, Tolerance, wide};
-use crate::OutputError;
+use super::{Program, Tolerance, wide};
 use crate::store::folder::Files;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
@@ -143,25 +142,33 @@ impl Robot {
 /// the axes, where the controller cannot move all of them. Same program, same bytes.
 ///
 /// # Errors
-/// [`ProgramError`] if there is no flange, a tolerance is none, there are more signals than outputs, or a template cannot be
+/// [`crate::Error::NotPossible`] if there is no flange, a tolerance is none, there are more signals than outputs, or a template cannot be
 /// used, or the arm would stop on the way without the axes of another controller.
 pub fn files(
     program: &Program,
     robot: Robot,
     templates: &[Template],
     tolerance: &Tolerance,
-) -> Result<Files, OutputError> {
+) -> Result<Files, crate::Error> {
     program.check()?;
     tolerance.check()?;
     if program.flange.is_none() {
-        return Err(ProgramError::NoFlange { format: robot.name() }.into());
+        let message = format!(
+            "a program in {} is for one arm that carries the array, but the grippers of this scene are free: say in [tool] how the array is carried, or write the motion of each gripper with --to ros2 or --to csv",
+            robot.name()
+        );
+        return Err(crate::Error::not_possible(message, ""));
     }
     let used = used(robot, templates);
     let limits = robot.limits();
     let separate = program.axes.len() > limits.axes;
     let needed = program.pads.len() + usize::from(separate);
     if let Some(most) = limits.outputs.filter(|most| needed > *most && templates.is_empty()) {
-        return Err(ProgramError::Outputs { format: robot.name(), most, needed }.into());
+        let format = robot.name();
+        let message = format!(
+            "{format} has {most} digital outputs of its own, and {needed} are needed for the vacuum of the array: switch it by other means in a copy of the template, with --template (plydrape template {format} prints it)"
+        );
+        return Err(crate::Error::not_possible(message, ""));
     }
 
     let track = Track::new(program, !separate);
@@ -169,11 +176,14 @@ pub fn files(
     let parts = blocks.parts(limits.points).len();
     if separate && templates.is_empty() && (parts > 1 || blocks.stops_on_the_way()) {
         let why = match parts {
-            1 => "where the vacuum switches".into(),
+            1 => "where the vacuum switches".to_owned(),
             _ => format!("between the {parts} parts of its program"),
         };
         let (format, axes) = (robot.name(), program.axes.len());
-        return Err(ProgramError::ApartOnTheWay { format, why, axes }.into());
+        let message = format!(
+            "the arm stops on the way, {why}, and the {axes} axes of the array, which another controller moves, would go on without it: let all pads let go at the end (order = \"end\" in [release]), let one controller move arm and axes (--to ros2), or hold the two together in a copy of the template, with --template (plydrape template {format} prints it)"
+        );
+        return Err(crate::Error::not_possible(message, ""));
     }
     let environment = environment();
     let mut files = Vec::new();
@@ -217,10 +227,11 @@ fn used(robot: Robot, given: &[Template]) -> Vec<(String, Template)> {
 }
 
 /// Why a template was refused, with its line.
-fn refused(name: &str, error: &Error) -> ProgramError {
+fn refused(name: &str, error: &Error) -> crate::Error {
     let line = error.line().map(|line| format!("line {line}: ")).unwrap_or_default();
     let what = error.detail().map_or_else(|| error.kind().to_string(), str::to_owned);
-    ProgramError::Template { name: name.into(), reason: format!("{line}{what}") }
+    let message = format!("the template {name} cannot be used: {line}{what}");
+    crate::Error::not_possible(message, "")
 }
 
 fn environment() -> Environment<'static> {

@@ -13,8 +13,9 @@
 use super::context::rejected;
 use super::sampling::nearest;
 use super::{Event, EventKind, Program};
+use crate::Error;
 use crate::write::csv::{number, text as text_of};
-use ::csv::{Error, Writer};
+use ::csv::Writer;
 use plydrape::geometry::Pose;
 use plydrape::ply::gripper_name;
 

@@ -2,9 +2,10 @@
 //!
 //! Times in it count from the start of the drape, so that the same result gives the same bytes.
 
-use super::{Ros2Error, cdr, schema::Schema};
+use super::{cdr, schema::Schema};
+use crate::Error;
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{WriteOptions, Writer};
+use mcap::{McapError, WriteOptions, Writer};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -26,11 +27,16 @@ struct Channel {
     messages: u32,
 }
 
+/// A bag that could not be made.
+fn unmade(fault: McapError) -> Error {
+    Error::Internal(format!("cannot make the bag: {fault}"))
+}
+
 impl Bag {
     /// An empty bag.
-    pub fn new() -> Result<Self, Ros2Error> {
+    pub fn new() -> Result<Self, Error> {
         let options = WriteOptions::new().profile("ros2").library(crate::PROGRAM).compression(None);
-        let writer = options.create(Cursor::new(Vec::new()))?;
+        let writer = options.create(Cursor::new(Vec::new())).map_err(unmade)?;
         Ok(Bag { writer, channels: BTreeMap::new(), messages: Vec::new() })
     }
 
@@ -40,10 +46,13 @@ impl Bag {
         topic: &'static str,
         schema: Schema,
         durability: u8,
-    ) -> Result<(), Ros2Error> {
-        let known = self.writer.add_schema(schema.name, "ros2msg", schema.text.as_bytes())?;
+    ) -> Result<(), Error> {
+        let known = self
+            .writer
+            .add_schema(schema.name, "ros2msg", schema.text.as_bytes())
+            .map_err(unmade)?;
         let offered = [("offered_qos_profiles".to_owned(), quality(durability))];
-        let id = self.writer.add_channel(known, topic, "cdr", &offered.into())?;
+        let id = self.writer.add_channel(known, topic, "cdr", &offered.into()).map_err(unmade)?;
         self.channels.insert(topic, Channel { id, messages: 0 });
         Ok(())
     }
@@ -54,7 +63,7 @@ impl Bag {
         topic: &'static str,
         schema: Schema,
         message: &T,
-    ) -> Result<(), Ros2Error> {
+    ) -> Result<(), Error> {
         self.channel(topic, schema, TRANSIENT_LOCAL)?;
         self.write(topic, 0, message)
     }
@@ -65,8 +74,10 @@ impl Bag {
         topic: &'static str,
         time: u64,
         message: &T,
-    ) -> Result<(), Ros2Error> {
-        let channel = self.channels.get_mut(topic).ok_or(Ros2Error::Topic(topic))?;
+    ) -> Result<(), Error> {
+        let channel = self.channels.get_mut(topic);
+        let channel =
+            channel.ok_or_else(|| Error::Internal(format!("the bag has no topic {topic}")))?;
         let header = MessageHeader {
             channel_id: channel.id,
             sequence: channel.messages,
@@ -83,18 +94,18 @@ impl Bag {
         &mut self,
         name: &str,
         values: [(&str, String); N],
-    ) -> Result<(), Ros2Error> {
+    ) -> Result<(), Error> {
         let metadata = values.map(|(name, value)| (name.to_owned(), value)).into();
-        Ok(self.writer.write_metadata(&Metadata { name: name.to_owned(), metadata })?)
+        self.writer.write_metadata(&Metadata { name: name.to_owned(), metadata }).map_err(unmade)
     }
 
     /// The whole file.
-    pub fn finish(mut self) -> Result<Vec<u8>, Ros2Error> {
+    pub fn finish(mut self) -> Result<Vec<u8>, Error> {
         self.messages.sort_by_key(|(header, _)| header.log_time);
         for (header, bytes) in &self.messages {
-            self.writer.write_to_known_channel(header, bytes)?;
+            self.writer.write_to_known_channel(header, bytes).map_err(unmade)?;
         }
-        self.writer.finish()?;
+        self.writer.finish().map_err(unmade)?;
         Ok(self.writer.into_inner().into_inner())
     }
 }

@@ -2,16 +2,18 @@
 //!
 //! The four bytes before it name that encoding (RTPS 2.5, 10.2.1); alignment is counted after them.
 
-use super::Ros2Error;
+use crate::Error;
 use serde::Serialize;
 
 /// `CDR_LE`, no options.
 const ENCAPSULATION: [u8; 4] = [0, 1, 0, 0];
 
 /// The bytes of a message.
-pub(super) fn bytes<T: Serialize>(message: &T) -> Result<Vec<u8>, Ros2Error> {
+pub(super) fn bytes<T: Serialize>(message: &T) -> Result<Vec<u8>, Error> {
     let mut bytes = ENCAPSULATION.to_vec();
-    bytes.extend(cdr_encoding::to_vec::<T, byteorder::LittleEndian>(message)?);
+    let encoded = cdr_encoding::to_vec::<T, byteorder::LittleEndian>(message)
+        .map_err(|fault| Error::Internal(format!("cannot encode a ROS 2 message: {fault}")))?;
+    bytes.extend(encoded);
     Ok(bytes)
 }
 

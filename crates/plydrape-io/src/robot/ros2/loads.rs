@@ -5,15 +5,16 @@
 
 use super::FRAME;
 use super::message::{Header, JointTrajectory, JointTrajectoryPoint};
-use super::{Ros2Error, time};
+use super::time;
+use crate::Error;
 use crate::robot::program::Program;
 use crate::write::loads::{Load, Loads, Stiffness};
 
 /// The loads at the times of a program, as far as they are known.
 ///
 /// # Errors
-/// [`Ros2Error`] if a time is none that ROS 2 can say.
-pub(super) fn loads(program: &Program, loads: &Loads) -> Result<JointTrajectory, Ros2Error> {
+/// [`Error`] if a time is none that ROS 2 can say.
+pub(super) fn loads(program: &Program, loads: &Loads) -> Result<JointTrajectory, Error> {
     let clock = time::clock(&program.times)?;
     let point = |(t, at): (&f64, &u64)| {
         let all = loads.at(*t)?;

@@ -26,7 +26,6 @@
 
 mod bag;
 mod cdr;
-mod error;
 mod loads;
 mod markers;
 mod message;
@@ -36,9 +35,7 @@ mod time;
 mod trajectory;
 mod vacuum;
 
-pub use error::Ros2Error;
-
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::{SheetKept, SheetStates};
 use crate::robot::program::{Program, Tolerance, wide};
@@ -78,8 +75,8 @@ pub const PLY: &str = "/plydrape/ply";
 /// The files of a result: names and contents. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
-pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, OutputError> {
+/// [`Error`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
+pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Error> {
     let program = Program::of(result)?;
     let (mut bag, mut files) = motion(&program, tolerance)?;
 
@@ -121,14 +118,14 @@ pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Output
 ///
 /// # Errors
 /// As [`files`].
-pub fn program_files(program: &Program, tolerance: &Tolerance) -> Result<Files, OutputError> {
+pub fn program_files(program: &Program, tolerance: &Tolerance) -> Result<Files, Error> {
     let (bag, mut files) = motion(program, tolerance)?;
     files.push(("trajectory.mcap".into(), bag.finish()?));
     Ok(files)
 }
 
 /// The bag of a program under way, and its other files.
-fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), OutputError> {
+fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), Error> {
     program.check()?;
     tolerance.check()?;
     let mut bag = Bag::new()?;
@@ -193,13 +190,14 @@ fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), Outp
 ///
 /// Readers of YAML 1.1, as Python's, take a number with an exponent for text unless it has a point and a sign:
 /// `1.0e-07`. Python knows `y` as a name, which others of that version do not, so it stands unquoted.
-fn yaml<T: serde::Serialize>(message: &T) -> Result<String, Ros2Error> {
+fn yaml<T: serde::Serialize>(message: &T) -> Result<String, Error> {
     let options = serde_saphyr::ser_options! {
         yaml_12: true,
         no_lang_directive: true,
         compact_list_indent: true,
     };
-    Ok(serde_saphyr::to_string_with_options(message, options)?)
+    serde_saphyr::to_string_with_options(message, options)
+        .map_err(|fault| Error::Internal(format!("cannot write a ROS 2 message as YAML: {fault}")))
 }
 
 #[cfg(test)]

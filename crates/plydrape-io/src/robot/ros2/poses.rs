@@ -4,7 +4,8 @@
 //! written between which that is near enough, see [`crate::robot::program::sampling`].
 
 use super::message::{Header, Path, Pose, PoseStamped, TfMessage, Transform, TransformStamped};
-use super::{FLANGE, FRAME, Ros2Error, TOOL, WORLD, time};
+use super::{FLANGE, FRAME, TOOL, WORLD, time};
+use crate::Error;
 use crate::robot::program::pose::{angle, interpolated, quaternion};
 use crate::robot::program::sampling::{Deviation, Sampling, thin};
 use crate::robot::program::{Program, Tolerance};
@@ -33,20 +34,20 @@ pub(super) fn sampling(program: &Program, tolerance: &Tolerance) -> Sampling {
 /// The flange at some samples, each with its time.
 ///
 /// # Errors
-/// [`Ros2Error`] if a time is none that ROS 2 can say.
-pub(super) fn flange(program: &Program, kept: &[usize]) -> Result<Option<Path>, Ros2Error> {
+/// [`Error`] if a time is none that ROS 2 can say.
+pub(super) fn flange(program: &Program, kept: &[usize]) -> Result<Option<Path>, Error> {
     let Some(flange) = &program.flange else { return Ok(None) };
     let turns = mold::Pose::quaternions(kept.iter().map(|k| &flange[*k]));
     let pose = |(k, turn): (&usize, [f64; 4])| {
         let pose = Pose { position: flange[*k].position.into(), orientation: turn.into() };
         Ok(PoseStamped { header: header(*k, program.times[*k], FRAME)?, pose })
     };
-    let poses = kept.iter().zip(turns).map(pose).collect::<Result<_, Ros2Error>>()?;
+    let poses = kept.iter().zip(turns).map(pose).collect::<Result<_, Error>>()?;
     Ok(Some(Path { header: header(0, 0.0, FRAME)?, poses }))
 }
 
 /// The frames that stand still: the mold in the world, and the tool at the flange.
-pub(super) fn fixed(program: &Program) -> Result<TfMessage, Ros2Error> {
+pub(super) fn fixed(program: &Program) -> Result<TfMessage, Error> {
     let mut transforms = vec![transform(0, 0.0, [WORLD, FRAME], &program.frames.mold)?];
     if program.flange.is_some() {
         transforms.push(transform(0, 0.0, [FLANGE, TOOL], &program.frames.tool)?);
@@ -55,7 +56,7 @@ pub(super) fn fixed(program: &Program) -> Result<TfMessage, Ros2Error> {
 }
 
 /// The frames that move, at a sample: the flange and the pads in the frame of the mold.
-pub(super) fn moving(program: &Program, k: usize) -> Result<TfMessage, Ros2Error> {
+pub(super) fn moving(program: &Program, k: usize) -> Result<TfMessage, Error> {
     let flange = program.flange.iter().map(|flange| (FLANGE, &flange[k]));
     let pads = program.pads.iter().map(|pad| (&*pad.name, &pad.poses[k]));
     let frames = flange.chain(pads);
@@ -68,7 +69,7 @@ fn transform(
     seconds: f64,
     [parent, child]: [&str; 2],
     pose: &mold::Pose,
-) -> Result<TransformStamped, Ros2Error> {
+) -> Result<TransformStamped, Error> {
     Ok(TransformStamped {
         header: header(k, seconds, parent)?,
         child_frame_id: child.into(),
@@ -79,6 +80,6 @@ fn transform(
     })
 }
 
-fn header(k: usize, seconds: f64, frame: &str) -> Result<Header, Ros2Error> {
+fn header(k: usize, seconds: f64, frame: &str) -> Result<Header, Error> {
     Ok(Header { stamp: time::stamp(time::nanoseconds(k + 1, seconds)?), frame_id: frame.into() })
 }

@@ -1,18 +1,21 @@
 //! Times as ROS 2 says them: whole nanoseconds.
 
-use super::Ros2Error;
 use super::message::{Duration, Time};
+use crate::Error;
 
 const NANO: u64 = 1_000_000_000;
 
 /// The nanosecond nearest to a time (s) of a point.
 ///
 /// # Errors
-/// [`Ros2Error::Time`] if it is before 0 or beyond what a message can say.
-pub(super) fn nanoseconds(point: usize, time: f64) -> Result<u64, Ros2Error> {
+/// [`Error::NotPossible`] if it is before 0 or beyond what a message can say.
+pub(super) fn nanoseconds(point: usize, time: f64) -> Result<u64, Error> {
     let whole = (time * NANO as f64).round();
     if !(0.0..i32::MAX as f64 * NANO as f64).contains(&whole) {
-        return Err(Ros2Error::Time { point, time });
+        let message = format!(
+            "point {point} is at {time} s, but ROS 2 takes times from 0 to 2147483647 s: let the motion begin at 0"
+        );
+        return Err(Error::not_possible(message, ""));
     }
     Ok(whole as u64)
 }
@@ -32,13 +35,17 @@ pub(super) fn stamp(nanoseconds: u64) -> Time {
 /// Times (s) in whole nanoseconds, each after the one before.
 ///
 /// # Errors
-/// [`Ros2Error`] if one is not.
-pub(super) fn clock(times: &[f64]) -> Result<Vec<u64>, Ros2Error> {
+/// [`Error`] if one is not.
+pub(super) fn clock(times: &[f64]) -> Result<Vec<u64>, Error> {
     let mut clock: Vec<u64> = Vec::with_capacity(times.len());
     for (k, time) in times.iter().enumerate() {
         let now = nanoseconds(k + 1, *time)?;
         if clock.last().is_some_and(|before| now <= *before) {
-            return Err(Ros2Error::Order { point: k + 1, time: *time });
+            let message = format!(
+                "point {} at {time} s is less than a nanosecond after the one before, and ROS 2 would take both for one: leave one of them out of the motion",
+                k + 1
+            );
+            return Err(Error::not_possible(message, ""));
         }
         clock.push(now);
     }

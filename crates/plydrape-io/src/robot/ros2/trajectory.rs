@@ -4,14 +4,15 @@
 //! ends, where it rests. A simulated drape knows only its steps: velocities are left empty, as the message allows.
 
 use super::message::{Header, JointTrajectory, JointTrajectoryPoint};
-use super::{FRAME, Ros2Error, time};
+use super::{FRAME, time};
+use crate::Error;
 use crate::robot::program::Program;
 
 /// The trajectory of the axes of a program.
 ///
 /// # Errors
-/// [`Ros2Error`] if a time is none that ROS 2 can say.
-pub(super) fn trajectory(program: &Program) -> Result<JointTrajectory, Ros2Error> {
+/// [`Error`] if a time is none that ROS 2 can say.
+pub(super) fn trajectory(program: &Program) -> Result<JointTrajectory, Error> {
     let clock = time::clock(&program.times)?;
     let last = clock.len() - 1;
     let point = |k: usize| {

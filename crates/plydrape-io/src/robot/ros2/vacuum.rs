@@ -2,17 +2,18 @@
 //! `gpio_command_controller` of `ros2_control` follows. A group is a gripper, its one interface `vacuum` is 1 or 0.
 
 use super::message::{DynamicInterfaceGroupValues, Header, InterfaceValue};
-use super::{FRAME, Ros2Error, time};
+use super::{FRAME, time};
+use crate::Error;
 use crate::robot::program::{EventKind, Program};
 use plydrape::ply::gripper_name;
 
 /// The commands of a program, each with its time (ns).
 ///
 /// # Errors
-/// [`Ros2Error`] if a time is none that ROS 2 can say.
+/// [`Error`] if a time is none that ROS 2 can say.
 pub(super) fn commands(
     program: &Program,
-) -> Result<Vec<(u64, DynamicInterfaceGroupValues)>, Ros2Error> {
+) -> Result<Vec<(u64, DynamicInterfaceGroupValues)>, Error> {
     let switched = program.events.iter().filter(|event| event.kind != EventKind::Press);
     let command = |(n, event): (usize, &crate::robot::program::Event)| {
         let at = time::nanoseconds(n + 1, event.time)?;

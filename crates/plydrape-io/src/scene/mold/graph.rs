@@ -2,12 +2,13 @@
 
 use super::Keys;
 use super::heights::heights;
-use crate::read::formula::{self, FormulaError};
-use crate::scene::error::{Document, SceneError};
+use crate::Error;
+use crate::read::formula;
 use crate::scene::heading::coordinates;
 use crate::scene::layup::extent;
 use crate::scene::located::Located;
 use crate::scene::quantity::{Length, Quantity};
+use crate::scene::source::Document;
 use crate::scene::usual;
 use plydrape::mold::{Graph, Mold, Saddle, Surface};
 use plydrape::ply::Ply;
@@ -15,7 +16,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Checks the keys of a saddle.
-pub(super) fn saddle(keys: &Keys) -> Result<Mold, SceneError> {
+pub(super) fn saddle(keys: &Keys) -> Result<Mold, Error> {
     let radii = keys.required(&keys.table.radii, "radii", "[\"800 mm\", \"500 mm\"]")?;
     let [along, across] = &radii.value.0;
     let radius = |side: &Quantity<Length>| side.size(keys.document, &usual::RADIUS);
@@ -26,10 +27,10 @@ pub(super) fn saddle(keys: &Keys) -> Result<Mold, SceneError> {
 }
 
 /// Checks the keys of a formula, which must be defined wherever the mold is.
-pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, SceneError> {
+pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, Error> {
     let document = keys.document;
     let text = keys.required(&keys.table.z, "z", "\"0.1*x^2 - y^2\"")?;
-    let z = formula::read(&text.value).map_err(|error| in_place(text, document, &error))?;
+    let z = formula::read(&text.value).map_err(|error| in_place(text, document, error))?;
     let domain = range(keys)?;
     let reach = (0..2).map(|n| extent(ply)[n]).fold(0.0, f64::hypot);
     let looked_at = domain.unwrap_or([[-reach, reach]; 2]);
@@ -57,7 +58,7 @@ pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, SceneError> {
 }
 
 /// Checks the keys of a height grid, and reads its file.
-pub(super) fn height_grid(keys: &Keys, base: &Path) -> Result<Mold, SceneError> {
+pub(super) fn height_grid(keys: &Keys, base: &Path) -> Result<Mold, Error> {
     let file =
         keys.required(&keys.table.file, "file", "\"heights.csv\" with the columns x, y, z")?;
     let grid = heights(file, keys.document, base)?;
@@ -67,7 +68,7 @@ pub(super) fn height_grid(keys: &Keys, base: &Path) -> Result<Mold, SceneError> 
 }
 
 /// The ranges of x and y, if they are given (m).
-fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, SceneError> {
+fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, Error> {
     let (x, y) = match (&keys.table.x, &keys.table.y) {
         (Some(x), Some(y)) => (x, y),
         (None, None) => return Ok(None),
@@ -96,8 +97,14 @@ fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, SceneError> {
 }
 
 /// A fault of a formula at its place in the scene.
-fn in_place(text: &Located<String>, document: &Document, error: &FormulaError) -> SceneError {
-    document.error(inside(text, document, &error.at), error.to_string(), error.fault.help())
+fn in_place(text: &Located<String>, document: &Document, error: Error) -> Error {
+    match error {
+        Error::Scene(fault) => {
+            let at = fault.span.unwrap_or_default();
+            document.error(inside(text, document, &at), fault.message, fault.help)
+        }
+        other => other,
+    }
 }
 
 /// The place of some bytes of a text within its quotes; the whole text where it is written with escapes.

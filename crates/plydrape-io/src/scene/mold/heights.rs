@@ -1,9 +1,10 @@
 //! Heights on a grid from a CSV file, one node a row in any order.
 
+use crate::Error;
 use crate::scene::csv::Csv;
-use crate::scene::error::{Document, SceneError};
 use crate::scene::located::Located;
 use crate::scene::places::{X, Y, Z, csv_file, point};
+use crate::scene::source::Document;
 use plydrape::mold::{HeightGrid, HeightGridError};
 use std::ops::Range;
 use std::path::Path;
@@ -16,7 +17,7 @@ pub(super) fn heights(
     file: &Located<String>,
     scene: &Document,
     base: &Path,
-) -> Result<HeightGrid, SceneError> {
+) -> Result<HeightGrid, Error> {
     let document = csv_file(&file.value, &file.span, scene, base)?;
     let columns = [X, Y, Z];
     let csv = Csv::new(&document, &columns)?;
@@ -65,7 +66,7 @@ fn in_order(
     spans: &[Range<usize>],
     document: &Document,
     header: &Range<usize>,
-) -> Result<Vec<f64>, SceneError> {
+) -> Result<Vec<f64>, Error> {
     let nearest = |axis: &[f64], place: f64| {
         let k = axis.partition_point(|node| *node < place).min(axis.len() - 1);
         if k > 0 && place - axis[k - 1] < axis[k] - place { k - 1 } else { k }

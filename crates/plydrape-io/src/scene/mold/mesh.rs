@@ -1,11 +1,12 @@
 //! Meshes from STL, OBJ and Abaqus files.
 
 use super::Keys;
-use crate::read::mesh::{self, MeshFileError};
-use crate::scene::error::{Document, SceneError};
+use crate::Error;
+use crate::read::mesh;
 use crate::scene::layup::round;
 use crate::scene::located::Located;
 use crate::scene::read;
+use crate::scene::source::Document;
 use crate::scene::units::{self, Dimension};
 use plydrape::mold::{Mesh, MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
@@ -13,7 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Checks the keys of a mesh, and reads its file.
-pub(super) fn mesh(keys: &Keys, ply: &Ply, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
+pub(super) fn mesh(keys: &Keys, ply: &Ply, base: &Path) -> Result<(Mold, MeshReport), Error> {
     let file =
         keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let unit = keys.table.unit.as_ref();
@@ -36,7 +37,7 @@ fn of_the_size_of_plies(
     unit: &Located<String>,
     ply: &Ply,
     document: &Document,
-) -> Result<(), SceneError> {
+) -> Result<(), Error> {
     let ([low, high], [from, to]) = (mesh.bounds(), ply.bounds(0.0));
     let sides = [0, 1, 2].map(|n| high[n] - low[n]);
     let of_ply = [0, 1].map(|n| to[n] - from[n]);
@@ -78,14 +79,10 @@ pub(in crate::scene) fn mesh_file(
     pose: &Pose,
     document: &Document,
     base: &Path,
-) -> Result<(Mesh, MeshReport), SceneError> {
-    let at_file =
-        |error: MeshFileError| document.error(file.span.clone(), error.to_string(), error.remedy());
-    let path = base.join(&file.value);
-    let bytes = read::bytes(&path, &file.value, mesh::LARGEST).map_err(|error| {
-        let help = read::beside("scene", &error.help);
-        document.error(file.span.clone(), error.message, help).of_file(error.unread)
-    })?;
+) -> Result<(Mesh, MeshReport), Error> {
+    let at_file = |error: Error| document.error(file.span.clone(), error.to_string(), error.help());
+    let bytes = read::bytes(&base.join(&file.value), &file.value, mesh::LARGEST)
+        .map_err(|error| document.error_of_named(&file.span, error, "scene"))?;
     let parse = |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose);
     let Some(unit) = unit else {
         // how big it would be, in the unit of the file

@@ -6,10 +6,11 @@ mod mesh;
 mod plane;
 mod round;
 
-use super::error::{Document, SceneError};
 use super::file::{MoldKind, MoldTable};
 use super::heading::pose;
 use super::located::Located;
+use super::source::Document;
+use crate::Error;
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::ops::Range;
@@ -33,7 +34,7 @@ pub(super) fn mold(
     ply: &Ply,
     document: &Document,
     base: &Path,
-) -> Result<(Mold, Option<MeshReport>), SceneError> {
+) -> Result<(Mold, Option<MeshReport>), Error> {
     let keys = Keys { table, document };
     keys.check_belonging()?;
     let mold = match table.kind.value {
@@ -80,7 +81,7 @@ impl Keys<'_> {
     }
 
     /// Refuses a key that belongs to molds of another kind.
-    fn check_belonging(&self) -> Result<(), SceneError> {
+    fn check_belonging(&self) -> Result<(), Error> {
         let kind = self.table.kind.value;
         let misplaced = self.places().into_iter().find_map(|(key, place)| {
             let place = place.filter(|_| !kind.keys().contains(&key))?;
@@ -113,7 +114,7 @@ impl Keys<'_> {
         key: &'k Option<T>,
         name: &str,
         example: &str,
-    ) -> Result<&'k T, SceneError> {
+    ) -> Result<&'k T, Error> {
         key.as_ref().ok_or_else(|| {
             let kind = &self.table.kind;
             self.document.error(
@@ -125,13 +126,13 @@ impl Keys<'_> {
     }
 
     /// Where the mold stands and how it is turned.
-    fn pose(&self) -> Result<Pose, SceneError> {
+    fn pose(&self) -> Result<Pose, Error> {
         let MoldTable { position, rotation, .. } = self.table;
         pose(position.as_ref(), rotation.as_ref(), self.document)
     }
 
     /// A pose that leaves the mold's z axis pointing upwards.
-    fn upward_pose(&self) -> Result<Pose, SceneError> {
+    fn upward_pose(&self) -> Result<Pose, Error> {
         let pose = self.pose()?;
         match &self.table.rotation {
             Some(rotation) if pose.axes[2][2] < UPWARD => Err(self.document.error(

@@ -1,14 +1,15 @@
 //! A flat mold: by a point and a normal, or by its tilt.
 
 use super::UPWARD;
-use crate::scene::error::{Document, SceneError};
+use crate::Error;
 use crate::scene::file::MoldTable;
 use crate::scene::heading::{coordinates, heading};
 use crate::scene::quantity::{Quantity, Ratio};
+use crate::scene::source::Document;
 use plydrape::mold::{Mold, Plane};
 
 /// Checks the keys of a plane.
-pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, SceneError> {
+pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Error> {
     let point = match &table.point {
         Some(point) => coordinates(&point.value, document)?,
         None => [0.0; 3],
@@ -71,7 +72,7 @@ pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Scen
 fn unit_normal(
     [x, y, z]: &[Quantity<Ratio>; 3],
     document: &Document,
-) -> Result<Option<[f64; 3]>, SceneError> {
+) -> Result<Option<[f64; 3]>, Error> {
     let [x, y, z] = [x.si(document)?, y.si(document)?, z.si(document)?];
     // Scaled by the largest component first, so that no square overflows.
     let largest = x.abs().max(y.abs()).max(z.abs());

@@ -1,7 +1,8 @@
 //! Cylinders, spheres and tori.
 
 use super::Keys;
-use crate::scene::error::SceneError;
+use crate::Error;
+
 use crate::scene::file::SideKey;
 use crate::scene::usual;
 use plydrape::mold::{Cylinder, Face, Mold, Pose, Sphere, Torus};
@@ -10,7 +11,7 @@ use plydrape::mold::{Cylinder, Face, Mold, Pose, Sphere, Torus};
 const UPRIGHT: f64 = 0.999_998;
 
 /// Checks the keys of a cylinder.
-pub(super) fn cylinder(keys: &Keys) -> Result<Mold, SceneError> {
+pub(super) fn cylinder(keys: &Keys) -> Result<Mold, Error> {
     let radius = keys
         .required(&keys.table.radius, "radius", "\"500 mm\"")?
         .size(keys.document, &usual::RADIUS)?;
@@ -26,7 +27,7 @@ pub(super) fn cylinder(keys: &Keys) -> Result<Mold, SceneError> {
 }
 
 /// Checks the keys of a sphere.
-pub(super) fn sphere(keys: &Keys) -> Result<Mold, SceneError> {
+pub(super) fn sphere(keys: &Keys) -> Result<Mold, Error> {
     let radius = keys
         .required(&keys.table.radius, "radius", "\"500 mm\"")?
         .size(keys.document, &usual::RADIUS)?;
@@ -35,7 +36,7 @@ pub(super) fn sphere(keys: &Keys) -> Result<Mold, SceneError> {
 }
 
 /// Checks the keys of a torus.
-pub(super) fn torus(keys: &Keys) -> Result<Mold, SceneError> {
+pub(super) fn torus(keys: &Keys) -> Result<Mold, Error> {
     let (table, document) = (keys.table, keys.document);
     let ring = keys.required(&table.ring_radius, "ring_radius", "\"500 mm\"")?;
     let tube = keys.required(&table.tube_radius, "tube_radius", "\"200 mm\"")?;
@@ -53,7 +54,7 @@ pub(super) fn torus(keys: &Keys) -> Result<Mold, SceneError> {
 }
 
 /// Pose and side of a mold; one that holds the ply from inside stays open upwards.
-fn turned(keys: &Keys) -> Result<(Pose, Face), SceneError> {
+fn turned(keys: &Keys) -> Result<(Pose, Face), Error> {
     match keys.table.side.as_ref().map(|side| side.value) {
         Some(SideKey::Inside) => Ok((keys.upward_pose()?, Face::Inside)),
         Some(SideKey::Outside) | None => Ok((keys.pose()?, Face::Outside)),

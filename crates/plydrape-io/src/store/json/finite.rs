@@ -3,21 +3,21 @@
 //! A serializer that writes nothing: it follows the value through its keys and indices and keeps the
 //! path, so that the error can say `steps[3].grippers[0].position[2]`.
 
-use super::JsonError;
+use crate::Error;
 use serde::ser::{self, Serialize, Serializer};
 use std::fmt::{self, Display};
 
 /// Refuses a value that holds a NaN or an infinity.
-pub(crate) fn check<T: Serialize + ?Sized>(value: &T) -> Result<(), JsonError> {
+pub(crate) fn check<T: Serialize + ?Sized>(value: &T) -> Result<(), Error> {
     within(value, f64::MAX)
 }
 
 /// Refuses a value that holds a NaN, or a number beyond `most` in size.
-pub(crate) fn within<T: Serialize + ?Sized>(value: &T, most: f64) -> Result<(), JsonError> {
+pub(crate) fn within<T: Serialize + ?Sized>(value: &T, most: f64) -> Result<(), Error> {
     let mut walk = Walk { path: Vec::new(), most };
     value.serialize(&mut walk).map_err(|fault| match fault {
-        Fault::Number(value) => JsonError::NotFinite { key: walk.key(), value },
-        Fault::Other(what) => JsonError::Serde(ser::Error::custom(what)),
+        Fault::Number(value) => Error::NotFinite { key: walk.key(), value },
+        Fault::Other(what) => Error::json(what),
     })
 }
 

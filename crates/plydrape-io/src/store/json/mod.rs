@@ -6,33 +6,16 @@
 
 pub(crate) mod finite;
 
+use crate::Error;
 use serde::Serialize;
-
-/// Why a value has no JSON text.
-#[derive(Debug, thiserror::Error)]
-pub enum JsonError {
-    /// A number that is NaN or infinite.
-    #[error(
-        "`{key}` is {value}, which a result file cannot hold; this is a fault of plydrape, please report it"
-    )]
-    NotFinite {
-        /// Where it is, as in `steps[3].measures.slack_mm.value`.
-        key: String,
-        /// The number.
-        value: f64,
-    },
-    /// The value cannot be written for another reason.
-    #[error("the result cannot be written as JSON: {0}")]
-    Serde(#[from] serde_json::Error),
-}
 
 /// JSON text of any value whose numbers are all finite, with a line feed.
 ///
 /// # Errors
-/// [`JsonError::NotFinite`] if any number is NaN or infinite.
-pub fn of<T: Serialize>(value: &T) -> Result<String, JsonError> {
+/// [`Error::NotFinite`] if any number is NaN or infinite.
+pub fn of<T: Serialize>(value: &T) -> Result<String, Error> {
     finite::check(value)?;
-    let mut text = serde_json::to_string(value)?;
+    let mut text = serde_json::to_string(value).map_err(Error::json)?;
     text.push('\n');
     Ok(text)
 }

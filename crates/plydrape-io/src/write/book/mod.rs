@@ -12,7 +12,7 @@ pub use table::table;
 use crate::scene::{Book, BookPly};
 use crate::store::json;
 use crate::text::table::{closest, limiting, measure_text};
-use crate::{Content, Folder, OutputError, PROGRAM, ResultFile, Staged};
+use crate::{Content, Error, Folder, PROGRAM, ResultFile, Staged};
 use plydrape::measure::Verdict;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -100,12 +100,8 @@ struct Written<'a> {
 /// `book.json` as text.
 ///
 /// # Errors
-/// [`json::JsonError`] if a number is not finite.
-pub fn text(
-    book: &Book,
-    plies: &[PlyRecord],
-    interrupted: bool,
-) -> Result<String, json::JsonError> {
+/// [`Error`] if a number is not finite.
+pub fn text(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Result<String, Error> {
     json::of(&Written {
         format: "plydrape-book",
         version: VERSION,
@@ -126,14 +122,14 @@ pub fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> String {
 /// Stages the files of a book; they come in together with those of its plies, see [`crate::store::folder::write_together`].
 ///
 /// # Errors
-/// [`OutputError`] as for [`Folder::write`].
+/// [`Error`] as for [`Folder::write`].
 pub fn stage_into(
     folder: Folder,
     book: &Book,
     plies: &[PlyRecord],
     interrupted: bool,
     read: &[PathBuf],
-) -> Result<Staged, OutputError> {
+) -> Result<Staged, Error> {
     let (text, html) = (text(book, plies, interrupted)?, html(book, plies, interrupted));
     let [text, html] = [text.as_bytes(), html.as_bytes()];
     let files: [(&str, &dyn Content); 2] = [(NAMES[0], &text), (NAMES[1], &html)];

@@ -25,7 +25,7 @@ mod pose;
 mod section;
 mod text;
 
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use contact::RigidMold;
 use mesh::Mesh;
@@ -34,45 +34,29 @@ use pose::Pose;
 use section::{ShellSection, axes};
 use text::{Deck, number};
 
-/// Why a result has no deck.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum InpError {
-    /// There is nothing to move the grippers by.
-    #[error("the result has no steps, so there is no motion to write: simulate the scene again")]
-    NoSteps,
-    /// The ply is no rectangle between its grippers.
-    #[error(
-        "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline: take `vtk` for its sheet"
-    )]
-    Cut,
-    /// The flat ply cannot be laid between the first gripper positions.
-    #[error(
-        "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them: spread them in the scene and simulate it again"
-    )]
-    NoPlace,
-}
-
-impl From<InpError> for OutputError {
-    fn from(error: InpError) -> Self {
-        OutputError::Writer(error.into())
-    }
-}
-
 /// The deck of a result. Same result, same bytes.
 ///
 /// # Errors
-/// [`InpError`] within [`OutputError`] if the result has no steps or its grippers start on one line; a number that is not
+/// [`Error::NotPossible`] if the result has no steps or its grippers start on one line; a number that is not
 /// finite is refused as in [`crate::store::json`].
-pub fn text(result: &ResultFile) -> Result<String, OutputError> {
+pub fn text(result: &ResultFile) -> Result<String, Error> {
     result.check_finite()?;
     let scene = &result.scene;
     if scene.ply.cut.is_some() {
-        return Err(InpError::Cut.into());
+        let message = "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline: take `vtk` for its sheet";
+        return Err(Error::not_possible(message, ""));
     }
-    let first = result.steps.first().ok_or(InpError::NoSteps)?;
+    let first = result.steps.first().ok_or_else(|| {
+        let message =
+            "the result has no steps, so there is no motion to write: simulate the scene again";
+        Error::not_possible(message, "")
+    })?;
     let (flat, places): (Vec<_>, Vec<_>) =
         first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();
-    let pose = Pose::fit(&flat, &places).ok_or(InpError::NoPlace)?;
+    let pose = Pose::fit(&flat, &places).ok_or_else(|| {
+        let message = "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them: spread them in the scene and simulate it again";
+        Error::not_possible(message, "")
+    })?;
     let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
     let section = ShellSection::new(scene);
     let tracks = Tracks::new(result, &pose);

@@ -1,8 +1,9 @@
 //! The boundary of the ply on its mold as a table and as DXF: `boundary.csv`, `boundary.dxf`.
 
+use crate::Error;
 use crate::write::csv::{number, text};
 use crate::write::pattern;
-use ::csv::{Error, Writer};
+use ::csv::Writer;
 use plydrape::net::Boundary;
 
 /// One row a point (m): its ring, 0 the outer boundary and then the holes; the part of the ring, counted from 1 where it leaves

@@ -20,7 +20,7 @@ mod summary;
 pub use findings::Findings;
 pub use summary::{ShearPlace, Summary};
 
-use crate::OutputError;
+use crate::Error;
 use crate::store::folder;
 use crate::store::json::finite;
 use crate::write::figure;
@@ -33,14 +33,14 @@ use std::path::{Path, PathBuf};
 /// Returns the paths written. Same net, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses; the folder is then as it was.
+/// [`Error`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses; the folder is then as it was.
 pub fn write_all(
     net: &Net,
     mold: &Mold,
     findings: &Findings,
     title: &str,
     dir: &Path,
-) -> Result<Vec<PathBuf>, OutputError> {
+) -> Result<Vec<PathBuf>, Error> {
     // First of all: it proves every number finite.
     finite::check(net)?;
     let nodes = nodes::table(net)?;

@@ -4,7 +4,8 @@
 //! has empty cells for what is not known.
 
 use super::nodal_shear;
-use ::csv::{Error, Writer};
+use crate::Error;
+use ::csv::Writer;
 use plydrape::net::Net;
 
 /// One row a node, i running fastest: grid indices, fabric coordinates, place, shear: the mean over the whole cells around the

@@ -1,7 +1,8 @@
 //! What each seed and each heading costs: the table `seeds.csv`.
 
+use crate::Error;
 use crate::write::csv::{number, text};
-use ::csv::{Error, Writer};
+use ::csv::Writer;
 use plydrape::net::{Choice, Seeds};
 
 /// One row a choice, in the order in which they were tried: fabric coordinates of the seed (m), the heading of u that was asked

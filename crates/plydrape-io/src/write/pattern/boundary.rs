@@ -2,8 +2,9 @@
 
 use super::Line;
 use super::dxf_text::Text;
+use crate::Error;
 use crate::write::csv::{number, text};
-use ::csv::{Error, Writer};
+use ::csv::Writer;
 
 /// One row a point (m): the line, the number of the point from 1, x, y, z. A closed line ends with its first point once more.
 ///

@@ -1,7 +1,7 @@
 //! The flat pattern and the boundary of a result.
 
 use super::{Gripper, Line, Pattern, boundary, dxf, pdf};
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use crate::store::folder::Files;
 use plydrape::ply::{Direction, Outline, gripper_name};
@@ -37,8 +37,8 @@ pub fn flat(result: &ResultFile) -> Files {
 /// Where the boundary of the ply is at the end, by the sheet: `boundary.csv` and `boundary.dxf`.
 ///
 /// # Errors
-/// [`OutputError`] if the result has no sheet, or its states cannot be read.
-pub fn boundary(result: &ResultFile) -> Result<Files, OutputError> {
+/// [`Error`] if the result has no sheet, or its states cannot be read.
+pub fn boundary(result: &ResultFile) -> Result<Files, Error> {
     let lines = lines(result)?;
     Ok(vec![
         ("boundary.csv".into(), boundary::csv(&lines)?.into_bytes()),
@@ -63,8 +63,11 @@ fn outline(result: &ResultFile) -> Outline {
 }
 
 /// The rings of the boundary in space.
-fn lines(result: &ResultFile) -> Result<Vec<Line>, OutputError> {
-    let none = || OutputError::NoSheet;
+fn lines(result: &ResultFile) -> Result<Vec<Line>, Error> {
+    let none = || {
+        let message = "the result has no sheet whose boundary could be written: drape the scene with kind = \"sheet\" in [model]";
+        Error::not_possible(message, "")
+    };
     let mut states = result.sheet_states.as_ref().ok_or_else(none)?.open()?;
     let last = states.steps()?.last().copied().ok_or_else(none)?;
     let state = states.state(last.1)?.ok_or_else(none)?;

@@ -22,7 +22,7 @@ mod ply;
 pub(crate) mod polydata;
 mod sheet;
 
-use crate::OutputError;
+use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::SheetSides;
 use collection::{Collection, Part};
@@ -31,8 +31,8 @@ use plydrape::layup::Model;
 /// All files: names and contents. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, or the states of the sheet cannot be read.
-pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError> {
+/// [`Error`] if a number is not finite, or the states of the sheet cannot be read.
+pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, Error> {
     result.check_finite()?;
     let mut files = Vec::new();
     let mut all = Collection::default();

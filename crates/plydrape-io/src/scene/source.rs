@@ -1,0 +1,77 @@
+//! A text under reading, which knows its name in messages, and the places of faults in it.
+
+use super::read;
+use crate::Error;
+use crate::error::Diagnostic;
+use crate::store::shown;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A text under reading, with the name it goes by in messages.
+#[derive(Debug, Clone)]
+pub(super) struct Document {
+    /// The file as the user named it.
+    pub file: String,
+    /// Its whole text.
+    pub text: Arc<str>,
+}
+
+impl Document {
+    pub fn new(file: impl Into<String>, text: &str) -> Self {
+        Document { file: file.into(), text: text.into() }
+    }
+
+    /// An error at some bytes of this text.
+    pub fn error(
+        &self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Error {
+        Diagnostic { span: Some(span), ..self.fault(message, help) }.into()
+    }
+
+    /// An error of the text as a whole.
+    pub fn error_anywhere(&self, message: impl Into<String>, help: impl Into<String>) -> Error {
+        self.fault(message, help).into()
+    }
+
+    /// A fault of the text as a whole.
+    pub fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+        Diagnostic { text: Arc::clone(&self.text), ..Diagnostic::new(&*self.file, message, help) }
+    }
+
+    /// The error of a file that this text names at some bytes: at its own place if it has one, else there. `what` this text is of.
+    pub fn error_of_named(&self, span: &Range<usize>, error: Error, what: &str) -> Error {
+        match error {
+            Error::Scene(fault) if fault.span.is_none() => {
+                let help = read::beside(what, &fault.help);
+                let (span, unread) = (Some(span.clone()), fault.unread);
+                Diagnostic { span, unread, ..self.fault(fault.message, help) }.into()
+            }
+            other => other,
+        }
+    }
+
+    /// A value as it stands in the file, for a message: a text in its quotes, others in ticks.
+    pub fn quoted(&self, span: &Range<usize>) -> String {
+        let value = self.excerpt(span);
+        if value.starts_with(['"', '\'']) {
+            return value;
+        }
+        format!("`{value}`")
+    }
+
+    /// The text at a span, shortened for a message.
+    pub fn excerpt(&self, span: &Range<usize>) -> String {
+        excerpt(self.text.get(span.clone()).unwrap_or_default())
+    }
+}
+
+/// A text as a message quotes it.
+pub(super) fn excerpt(text: &str) -> String {
+    shown::excerpt(text, EXCERPT)
+}
+
+/// Characters of a value that a message quotes at most.
+const EXCERPT: usize = 40;
