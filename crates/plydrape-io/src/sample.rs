@@ -7,6 +7,7 @@ use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;
 use plydrape::errors::Errors;
+use plydrape::geometry::distance;
 use plydrape::layup::{ContactEnd, ContactSettings, Model, Settings, SlopeRule, Stepping, Target};
 use plydrape::material::{Material, Section};
 use plydrape::measure::{Measures, Name, Numbers, Verdict, Worst};
@@ -113,10 +114,6 @@ fn measures(values: impl IntoIterator<Item = (Name, f64)>) -> Measures {
     let mut measures = Measures::default();
     values.into_iter().for_each(|(name, value)| measures.set(name, Some(worst(value))));
     measures
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|c| (b[c] - a[c]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Set length: of the cell, and of a diagonal by the shear of its cell.

@@ -46,30 +46,21 @@
 //!
 //! # Stages
 //!
-//! A folder is a stage of the method, and each uses only those above it; a test holds that order. The upper stages are crates of their own,
-//! whose modules this crate hands on, so that a program needs this crate alone: `plydrape-layup` has what every model of the ply drapes,
-//! `plydrape-catenary` the paper's model. What decides is here.
+//! A folder is a stage of the method, and each uses only those above it; a test holds that order. The first two rows are crates of their
+//! own, whose front pages say more of each stage. This crate hands on their modules, so that a program needs it alone.
 //!
-//! | crate | stage | what it is |
-//! |---|---|---|
-//! | `plydrape-layup` | [`geometry`] | vectors, rotations, placements |
-//! | | [`mold`] | the surface: its distance, closest point and paths along it |
-//! | | [`material`], [`ply`] | laws of the woven ply; its outline, grippers, lines and cells |
-//! | | [`net`] | the ideal drape: where every point of the fabric should end on the mold |
-//! | | [`motion`] | positions step by step become smooth in time, within limits of speed, acceleration and jerk |
-//! | | [`bodies`], [`tool`], [`clearance`] | what grippers and robot carry, the frame that carries them, how far all that stays from the rest |
-//! | | [`layup`] | one ply and how it is laid: what every model of the ply drapes |
-//! | | [`state`] | the ply after one step, as any model can say it |
-//! | `plydrape-catenary` | [`catenary`], [`elastica`] | one span in closed form; one strip of any sag |
-//! | | [`equilibrium`], [`draping`] | all forces and slopes, and the motion step by step with contact |
-//! | `plydrape` | [`fit`] | material laws from measured tables |
-//! | | [`sheet`] | the whole ply as cloth: stretch, shear, bending, contact, friction, pads on mounts |
-//! | | [`pick_up`] | where the ply was picked up, if not where it was planned |
-//! | | [`measure`] | what is measured of a state or a motion, its limit, and the verdict |
-//! | | [`errors`] | how far a real cell may be from its scene |
-//! | | [`scene`] | a layup, its limits, and how its motion is planned |
-//! | | [`outcome`] | the drape by the model that decides, and the verdict that follows from it |
-//! | | [`planner`] | gripper trajectories, and limits that no trajectory can keep |
+//! | stage | what it is |
+//! |---|---|
+//! | [`geometry`], [`mold`], [`material`], [`ply`], [`net`], [`motion`], [`bodies`], [`tool`], [`layup`], [`clearance`], [`state`] | the crate [`plydrape_layup`]: one ply and how it is laid, which every model of the ply drapes |
+//! | [`catenary`], [`elastica`], [`equilibrium`], [`draping`] | the crate [`plydrape_catenary`]: the paper's model, from one span to the motion step by step with contact |
+//! | [`fit`] | material laws from measured tables |
+//! | [`sheet`] | the whole ply as cloth: stretch, shear, bending, contact, friction, pads on mounts |
+//! | [`pick_up`] | where the ply was picked up, if not where it was planned |
+//! | [`measure`] | what is measured of a state or a motion, its limit, and the verdict |
+//! | [`errors`] | how far a real cell may be from its scene |
+//! | [`scene`] | a layup, its limits, and how its motion is planned |
+//! | [`outcome`] | the drape by the model that decides, and the verdict that follows from it |
+//! | [`planner`] | gripper trajectories, and limits that no trajectory can keep; the stepwise one is that of [`plydrape_catenary::stepwise`] |
 //!
 //! # Settings
 //!

@@ -3,8 +3,8 @@
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::draping::record::{CatenaryState, CatenaryStep};
 use plydrape::equilibrium::{End, SlopeSource, Solver};
-use plydrape::layup::Model;
-use plydrape::layup::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
+pub use plydrape::geometry::distance;
+use plydrape::layup::{ContactEnd, ContactSettings, Model, Settings, SlopeRule, Stepping};
 use plydrape::material::{Material, Section};
 use plydrape::outcome::{self, Drape, DrapeWatch, Step};
 use plydrape::ply::{ContactSegment, Grid, Ply};
@@ -70,10 +70,6 @@ pub fn hung(step: &Step) -> &CatenaryStep {
 /// The catenaries of a step.
 pub fn lines(step: &Step) -> &[CatenaryState] {
     &hung(step).catenaries
-}
-
-pub fn distance(a: Point, b: Point) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.

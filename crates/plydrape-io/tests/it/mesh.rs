@@ -1,6 +1,7 @@
 //! Meshes as molds: closest points, sides, normals, sections and curvatures against brute force and
 //! against the surfaces that the meshes approximate.
 
+use plydrape::geometry::vector::{distance, dot, norm, sub};
 use plydrape::mold::mesh::{Mesh, MeshReport};
 use plydrape::mold::{Pose, SurfaceCurve};
 use proptest::prelude::*;
@@ -10,22 +11,6 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 type Point = [f64; 3];
-
-fn sub(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|n| a[n] - b[n])
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    (0..3).map(|n| a[n] * b[n]).sum()
-}
-
-fn norm(a: Point) -> f64 {
-    dot(a, a).sqrt()
-}
-
-fn distance(a: Point, b: Point) -> f64 {
-    norm(sub(a, b))
-}
 
 fn unit(a: Point) -> Point {
     a.map(|x| x / norm(a))

@@ -1,6 +1,7 @@
 //! Timed motions against closed forms, finite differences of their samples, and what was planned.
 
 use crate::common::paper_ply;
+use plydrape::geometry::vector::norm;
 use plydrape::motion::{Attitudes, Bounds, MotionError, TimedMotion};
 use plydrape_io::scene;
 use plydrape_io::write::csv;
@@ -55,10 +56,6 @@ fn uneven() -> Vec<Vec<Point>> {
 
 fn plans() -> Vec<Vec<Vec<Point>>> {
     vec![straight(0.5, 30), straight(0.01, 3), rolling(60), corner(30), uneven()]
-}
-
-fn norm(a: Point) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Largest first, second and third differences of samples 1 ms apart: speed, acceleration, jerk.

@@ -1,6 +1,7 @@
 //! The ideal drape against closed forms, printed figures, invariants and an independent solver.
 
 use crate::common::distance;
+use plydrape::geometry::vector::dot;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
 use plydrape::net::{EdgeRule, Generators, Net, Placement, PlacementError, Reason};
 use std::fmt::Write;
@@ -35,10 +36,6 @@ fn published() -> Placement {
 
 fn drape(mold: &Mold, layup: Placement) -> Net {
     Net::drape(mold, layup).expect("a sensible layup")
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| a[n] * b[n]).sum()
 }
 
 /// Nodes with their grid indices.

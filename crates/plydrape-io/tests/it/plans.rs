@@ -4,6 +4,7 @@
 use crate::common::drape_sheet;
 use crate::common::examples;
 use crate::scaled::scaled;
+use plydrape::geometry::vector::norm;
 use plydrape::measure::{Name, Verdict};
 use plydrape::motion::Motion;
 use plydrape::outcome::{Status, Summary};
@@ -126,10 +127,6 @@ fn only_comes_down(scene: &Scene, positions: &[Vec<[f64; 3]>], rise: f64, what: 
             lowest = lowest.min(height);
         }
     }
-}
-
-fn norm(a: [f64; 3]) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// A table of poses, time by time: position and quaternion of every gripper.

@@ -1,22 +1,11 @@
 //! Molds of closed form: distances, normals, curvatures, and lines along them, against closed forms.
 
+use plydrape_layup::geometry::vector::{dot, norm, sub};
 use plydrape_layup::mold::{
     Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|n| a[n] - b[n])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| a[n] * b[n]).sum()
-}
-
-fn norm(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
 
 fn level(position: [f64; 3]) -> Pose {
     Pose::new(position, [0.0; 3])
