@@ -147,7 +147,7 @@ fn every_digit_stands_in_the_check_sum() {
         .filter(|(n, c)| c.is_ascii_digit() && *n > 0 && !text[..*n].ends_with("\"version\":"))
         .map(|(n, _)| n)
         .collect();
-    for n in digits.iter().step_by(7) {
+    for n in digits.iter().step_by(53) {
         let other = if &text[*n..=*n] == "7" { "8" } else { "7" };
         let edited = [&text[..*n], other, &text[n + 1..]].concat();
         assert!(is_changed(&read(&edited).unwrap_err()), "{}", &text[n - 9..n + 9]);

@@ -23,6 +23,11 @@ pub fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
 }
 
+/// Whether tests take all of their cases, as `scripts/soak` asks for by `PLYDRAPE_LONG`; otherwise some of each kind.
+pub fn all_cases() -> bool {
+    std::env::var_os("PLYDRAPE_LONG").is_some()
+}
+
 /// The scene of an example.
 pub fn example(name: &str) -> Scene {
     let path = examples().join(name).join("scene.toml");

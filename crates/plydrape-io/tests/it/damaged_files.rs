@@ -1,6 +1,6 @@
 //! What comes in through files: results with a forged check sum, files without end, and texts that would grow beyond all memory.
 
-use crate::common::{drape, examples};
+use crate::common::{all_cases, drape, examples};
 use plydrape::scene::Plan;
 use plydrape_io::Error;
 use plydrape_io::export::{self, Format};
@@ -76,8 +76,8 @@ fn a_forged_result_is_refused_or_harmless() {
     assert!(all.len() > 300);
     let folder = tempfile::tempdir().unwrap();
     let mut faults = Vec::new();
-    // a prime step, so that every kind of value comes up
-    for place in all.iter().step_by(61) {
+    // prime steps, so that every kind of value comes up
+    for place in all.iter().step_by(if all_cases() { 61 } else { 307 }) {
         let old = value.pointer(place).unwrap();
         let others: Vec<Value> = match old {
             Value::Array(items) => vec![Value::Array(Vec::new()), items[..items.len() / 2].into()],
