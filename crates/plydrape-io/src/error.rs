@@ -1,7 +1,7 @@
 //! Why this crate could not go on, what would help, and where in a file that is.
 
+use plydrape::LayupError;
 use plydrape::fit::FitError;
-use plydrape::motion::MotionError;
 use plydrape::outcome::ModelError;
 use plydrape::planner::replan::ReplanError;
 use serde::{Deserialize, Serialize};
@@ -317,8 +317,8 @@ impl From<FitError> for Error {
     }
 }
 
-impl From<MotionError> for Error {
-    fn from(fault: MotionError) -> Self {
+impl From<LayupError> for Error {
+    fn from(fault: LayupError) -> Self {
         Error::not_possible(fault.to_string(), "")
     }
 }

@@ -85,9 +85,11 @@ pub use errors::Errors;
 pub use measure::Limits;
 pub use outcome::{ModelError, Outcome, simulate};
 pub use planner::{Planned, plan};
-pub use plydrape_catenary::{Solver, catenary, draping, elastica, equilibrium};
+pub use plydrape_catenary::{
+    Error as CatenaryError, Solver, catenary, draping, elastica, equilibrium,
+};
 pub use plydrape_layup::{
-    Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance, geometry, layup,
-    material, mold, motion, net, ply, state, stopwatch, tool,
+    Error as LayupError, Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance,
+    geometry, layup, material, mold, motion, net, ply, state, stopwatch, tool,
 };
 pub use scene::{Plan, Scene};

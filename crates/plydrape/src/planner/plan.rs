@@ -10,9 +10,10 @@ use super::quickest::{Quickest, quickest};
 use super::record::{LimitedBy, PlanRecord};
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
+use crate::LayupError;
 use crate::layup::Model;
 use crate::measure::{Name, Verdict, WholeMotion, Worst};
-use crate::motion::{Attitudes, MotionError, TimedMotion};
+use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{self, ModelError, Outcome, Robustness, Watch};
 use crate::scene::{PlanMethod, Scene};
 use crate::state::Site;
@@ -72,7 +73,7 @@ pub enum PlanError {
     Numbers,
     /// The positions cannot become a motion.
     #[error(transparent)]
-    Motion(#[from] MotionError),
+    Motion(#[from] LayupError),
     /// The model that decides cannot drape the scene.
     #[error(transparent)]
     Model(#[from] ModelError),

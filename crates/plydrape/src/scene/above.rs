@@ -1,11 +1,12 @@
 //! A ply and a mold as a scene: the ideal drape is the target, and the grippers start level above it.
 
 use super::Scene;
+use crate::LayupError;
 use crate::geometry::Point;
 use crate::layup::{Settings, Target};
 use crate::mold::Mold;
 use crate::motion::Motion;
-use crate::net::{EdgeRule, Generators, Net, Placement, PlacementError};
+use crate::net::{EdgeRule, Generators, Net, Placement};
 use crate::ply::{Grid, Ply};
 use std::sync::Arc;
 
@@ -27,7 +28,7 @@ pub enum AboveError {
     },
     /// The ideal drape cannot begin there.
     #[error(transparent)]
-    Placement(#[from] PlacementError),
+    Placement(#[from] LayupError),
     /// The ideal drape has no place on the mold for some grippers.
     #[error("{missing} grippers have no place on the mold: the ply reaches beyond it, or folds")]
     Missing {

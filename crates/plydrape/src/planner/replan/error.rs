@@ -1,6 +1,6 @@
 //! Why a plan cannot be corrected, and what to do about it.
 
-use crate::motion::MotionError;
+use crate::LayupError;
 
 /// Why a plan cannot be corrected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -76,7 +76,7 @@ pub enum ReplanError {
     },
     /// The positions cannot become a motion.
     #[error(transparent)]
-    Motion(#[from] MotionError),
+    Motion(#[from] LayupError),
 }
 
 fn no_transport(clear: usize, first: Option<usize>) -> String {
