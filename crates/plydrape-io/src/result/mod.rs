@@ -250,7 +250,7 @@ impl ResultFile {
     /// one. Of a result that was read they are made once.
     ///
     /// # Errors
-    /// [`LayupError`] if plan and steps are none that a planner has written.
+    /// Those of [`TimedMotion::recorded`] and [`Attitudes::new`] if plan and steps are none that a planner has written.
     pub fn motion(&self) -> Result<Option<&Turned>, LayupError> {
         let Some(plan) = &self.plan else { return Ok(None) };
         if let Some(turned) = self.motion.get() {

@@ -76,7 +76,7 @@ impl PlanRecord {
     /// The motion at any time.
     ///
     /// # Errors
-    /// [`LayupError`] if the plan is none that a planner has made.
+    /// Those of [`TimedMotion::recorded`] if the plan is none that a planner has made.
     pub fn motion(&self) -> Result<TimedMotion, LayupError> {
         TimedMotion::recorded(&self.path, &self.spacing, &self.law)
     }

@@ -15,7 +15,7 @@ const CRATES: [(&str, &str); 8] = [
         "gripper error stopwatch geometry mold material ply net motion bodies tool layup clearance state",
     ),
     ("plydrape-catenary", "error catenary elastica equilibrium draping sensitivity stepwise"),
-    ("plydrape", "fit sheet pick_up measure errors scene outcome planner"),
+    ("plydrape", "error fit sheet pick_up measure errors scene outcome planner"),
     (
         "plydrape-io",
         "error store read result scene text write robot page export fit plan replan sample",
