@@ -43,11 +43,13 @@ pub mod catenary;
 pub mod draping;
 pub mod elastica;
 pub mod equilibrium;
+mod error;
 pub mod sensitivity;
 pub mod stepwise;
 
 pub use equilibrium::Solver;
+pub use error::Error;
 pub use plydrape_layup::{
-    Layup, Material, Mold, Motion, Ply, Settings, Target, geometry, layup, material, mold, motion,
-    ply, state, stopwatch,
+    Error as LayupError, Layup, Material, Mold, Motion, Ply, Settings, Target, geometry, layup,
+    material, mold, motion, ply, state, stopwatch,
 };

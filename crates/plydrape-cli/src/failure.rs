@@ -4,7 +4,6 @@ use miette::{
     LabeledSpan, MietteError, MietteHandlerOpts, MietteSpanContents, ReportHandler, SourceCode,
     SourceSpan, SpanContents,
 };
-use plydrape::planner::PlanError;
 use plydrape_io::store::shown;
 use plydrape_io::{Diagnostic, Error};
 use std::fmt;
@@ -122,12 +121,9 @@ impl From<Error> for Failure {
     }
 }
 
-impl From<PlanError> for Failure {
-    fn from(fault: PlanError) -> Self {
-        match fault {
-            PlanError::Model(fault) => Error::from(fault).into(),
-            other => Failure::Refused { message: other.to_string(), help: String::new() },
-        }
+impl From<plydrape::Error> for Failure {
+    fn from(cause: plydrape::Error) -> Self {
+        Error::from(cause).into()
     }
 }
 

@@ -247,8 +247,7 @@ impl<'a> Answer<'a> {
         let (times, positions) = match rate {
             None => (motion.times().to_vec(), motion.positions().to_vec()),
             Some(rate) => {
-                let sampled =
-                    motion.sampled(rate).map_err(plydrape::planner::replan::ReplanError::from)?;
+                let sampled = motion.sampled(rate).map_err(plydrape::Error::ReplanMotion)?;
                 (sampled.times, sampled.positions)
             }
         };

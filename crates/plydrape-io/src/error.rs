@@ -1,9 +1,6 @@
 //! Why this crate could not go on, what would help, and where in a file that is.
 
-use plydrape::fit::FitError;
-use plydrape::motion::MotionError;
-use plydrape::outcome::ModelError;
-use plydrape::planner::replan::ReplanError;
+use plydrape::{Error as Cause, LayupError};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
@@ -283,43 +280,41 @@ impl From<Diagnostic> for Error {
     }
 }
 
-impl From<ModelError> for Error {
-    fn from(fault: ModelError) -> Self {
-        let help = match fault {
-            ModelError::Sheet(_) => {
-                "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
-            }
-            ModelError::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
-            ModelError::Mounts { .. } => {
+impl From<Cause> for Error {
+    fn from(cause: Cause) -> Self {
+        let help = match cause {
+            Cause::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
+            Cause::CatenariesMounts { .. } => {
                 "take the sheet (kind = \"sheet\" in [model]) and its planner (method = \"path\" in [plan]) alone, or leave out `stiffness` in [grippers]"
             }
-        };
-        Error::not_possible(fault.to_string(), help)
-    }
-}
-
-impl From<ReplanError> for Error {
-    fn from(fault: ReplanError) -> Self {
-        Error::not_possible(fault.to_string(), fault.remedy())
-    }
-}
-
-impl From<FitError> for Error {
-    fn from(fault: FitError) -> Self {
-        let help = match fault {
-            FitError::Few { .. } => "record more points, over a larger range of the test",
-            FitError::Range { .. } => "see whether the units in the headers and options are right",
-            FitError::NoFit { .. } => {
+            Cause::SheetNoShear { .. }
+            | Cause::SheetNoTension { .. }
+            | Cause::SheetCoarse { .. }
+            | Cause::SheetPadsOverlap { .. }
+            | Cause::SheetPadsOverhang { .. }
+            | Cause::SheetPadOff { .. }
+            | Cause::SheetPadSmall { .. }
+            | Cause::SheetPadPoint { .. }
+            | Cause::SheetRange { .. }
+            | Cause::SheetTensionTable { .. }
+            | Cause::SheetMomentTable { .. }
+            | Cause::SheetNoMotion { .. } => {
+                "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
+            }
+            Cause::FitTooFew { .. } => "record more points, over a larger range of the test",
+            Cause::FitRange { .. } => "see whether the units in the headers and options are right",
+            Cause::FitNoStrip { .. } => {
                 "x points away from the edge, z up, both are 0 at the edge; moments and curvatures that go together have one sign"
             }
+            _ => cause.remedy(),
         };
-        Error::not_possible(fault.to_string(), help)
+        Error::not_possible(cause.to_string(), help)
     }
 }
 
-impl From<MotionError> for Error {
-    fn from(fault: MotionError) -> Self {
-        Error::not_possible(fault.to_string(), "")
+impl From<LayupError> for Error {
+    fn from(cause: LayupError) -> Self {
+        Cause::from(cause).into()
     }
 }
 

@@ -20,7 +20,9 @@
 
 pub mod bodies;
 pub mod clearance;
+mod error;
 pub mod geometry;
+mod gripper;
 pub mod layup;
 pub mod material;
 pub mod mold;
@@ -31,6 +33,7 @@ pub mod state;
 pub mod stopwatch;
 pub mod tool;
 
+pub use error::Error;
 pub use layup::{Layup, Settings, Target};
 pub use material::Material;
 pub use mold::Mold;

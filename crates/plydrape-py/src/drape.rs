@@ -10,7 +10,7 @@ use crate::scene::{Scene, blocks};
 use crate::work::{Watch, run};
 use plydrape::motion::TimedMotion;
 use plydrape::outcome::{self, Robustness};
-use plydrape::planner::{self, Checkpoint, PlanError, PlanRecord};
+use plydrape::planner::{self, Checkpoint, PlanRecord};
 use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
 use plydrape_io::result::sheet;
@@ -250,7 +250,7 @@ pub fn plan(
         });
         planned.map(|planned| judged(&scene, planned, without_errors, watch))
     })?;
-    planned.map_err(|fault| no_plan(&fault))?.map_err(|fault| error::scene(&fault))
+    planned.map_err(no_plan)?.map_err(|fault| error::scene(&fault))
 }
 
 /// What becomes of a planned motion: its result, with the other model beside if the scene asks for it, judged with errors unless these are
@@ -278,10 +278,13 @@ fn judged(
 }
 
 /// Why there is no plan; a scene that its model cannot drape is refused as such.
-fn no_plan(fault: &PlanError) -> PyErr {
-    match fault {
-        PlanError::Model(fault) => error::scene(&fault.clone().into()),
-        fault => error::plan(fault),
+fn no_plan(cause: plydrape::Error) -> PyErr {
+    use plydrape::Error::{CheckpointNumbers, CheckpointOtherPly, Layup, NoMold, NoTarget};
+    match cause {
+        NoMold | NoTarget | CheckpointOtherPly { .. } | CheckpointNumbers | Layup(_) => {
+            error::plan(&cause)
+        }
+        cause => error::scene(&cause.into()),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::error;
 use crate::scene::{Origin, Scene};
-use plydrape::ModelError;
 use plydrape::layup::Model;
+use plydrape::outcome::check_model;
 use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::{SceneFile, parse_for};
 use plydrape_io::{Diagnostic, Error};
@@ -70,7 +70,7 @@ fn fault(file: &SceneFile, decides: Model, beside: Option<Model>) -> Option<Diag
         ));
     }
     for model in [Some(decides), beside].into_iter().flatten() {
-        let sound = ModelError::check(&file.layup, model).map_err(Error::from);
+        let sound = check_model(&file.layup, model).map_err(Error::from);
         let sheet = || (model == Model::Sheet).then(|| SheetSize::of(file)).transpose();
         if let Err(error) = sound.and_then(|()| sheet()) {
             return Some(error::refused(&error, error.help()));

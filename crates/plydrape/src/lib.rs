@@ -72,6 +72,7 @@
 //! SI units throughout, z up, gravity along −z. Equations are numbered in `docs/theory` of the project. This crate reads and writes no
 //! files, `plydrape-io` does; with the feature `serde` its types can be written by serde.
 
+mod error;
 pub mod errors;
 pub mod fit;
 pub mod measure;
@@ -81,13 +82,16 @@ pub mod planner;
 pub mod scene;
 pub mod sheet;
 
+pub use error::Error;
 pub use errors::Errors;
 pub use measure::Limits;
-pub use outcome::{ModelError, Outcome, simulate};
+pub use outcome::{Outcome, simulate};
 pub use planner::{Planned, plan};
-pub use plydrape_catenary::{Solver, catenary, draping, elastica, equilibrium};
+pub use plydrape_catenary::{
+    Error as CatenaryError, Solver, catenary, draping, elastica, equilibrium,
+};
 pub use plydrape_layup::{
-    Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance, geometry, layup,
-    material, mold, motion, net, ply, state, stopwatch, tool,
+    Error as LayupError, Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance,
+    geometry, layup, material, mold, motion, net, ply, state, stopwatch, tool,
 };
 pub use scene::{Plan, Scene};

@@ -7,6 +7,7 @@
 //! From points, the motion is the one with the least squares of what is left: the middles of both sets come to lie on each other,
 //! and `tan φ = Σ (p × q) / Σ (p · q)` over the points as seen from their middles (Umeyama 1991, in the plane).
 
+use crate::Error;
 use crate::ply::FARTHEST;
 
 /// A place in plan (m).
@@ -25,68 +26,16 @@ pub struct Offset {
     pub about: Option<[f64; 2]>,
 }
 
-/// Why points give no offset.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum OffsetError {
-    /// One point, or none.
-    #[error("how the ply is turned takes two points or more, and their number is {found}")]
-    TooFew {
-        /// How many there are.
-        found: usize,
-    },
-    /// Points that lie too close together.
-    #[error(
-        "the planned points are all within {:.3} mm of their middle, and points are trusted to {:.3} mm: how the ply is turned cannot be told from them",
-        1e3 * .reach, 1e3 * .tolerance
-    )]
-    TooClose {
-        /// Distance of the farthest from the middle (m).
-        reach: f64,
-        /// What points may be off by (m).
-        tolerance: f64,
-    },
-    /// Points that no rigid motion brings to each other.
-    #[error(
-        "point {} is {:.2} mm from where the others put it, more than {:.2} mm: the ply is not where a shift and a turn put it",
-        .point + 1, 1e3 * .residual, 1e3 * .tolerance
-    )]
-    Distorted {
-        /// The point that is farthest off, from 0.
-        point: usize,
-        /// How far it is off (m).
-        residual: f64,
-        /// What points may be off by (m).
-        tolerance: f64,
-    },
-}
-
-impl OffsetError {
-    /// What would help.
-    #[must_use]
-    pub fn remedy(&self) -> &'static str {
-        match self {
-            OffsetError::TooFew { .. } => "three points near the corners of the ply are best",
-            OffsetError::TooClose { .. } => {
-                "choose points that are far apart, such as the corners of the ply"
-            }
-            OffsetError::Distorted { .. } => {
-                "see whether two points are swapped, or whether the ply is distorted, which no replanned motion puts right"
-            }
-        }
-    }
-}
-
 impl Offset {
     /// The offset with the least squares, from pairs of where points were planned and where they were seen (m), and what it leaves:
     /// the largest distance of a point from where it puts it (m).
     ///
     /// # Errors
-    /// [`OffsetError`] if there are fewer than two points, all are within `tolerance` (m) of their middle, or one is left farther
-    /// than that.
-    pub fn of_points(pairs: &[(Place, Place)], tolerance: f64) -> Result<(Self, f64), OffsetError> {
+    /// [`Error::OffsetTooFew`] for fewer than two points, [`Error::OffsetTooClose`] if all are within `tolerance` (m) of their middle,
+    /// [`Error::OffsetDistorted`] if one is left farther than that.
+    pub fn of_points(pairs: &[(Place, Place)], tolerance: f64) -> Result<(Self, f64), Error> {
         if pairs.len() < 2 {
-            return Err(OffsetError::TooFew { found: pairs.len() });
+            return Err(Error::OffsetTooFew { found: pairs.len() });
         }
         let count = pairs.len() as f64;
         let middle = |of: &dyn Fn(&(Place, Place)) -> Place| {
@@ -96,7 +45,7 @@ impl Offset {
         let from = |p: Place, middle: Place| [p[0] - middle[0], p[1] - middle[1]];
         let reach = pairs.iter().map(|(p, _)| length(from(*p, planned))).fold(0.0, f64::max);
         if reach <= tolerance || !reach.is_finite() {
-            return Err(OffsetError::TooClose { reach, tolerance });
+            return Err(Error::OffsetTooClose { reach, tolerance });
         }
         let (mut sine, mut cosine) = (0.0, 0.0);
         for (p, q) in pairs {
@@ -119,7 +68,7 @@ impl Offset {
         if residual <= tolerance {
             Ok((offset, residual))
         } else {
-            Err(OffsetError::Distorted { point, residual, tolerance })
+            Err(Error::OffsetDistorted { point, residual, tolerance })
         }
     }
 
@@ -245,13 +194,13 @@ mod tests {
         let mut pairs: Vec<_> = CORNERS.iter().map(|p| (*p, *p)).collect();
         (pairs[1].1, pairs[2].1) = (pairs[2].1, pairs[1].1);
         let refused = Offset::of_points(&pairs, 2e-3);
-        assert!(matches!(refused, Err(OffsetError::Distorted { .. })), "{refused:?}");
+        assert!(matches!(refused, Err(Error::OffsetDistorted { .. })), "{refused:?}");
         assert!(matches!(
             Offset::of_points(&pairs[..1], 2e-3),
-            Err(OffsetError::TooFew { found: 1 })
+            Err(Error::OffsetTooFew { found: 1 })
         ));
         let same = [([0.1, 0.2], [0.3, 0.4]); 3];
-        assert!(matches!(Offset::of_points(&same, 2e-3), Err(OffsetError::TooClose { .. })));
+        assert!(matches!(Offset::of_points(&same, 2e-3), Err(Error::OffsetTooClose { .. })));
         let none = [([0.1, 0.2], [f64::NAN, 0.4]), ([0.5, 0.2], [0.3, 0.4])];
         assert!(Offset::of_points(&none, 2e-3).is_err());
     }

@@ -89,39 +89,3 @@ pub struct Cantilever {
     /// How it resists bending; it must.
     pub bending: Bending,
 }
-
-/// Why a strip has no solution here.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ElasticaError {
-    /// The ends are as far apart as the strip is long, or farther.
-    #[error(
-        "the strip is {length_mm:.6} mm long and its ends are {chord_mm:.6} mm apart: an inextensible strip hangs only with slack"
-    )]
-    Taut {
-        /// Length (mm).
-        length_mm: f64,
-        /// Distance of the ends (mm).
-        chord_mm: f64,
-    },
-    /// A slope is prescribed to a strip that does not resist bending, or a cantilever does not.
-    #[error("a strip that does not resist bending cannot be held at a slope")]
-    Limp,
-    /// The continuation from the flexible catenary came to no end.
-    #[error(
-        "no hanging solution was found: from the flexible catenary at 0 to this strip's stiffness and slopes at 1, the search came to {reached:.4}"
-    )]
-    NotFound {
-        /// Share of the way that was solved.
-        reached: f64,
-    },
-    /// Something is not finite, or has the wrong sign.
-    #[error("{what} is {value}; it must be {range}")]
-    Range {
-        /// What it is.
-        what: &'static str,
-        /// Its value (SI).
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
-}

@@ -12,7 +12,8 @@ use super::flexible::Flexible;
 use super::panels::{DEGREE, NODES, POINTS, Panels, RULE};
 use super::shape::Shape;
 use super::tuning::TUNING;
-use super::{Bending, Cantilever, ElasticaError, HeavyStrip};
+use super::{Bending, Cantilever, HeavyStrip};
+use crate::Error;
 use crate::catenary::EndCondition;
 
 /// Solution and problem of a strip of unit length and weight.
@@ -44,8 +45,9 @@ impl HeavyStrip {
     /// Finds how the strip hangs.
     ///
     /// # Errors
-    /// If it has no slack, if a number makes no sense, or if the continuation comes to no end.
-    pub fn solve(&self) -> Result<Shape, ElasticaError> {
+    /// [`Error::StripTaut`] without slack, [`Error::StripRange`] if a number makes no sense, [`Error::StripLimp`] if a slope is prescribed
+    /// without stiffness, [`Error::StripNotFound`] if the continuation comes to no end.
+    pub fn solve(&self) -> Result<Shape, Error> {
         let (length, chord) = (self.length, self.run.hypot(self.rise));
         positive("the run", self.run)?;
         positive("the length", length)?;
@@ -58,16 +60,16 @@ impl HeavyStrip {
         for value in slopes.into_iter().flatten().chain([self.rise]) {
             if !value.is_finite() {
                 let what = "the rise or a slope";
-                return Err(ElasticaError::Range { what, value, range: "finite" });
+                return Err(Error::StripRange { what, value, range: "finite" });
             }
         }
         if length - chord <= TUNING.slack * length {
             let [length_mm, chord_mm] = [length, chord].map(|x| x * 1e3);
-            return Err(ElasticaError::Taut { length_mm, chord_mm });
+            return Err(Error::StripTaut { length_mm, chord_mm });
         }
         let rigidity = self.bending.rigidity();
         if rigidity == 0.0 && slopes.iter().any(Option::is_some) {
-            return Err(ElasticaError::Limp);
+            return Err(Error::StripLimp);
         }
 
         // The flexible catenary, and panels that resolve it and the layers at its ends.
@@ -104,7 +106,7 @@ impl HeavyStrip {
         let end = match continued(start.clone(), goal) {
             // A curve has kinks, and along an all but flexible strip the bending at a free end runs through all of them: then a
             // strip of one rigidity leads to the strip's stiffness, and its law is bent to the curve there.
-            Err(ElasticaError::NotFound { .. }) if matches!(self.bending, Bending::Curve(_)) => {
+            Err(Error::StripNotFound { .. }) if matches!(self.bending, Bending::Curve(_)) => {
                 let straight = |share: f64| Goal { blend: (rigidity, 0.0), ..goal(share) };
                 let end = continued(start, straight)?;
                 continued(end, |share| Goal { blend: (rigidity, share), ..goal(1.0) })?
@@ -119,19 +121,20 @@ impl Cantilever {
     /// Finds how the strip hangs.
     ///
     /// # Errors
-    /// If a number makes no sense, or if the continuation comes to no end.
-    pub fn solve(&self) -> Result<Shape, ElasticaError> {
+    /// [`Error::StripRange`] if a number makes no sense, [`Error::StripLimp`] without stiffness, [`Error::StripNotFound`] if the continuation
+    /// comes to no end.
+    pub fn solve(&self) -> Result<Shape, Error> {
         positive("the length", self.length)?;
         positive("the weight per length", self.weight)?;
         sound(&self.bending)?;
         let below_upright = self.angle.abs() < std::f64::consts::FRAC_PI_2;
         if !below_upright {
             let (what, range) = ("the angle of the clamp", "less than a right angle");
-            return Err(ElasticaError::Range { what, value: self.angle, range });
+            return Err(Error::StripRange { what, value: self.angle, range });
         }
         let rigidity = self.bending.rigidity();
         if rigidity == 0.0 {
-            return Err(ElasticaError::Limp);
+            return Err(Error::StripLimp);
         }
 
         // From an all but straight strip to this one.
@@ -155,26 +158,26 @@ impl Cantilever {
     }
 }
 
-fn positive(what: &'static str, value: f64) -> Result<(), ElasticaError> {
+fn positive(what: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(ElasticaError::Range { what, value, range: "positive" })
+    Err(Error::StripRange { what, value, range: "positive" })
 }
 
-fn sound(bending: &Bending) -> Result<(), ElasticaError> {
+fn sound(bending: &Bending) -> Result<(), Error> {
     let (what, value) = ("the rigidity", bending.rigidity());
     let good = match bending {
         Bending::Rigidity(rigidity) => *rigidity >= 0.0 && rigidity.is_finite(),
         Bending::Curve(curve) => curve.is_sound(),
     };
     let range = "zero or more, and a curve of the moment must rise from zero";
-    if good { Ok(()) } else { Err(ElasticaError::Range { what, value, range }) }
+    if good { Ok(()) } else { Err(Error::StripRange { what, value, range }) }
 }
 
 /// Follows the solution from a start that all but solves `goal(0)` to `goal(1)`; steps are halved where Newton's method fails.
-fn continued<'a>(start: State, goal: impl Fn(f64) -> Goal<'a>) -> Result<State, ElasticaError> {
-    let mut state = goal(0.0).newton(&start).ok_or(ElasticaError::NotFound { reached: 0.0 })?;
+fn continued<'a>(start: State, goal: impl Fn(f64) -> Goal<'a>) -> Result<State, Error> {
+    let mut state = goal(0.0).newton(&start).ok_or(Error::StripNotFound { reached: 0.0 })?;
     let (mut reached, mut step) = (0.0, TUNING.steps[0]);
     while reached < 1.0 {
         let to = f64::min(reached + step, 1.0);
@@ -183,7 +186,7 @@ fn continued<'a>(start: State, goal: impl Fn(f64) -> Goal<'a>) -> Result<State, 
                 (state, reached) = (next, to);
                 step *= 2.0;
             }
-            None if step < TUNING.steps[1] => return Err(ElasticaError::NotFound { reached }),
+            None if step < TUNING.steps[1] => return Err(Error::StripNotFound { reached }),
             None => step *= 0.25,
         }
     }

@@ -1,6 +1,7 @@
 //! Against independent solutions (SciPy), closed forms, measured data and invariants.
 
 use super::*;
+use crate::Error;
 use crate::catenary::Span;
 
 const FREE: EndCondition = EndCondition::Free;
@@ -285,15 +286,15 @@ fn a_measured_law_hangs_between_free_ends() {
 #[test]
 fn what_cannot_hang_is_refused() {
     let refused = |strip: HeavyStrip| strip.solve().expect_err("no solution");
-    assert!(matches!(refused(strip(0.1, 0.0, 1e-5, [FREE, FREE])), ElasticaError::Taut { .. }));
+    assert!(matches!(refused(strip(0.1, 0.0, 1e-5, [FREE, FREE])), Error::StripTaut { .. }));
     let held = [EndCondition::Slope(0.1), FREE];
-    assert_eq!(refused(strip(0.09, 0.0, 0.0, held)), ElasticaError::Limp);
+    assert_eq!(refused(strip(0.09, 0.0, 0.0, held)), Error::StripLimp);
     assert!(matches!(
         refused(strip(0.09, 0.0, -1.0, [FREE, FREE])),
-        ElasticaError::Range { what: "the rigidity", .. }
+        Error::StripRange { what: "the rigidity", .. }
     ));
     assert!(matches!(
         refused(strip(f64::NAN, 0.0, 1e-5, [FREE, FREE])),
-        ElasticaError::Range { what: "the run", .. }
+        Error::StripRange { what: "the run", .. }
     ));
 }

@@ -16,6 +16,7 @@ mod step;
 
 use crate::Error;
 use crate::result::sheet::{KeptDrape, SheetKept};
+use plydrape::LayupError;
 use plydrape::bodies::Bodies;
 use plydrape::draping::curves;
 use plydrape::draping::record::CatenaryState;
@@ -23,7 +24,7 @@ use plydrape::errors::Errors;
 use plydrape::layup::{Model, Release, Settings, Target};
 use plydrape::measure::Limits;
 use plydrape::mold::Mold;
-use plydrape::motion::{Attitudes, MotionError, TimedMotion};
+use plydrape::motion::{Attitudes, TimedMotion};
 use plydrape::outcome::{Outcome, Step, Summary, attitudes};
 use plydrape::planner::{PlanRecord, Planned};
 use plydrape::ply::Ply;
@@ -249,8 +250,8 @@ impl ResultFile {
     /// one. Of a result that was read they are made once.
     ///
     /// # Errors
-    /// [`MotionError`] if plan and steps are none that a planner has written.
-    pub fn motion(&self) -> Result<Option<&Turned>, MotionError> {
+    /// Those of [`TimedMotion::recorded`] and [`Attitudes::new`] if plan and steps are none that a planner has written.
+    pub fn motion(&self) -> Result<Option<&Turned>, LayupError> {
         let Some(plan) = &self.plan else { return Ok(None) };
         if let Some(turned) = self.motion.get() {
             return Ok(Some(turned));

@@ -12,9 +12,8 @@ use super::source::Document;
 use super::usual;
 use crate::Error;
 use crate::store::shown::millimetres;
-use plydrape::ply::{
-    Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId, gripper_name,
-};
+use plydrape::LayupError;
+use plydrape::ply::{Cut, Direction, Grid, Held, Outline, Ring, gripper_name};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use std::path::Path;
@@ -129,23 +128,19 @@ fn outline(ply: &Located<PlyTable>, document: &Document, base: &Path) -> Result<
         });
     }
     Outline::new(boundary, holes).map_err(|error| {
-        let of = |ring: RingId| match ring {
-            RingId::Boundary => 0,
-            RingId::Hole(n) => n + 1,
-        };
-        let ring = match &error {
-            OutlineError::Crosses { a, b, .. } => of(*a).max(of(*b)),
-            OutlineError::HoleOutside { hole, .. } => hole + 1,
-            OutlineError::TooFew { ring, .. }
-            | OutlineError::NotFinite { ring, .. }
-            | OutlineError::Flat { ring } => of(*ring),
+        let ring = match error {
+            LayupError::OutlineCrosses { a, b, .. } => a.max(b),
+            LayupError::OutlineHoleOutside { ring, .. }
+            | LayupError::OutlineTooFew { ring, .. }
+            | LayupError::OutlineNotFinite { ring, .. }
+            | LayupError::OutlineFlat { ring } => ring,
             _ => 0,
         };
         let help = match &error {
-            OutlineError::Crosses { .. } => {
+            LayupError::OutlineCrosses { .. } => {
                 "give the points in order around the ply, each once; holes lie inside and apart"
             }
-            OutlineError::HoleOutside { .. } => {
+            LayupError::OutlineHoleOutside { .. } => {
                 "holes lie inside the boundary, apart from each other"
             }
             _ => "give three or more points in order around the ply",

@@ -6,10 +6,10 @@ use super::sheet;
 use super::source::Document;
 use crate::Error;
 use crate::store::size::PlanSheets;
-use plydrape::ModelError;
+use plydrape::Error as Cause;
 use plydrape::layup::{Layup, Model, Settings};
+use plydrape::outcome::check_model;
 use plydrape::ply::Ply;
-use plydrape::sheet::SheetError;
 use std::ops::Range;
 
 /// The models of a scene.
@@ -120,7 +120,7 @@ impl<'a> Models<'a> {
     pub fn check_built(&self, layup: &Layup) -> Result<(), Error> {
         let named = [Some(self.decides), self.also.map(|(model, _)| model)];
         for model in named.into_iter().flatten() {
-            if let Err(fault) = ModelError::check(layup, model) {
+            if let Err(fault) = check_model(layup, model) {
                 let pads = self.file.grippers.as_ref();
                 let pads = pads.and_then(|grippers| grippers.value.pad_radius.as_ref());
                 let span = pads.map_or(self.file.grippers_span(), |radius| &radius.span);
@@ -140,16 +140,16 @@ impl<'a> Models<'a> {
 }
 
 /// What helps where a model cannot be made.
-fn remedy(fault: &ModelError) -> &'static str {
+fn remedy(fault: &Cause) -> &'static str {
     match fault {
-        ModelError::NoCatenaries | ModelError::Mounts { .. } => "write kind = \"sheet\" in [model]",
-        ModelError::Sheet(SheetError::PadSmall { .. } | SheetError::PadPoint { .. }) => {
+        Cause::NoCatenaries | Cause::CatenariesMounts { .. } => "write kind = \"sheet\" in [model]",
+        Cause::SheetPadSmall { .. } | Cause::SheetPadPoint { .. } => {
             "give a larger `pad_radius` in [grippers], or a finer `mesh` in [sheet]"
         }
-        ModelError::Sheet(SheetError::PadOff { .. } | SheetError::Overhang { .. }) => {
+        Cause::SheetPadOff { .. } | Cause::SheetPadsOverhang { .. } => {
             "give a smaller `pad_radius` in [grippers], or more fabric around the grippers"
         }
-        ModelError::Sheet(_) => "mend that, or choose the other model by `kind` in [model]",
+        _ => "mend that, or choose the other model by `kind` in [model]",
     }
 }
 

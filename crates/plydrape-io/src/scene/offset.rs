@@ -160,9 +160,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
             };
             let (offset, residual) = Offset::of_points(&pairs, tolerance).map_err(|fault| {
                 let span = match fault {
-                    plydrape::pick_up::OffsetError::Distorted { point: n, .. } => {
-                        point[n].span.clone()
-                    }
+                    plydrape::Error::OffsetDistorted { point: n, .. } => point[n].span.clone(),
                     _ => first.span.clone(),
                 };
                 document.error(span, fault.to_string(), fault.remedy())

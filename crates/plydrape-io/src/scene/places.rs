@@ -9,7 +9,8 @@ use super::read;
 use super::source::Document;
 use super::units::Dimension;
 use crate::Error;
-use plydrape::ply::{Grid, GripperId, PlaceError, Ply, gripper_name};
+use plydrape::LayupError;
+use plydrape::ply::{Grid, GripperId, Ply, gripper_name};
 use std::ops::Range;
 use std::path::Path;
 
@@ -104,7 +105,7 @@ impl Places {
     /// Refuses what [`Ply::check_places`] does, neighbors (all but) straight above each other above all.
     pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), Error> {
         ply.check_places(&self.points).map_err(|fault| match fault {
-            PlaceError::Steep { a, b, run, length, .. } => self.error(
+            LayupError::GripperSteep { a, b, run, length, .. } => self.error(
                 ply.index(b).unwrap_or(0),
                 format!(
                     "grippers {} and {} are only {:.3} mm apart in plan {when}; the ply between them is {:.2} mm",
@@ -115,7 +116,7 @@ impl Places {
                 ),
                 "move them apart: a span needs a horizontal distance of 1 % of its fabric or more",
             ),
-            PlaceError::Far { gripper, position, .. } => self.error(
+            LayupError::GripperFar { gripper, position, .. } => self.error(
                 ply.index(gripper).unwrap_or(0),
                 format!(
                     "gripper {} is at {position:?} m {when}, out of all scale",

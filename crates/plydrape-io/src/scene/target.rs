@@ -7,9 +7,10 @@ use super::located::Located;
 use super::places::{Places, X, Y, Z, csv_file, point};
 use super::source::Document;
 use crate::Error;
+use plydrape::LayupError;
 use plydrape::layup::Target;
 use plydrape::mold::Mold;
-use plydrape::net::{CurveError, Free, Missing, Net, PlacementError, Reason, Seeds, Wanted};
+use plydrape::net::{Free, Missing, Net, Reason, Seeds, Wanted};
 use plydrape::ply::{Ply, gripper_name};
 use std::path::Path;
 use std::sync::Arc;
@@ -82,7 +83,7 @@ pub(super) fn net(
         Some(file) => Some(wanted(file, mold, mesh, document, base)?),
         None => None,
     };
-    let no_net = |error: PlacementError| no_net(keys, table, &error, document);
+    let no_net = |error: LayupError| no_net(keys, table, &error, document);
     let free = free(keys);
     let seeds = match free {
         Free { seed: false, heading: false } => None,
@@ -108,7 +109,7 @@ fn wanted(
         spans.push(row.span.clone());
     }
     Wanted::new(mold, &points, mesh).map_err(|fault| match fault {
-        CurveError::OffMold { point, .. } => document.error(
+        LayupError::BoundaryOffMold { point, .. } => document.error(
             spans[point].clone(),
             fault.to_string(),
             "give points of the mold in its place, and the unit in each header, as in `x (mm)`",
@@ -144,13 +145,13 @@ fn header(table: &Located<TargetTable>, document: &Document) -> std::ops::Range<
 fn no_net(
     keys: &TargetTable,
     table: &Located<TargetTable>,
-    error: &PlacementError,
+    error: &LayupError,
     document: &Document,
 ) -> Error {
     let shear = keys.shear.as_ref().map(|shear| &shear.span);
     let origin = keys.origin.as_ref().map(|origin| &origin.span);
     let (key, help) = match error {
-        PlacementError::Shear { .. } => (shear, "give a smaller `shear`; a ply locks long before"),
+        LayupError::NetShear { .. } => (shear, "give a smaller `shear`; a ply locks long before"),
         _ => (origin, "give another `origin`, where the mold faces upwards"),
     };
     let place = key.cloned().unwrap_or_else(|| header(table, document));

@@ -11,10 +11,11 @@ use crate::Error;
 use crate::result::{ResultFile, Turned};
 use crate::write::loads::{Load, Loads, Stiffness};
 use ::csv::Writer;
+use plydrape::LayupError;
 use plydrape::draping::record::CatenaryStep;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
-use plydrape::motion::{Attitudes, MotionError, TimedMotion};
+use plydrape::motion::{Attitudes, TimedMotion};
 use plydrape::outcome::Step;
 use plydrape::ply::{GripperId, Ply, gripper_name};
 use plydrape::sheet::Event;
@@ -131,7 +132,7 @@ fn sampled(
 ) -> Result<String, Error> {
     for found in [motion.grippers(), attitudes.grippers()] {
         if found != ply.grippers() {
-            return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
+            return Err(LayupError::MotionGrippers { found, expected: ply.grippers() }.into());
         }
     }
     for time in times(motion, rate, until)? {
@@ -150,11 +151,11 @@ pub(crate) fn written_times(
     result: &ResultFile,
     motion: &TimedMotion,
     rate: f64,
-) -> Result<Vec<f64>, MotionError> {
+) -> Result<Vec<f64>, LayupError> {
     times(motion, rate, release_after(result, motion.duration()))
 }
 
-fn times(motion: &TimedMotion, rate: f64, until: Option<f64>) -> Result<Vec<f64>, MotionError> {
+fn times(motion: &TimedMotion, rate: f64, until: Option<f64>) -> Result<Vec<f64>, LayupError> {
     let mut times = motion.samples(rate)?;
     if let Some(until) = until {
         // grippers stand while they press

@@ -1,8 +1,9 @@
 //! Timed motions against closed forms, finite differences of their samples, and what was planned.
 
 use crate::common::paper_ply;
+use plydrape::LayupError;
 use plydrape::geometry::vector::norm;
-use plydrape::motion::{Attitudes, Bounds, MotionError, TimedMotion};
+use plydrape::motion::{Attitudes, Bounds, TimedMotion};
 use plydrape_io::scene;
 use plydrape_io::write::csv;
 use proptest::prelude::*;
@@ -331,20 +332,20 @@ fn a_path_of_no_length_takes_no_time() {
 #[test]
 fn what_cannot_be_timed_is_refused_with_its_place() {
     let refused = |planned: &[Vec<Point>]| TimedMotion::new(planned, &BOUNDS).unwrap_err();
-    assert_eq!(refused(&[]), MotionError::Empty);
-    assert_eq!(refused(&[vec![], vec![]]), MotionError::Empty);
+    assert_eq!(refused(&[]), LayupError::MotionEmpty);
+    assert_eq!(refused(&[vec![], vec![]]), LayupError::MotionEmpty);
     let mut planned = straight(0.1, 4);
     planned[2].pop();
-    assert_eq!(refused(&planned), MotionError::Unequal { step: 3, found: 1, expected: 2 });
+    assert_eq!(refused(&planned), LayupError::MotionUnequal { step: 3, found: 1, expected: 2 });
     for strange in [f64::NAN, f64::INFINITY, -1e300] {
         let mut planned = straight(0.1, 4);
         planned[3][1][2] = strange;
-        assert!(matches!(refused(&planned), MotionError::Place { step: 4, gripper: 1, .. }));
+        assert!(matches!(refused(&planned), LayupError::MotionFar { step: 4, gripper: 1, .. }));
     }
     for strange in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e-300, 1e300] {
         let bounds = Bounds { jerk: strange, ..BOUNDS };
         let refused = TimedMotion::new(&straight(0.1, 4), &bounds).unwrap_err();
-        assert!(matches!(refused, MotionError::Limit { quantity: "jerk", .. }), "{refused}");
+        assert!(matches!(refused, LayupError::MotionLimit { quantity: "jerk", .. }), "{refused}");
     }
 }
 
@@ -359,10 +360,11 @@ fn samples_end_at_the_end_and_are_limited() {
     let whole = motion.samples(10.0 / motion.duration()).unwrap();
     assert_eq!(whole.len(), 11);
     for rate in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(motion.samples(rate), Err(MotionError::Rate { .. })));
+        assert!(matches!(motion.samples(rate), Err(LayupError::MotionRate { .. })));
     }
     for rate in [1e7, 1e300] {
-        let Err(MotionError::TooManySamples { largest_rate, .. }) = motion.samples(rate) else {
+        let Err(LayupError::MotionTooManySamples { largest_rate, .. }) = motion.samples(rate)
+        else {
             panic!("{rate} Hz")
         };
         assert!(motion.samples(0.999 * largest_rate).is_ok());
@@ -422,19 +424,22 @@ fn attitudes_are_unit_continuous_and_turn_steadily_between_steps() {
 fn attitudes_without_a_meaning_are_refused() {
     let level = vec![[0.0, 0.0, 0.0, 1.0]];
     let two = [level.clone(), level.clone()];
-    assert_eq!(Attitudes::new(&[], &[]), Err(MotionError::Empty));
+    assert_eq!(Attitudes::new(&[], &[]), Err(LayupError::MotionEmpty));
     for times in [&[0.0][..], &[0.0, 0.0], &[1.0, 0.0], &[0.0, f64::NAN], &[0.0, f64::INFINITY]] {
-        assert!(matches!(Attitudes::new(times, &two), Err(MotionError::Times { .. })), "{times:?}");
+        assert!(
+            matches!(Attitudes::new(times, &two), Err(LayupError::AttitudeTimes { .. })),
+            "{times:?}"
+        );
     }
     let unequal = [level.clone(), [level.clone(), level.clone()].concat()];
     assert!(matches!(
         Attitudes::new(&[0.0, 1.0], &unequal),
-        Err(MotionError::Unequal { step: 2, .. })
+        Err(LayupError::MotionUnequal { step: 2, .. })
     ));
     for strange in [0.0, f64::NAN, 3.0] {
         let strange = [level.clone(), vec![[0.0, 0.0, 0.0, strange]]];
         let refused = Attitudes::new(&[0.0, 1.0], &strange).unwrap_err();
-        assert!(matches!(refused, MotionError::Quaternion { step: 2, gripper: 0, .. }));
+        assert!(matches!(refused, LayupError::AttitudeQuaternion { step: 2, gripper: 0, .. }));
     }
 }
 
@@ -457,7 +462,7 @@ fn a_scene_follows_the_dense_table() {
 
     let other = paper_ply(4, 3);
     let refused = csv::motion(&motion, &attitudes, &other, 100.0);
-    let expected = MotionError::Grippers { found: ply.grippers(), expected: other.grippers() };
+    let expected = LayupError::MotionGrippers { found: ply.grippers(), expected: other.grippers() };
     assert_eq!(refused.unwrap_err().to_string(), expected.to_string());
 }
 

@@ -1,9 +1,10 @@
 //! The ideal drape against closed forms, printed figures, invariants and an independent solver.
 
 use crate::common::distance;
+use plydrape::LayupError;
 use plydrape::geometry::vector::dot;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
-use plydrape::net::{EdgeRule, Generators, Net, Placement, PlacementError, Reason};
+use plydrape::net::{EdgeRule, Generators, Net, Placement, Reason};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -606,20 +607,17 @@ fn layups_that_cannot_begin_say_why() {
     let mold = sphere(1.0);
     let refused = |layup: Placement| Net::drape(&mold, layup).expect_err("refused");
     let good = published();
-    assert!(matches!(refused(Placement { nodes: [0, 4], ..good }), PlacementError::NoNodes { .. }));
+    assert!(matches!(refused(Placement { nodes: [0, 4], ..good }), LayupError::NetNoNodes { .. }));
     assert!(matches!(
         refused(Placement { mesh: [0.1, 0.0], ..good }),
-        PlacementError::MeshWidth { .. }
+        LayupError::NetMeshWidth { .. }
     ));
-    assert!(matches!(
-        refused(Placement { seed: [24, 0], ..good }),
-        PlacementError::SeedNode { .. }
-    ));
-    assert!(matches!(refused(Placement { shear: 1.56, ..good }), PlacementError::Shear { .. }));
+    assert!(matches!(refused(Placement { seed: [24, 0], ..good }), LayupError::NetSeedNode { .. }));
+    assert!(matches!(refused(Placement { shear: 1.56, ..good }), LayupError::NetShear { .. }));
     let aside = Placement { place: [0.0, 0.0, 1.002], ..good };
     let words = refused(aside).to_string();
     assert_eq!(words, "the seed lies 2.000 mm off the mold: give a point of the mold");
-    assert_eq!(refused(Placement { place: [1.0, 0.0, 0.0], ..good }), PlacementError::Upright);
+    assert_eq!(refused(Placement { place: [1.0, 0.0, 0.0], ..good }), LayupError::NetUpright);
 }
 
 /// A ply of one yarn, or of one point, has places and no cells.

@@ -10,6 +10,7 @@
 //! and the m are the solution of a tridiagonal system.
 
 use super::height::{Height, Steepness};
+use crate::Error;
 
 /// A smooth surface through heights on a rectangular grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,43 +33,11 @@ struct Heights {
 }
 
 impl TryFrom<Heights> for HeightGrid {
-    type Error = HeightGridError;
+    type Error = Error;
 
-    fn try_from(Heights { x, y, z }: Heights) -> Result<Self, HeightGridError> {
+    fn try_from(Heights { x, y, z }: Heights) -> Result<Self, Error> {
         HeightGrid::new(x, y, z)
     }
-}
-
-/// Why heights are no grid.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum HeightGridError {
-    /// Fewer nodes than a cubic spline needs.
-    #[error("the grid has {nx} × {ny} nodes, and a smooth surface needs 4 × 4 or more")]
-    TooFew {
-        /// Nodes along x.
-        nx: usize,
-        /// Nodes along y.
-        ny: usize,
-    },
-    /// Not one height for every node.
-    #[error("{found} heights were given for {wanted} nodes")]
-    Count {
-        /// Heights that were given.
-        found: usize,
-        /// Nodes of the grid.
-        wanted: usize,
-    },
-    /// Places that do not ascend.
-    #[error("the places along an axis do not ascend from {before} m to {after} m")]
-    NotAscending {
-        /// A place (m).
-        before: f64,
-        /// The place behind it (m).
-        after: f64,
-    },
-    /// A number that is none.
-    #[error("a place or a height is not finite")]
-    NotFinite,
 }
 
 /// Fewest nodes of a spline.
@@ -79,21 +48,22 @@ impl HeightGrid {
     /// along x first.
     ///
     /// # Errors
-    /// If there are fewer than 4 × 4 nodes, not one height for each, or places that do not ascend.
-    pub fn new(x: Vec<f64>, y: Vec<f64>, z: Vec<f64>) -> Result<Self, HeightGridError> {
+    /// [`Error::HeightGridTooFew`] for fewer than 4 × 4 nodes, [`Error::HeightGridCount`] without one height for each,
+    /// [`Error::HeightGridNotFinite`], and [`Error::HeightGridNotAscending`] for places that do not ascend.
+    pub fn new(x: Vec<f64>, y: Vec<f64>, z: Vec<f64>) -> Result<Self, Error> {
         let (nx, ny) = (x.len(), y.len());
         if nx < FEWEST || ny < FEWEST {
-            return Err(HeightGridError::TooFew { nx, ny });
+            return Err(Error::HeightGridTooFew { nx, ny });
         }
         if z.len() != nx * ny {
-            return Err(HeightGridError::Count { found: z.len(), wanted: nx * ny });
+            return Err(Error::HeightGridCount { found: z.len(), wanted: nx * ny });
         }
         if x.iter().chain(&y).chain(&z).any(|value| !value.is_finite()) {
-            return Err(HeightGridError::NotFinite);
+            return Err(Error::HeightGridNotFinite);
         }
         for pair in x.windows(2).chain(y.windows(2)) {
             if pair[0] >= pair[1] {
-                return Err(HeightGridError::NotAscending { before: pair[0], after: pair[1] });
+                return Err(Error::HeightGridNotAscending { before: pair[0], after: pair[1] });
             }
         }
         let mut nodes: Vec<[f64; 4]> = z.iter().map(|z| [*z, 0.0, 0.0, 0.0]).collect();
@@ -358,12 +328,12 @@ mod tests {
         let new = HeightGrid::new;
         assert!(new(axis.clone(), axis.clone(), z.clone()).is_ok());
         let few = new(axis[..3].to_vec(), axis.clone(), vec![0.0; 12]);
-        assert_eq!(few, Err(HeightGridError::TooFew { nx: 3, ny: 4 }));
+        assert_eq!(few, Err(Error::HeightGridTooFew { nx: 3, ny: 4 }));
         let short = new(axis.clone(), axis.clone(), vec![0.0; 15]);
-        assert_eq!(short, Err(HeightGridError::Count { found: 15, wanted: 16 }));
+        assert_eq!(short, Err(Error::HeightGridCount { found: 15, wanted: 16 }));
         let back = new(vec![0.0, 2.0, 1.0, 3.0], axis.clone(), z.clone());
-        assert_eq!(back, Err(HeightGridError::NotAscending { before: 2.0, after: 1.0 }));
+        assert_eq!(back, Err(Error::HeightGridNotAscending { before: 2.0, after: 1.0 }));
         let hole = new(axis.clone(), axis, [&[f64::NAN], &z[1..]].concat());
-        assert_eq!(hole, Err(HeightGridError::NotFinite));
+        assert_eq!(hole, Err(Error::HeightGridNotFinite));
     }
 }

@@ -8,6 +8,7 @@
 //! steep along the mold than in plan.
 
 use super::raised::{Raise, Relief};
+use crate::Error;
 
 /// Steepest slope of the ramp at the edge of a ply, 1 in 20: our assumption, the taper that is usual for dropped plies. A single dry
 /// ply bridges farther by its own stiffness, which the sheet computes.
@@ -15,25 +16,6 @@ pub const STEEPEST: f64 = 0.05;
 
 /// Cells along the longer side of the grid by which a place in the region is found.
 const CELLS: usize = 64;
-
-/// Why a layer cannot be.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum LayerError {
-    /// No thickness.
-    #[error("a layer is {thickness_mm} mm thick: its thickness must be positive")]
-    Thickness {
-        /// What was given (mm).
-        thickness_mm: f64,
-    },
-    /// No region.
-    #[error(
-        "a layer has no region: {rings} rings, of three or more points with finite coordinates each"
-    )]
-    Region {
-        /// Rings that were given.
-        rings: usize,
-    },
-}
 
 /// A ply that lies on a mold.
 #[derive(Debug, Clone)]
@@ -89,15 +71,15 @@ impl Layer {
     /// A ply of a `thickness` (m) whose region in plan is bounded by rings (m), holes among them.
     ///
     /// # Errors
-    /// [`LayerError`] without a thickness or a region.
-    pub fn new(thickness: f64, rings: Vec<Vec<[f64; 2]>>) -> Result<Self, LayerError> {
+    /// [`Error::LayerThickness`] without a thickness, [`Error::LayerRegion`] without a region.
+    pub fn new(thickness: f64, rings: Vec<Vec<[f64; 2]>>) -> Result<Self, Error> {
         if !(thickness > 0.0 && thickness.is_finite()) {
-            return Err(LayerError::Thickness { thickness_mm: thickness * 1e3 });
+            return Err(Error::LayerThickness { thickness_mm: thickness * 1e3 });
         }
         let is_ring =
             |ring: &Vec<[f64; 2]>| ring.len() >= 3 && ring.iter().flatten().all(|c| c.is_finite());
         if rings.is_empty() || !rings.iter().all(is_ring) {
-            return Err(LayerError::Region { rings: rings.len() });
+            return Err(Error::LayerRegion { rings: rings.len() });
         }
         let width = ramp(thickness);
         let [low, high] = bounds(&rings);
@@ -535,10 +517,10 @@ mod tests {
     #[test]
     fn a_layer_without_thickness_or_region_is_refused() {
         let ring = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        assert!(matches!(Layer::new(0.0, vec![ring.clone()]), Err(LayerError::Thickness { .. })));
-        assert!(matches!(Layer::new(f64::NAN, vec![ring]), Err(LayerError::Thickness { .. })));
-        assert!(matches!(Layer::new(1e-3, Vec::new()), Err(LayerError::Region { rings: 0 })));
+        assert!(matches!(Layer::new(0.0, vec![ring.clone()]), Err(Error::LayerThickness { .. })));
+        assert!(matches!(Layer::new(f64::NAN, vec![ring]), Err(Error::LayerThickness { .. })));
+        assert!(matches!(Layer::new(1e-3, Vec::new()), Err(Error::LayerRegion { rings: 0 })));
         let short = vec![[0.0, 0.0], [1.0, 0.0]];
-        assert!(matches!(Layer::new(1e-3, vec![short]), Err(LayerError::Region { .. })));
+        assert!(matches!(Layer::new(1e-3, vec![short]), Err(Error::LayerRegion { .. })));
     }
 }

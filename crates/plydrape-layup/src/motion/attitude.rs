@@ -4,8 +4,8 @@
 //! `(sin((1 − x)Ω) a + sin(xΩ) b) / sin Ω` with `cos Ω = a · b` (Shoemake 1985). A quaternion and its negative
 //! turn alike; each step takes the sign that is nearer to the step before.
 
-use super::MotionError;
 use super::tuning::TUNING;
+use crate::Error;
 
 /// The orientation of every gripper over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,21 +20,22 @@ impl Attitudes {
     /// times (s).
     ///
     /// # Errors
-    /// [`MotionError`] if times and steps differ in number, times do not ascend, a step lacks grippers, or
-    /// a quaternion is not of about unit length.
-    pub fn new(times: &[f64], quaternions: &[Vec<[f64; 4]>]) -> Result<Self, MotionError> {
+    /// [`Error::MotionEmpty`] without a gripper, [`Error::AttitudeTimes`] if times and steps differ in number or times do not
+    /// ascend, [`Error::MotionUnequal`] if a step lacks grippers, [`Error::AttitudeQuaternion`] if a quaternion is not of about
+    /// unit length.
+    pub fn new(times: &[f64], quaternions: &[Vec<[f64; 4]>]) -> Result<Self, Error> {
         let grippers = quaternions.first().map_or(0, Vec::len);
         if grippers == 0 {
-            return Err(MotionError::Empty);
+            return Err(Error::MotionEmpty);
         }
         let ascend = times.windows(2).all(|pair| pair[0] < pair[1]);
         if times.len() != quaternions.len() || !ascend || !times.iter().all(|t| t.is_finite()) {
-            return Err(MotionError::Times { steps: quaternions.len(), times: times.len() });
+            return Err(Error::AttitudeTimes { steps: quaternions.len(), times: times.len() });
         }
         let mut steps: Vec<Vec<[f64; 4]>> = Vec::with_capacity(quaternions.len());
         for (k, step) in quaternions.iter().enumerate() {
             if step.len() != grippers {
-                return Err(MotionError::Unequal {
+                return Err(Error::MotionUnequal {
                     step: k + 1,
                     found: step.len(),
                     expected: grippers,
@@ -45,7 +46,7 @@ impl Attitudes {
                 let length = dot(quaternion, quaternion).sqrt();
                 if !(0.9..=1.1).contains(&length) {
                     let quaternion = *quaternion;
-                    return Err(MotionError::Quaternion { step: k + 1, gripper, quaternion });
+                    return Err(Error::AttitudeQuaternion { step: k + 1, gripper, quaternion });
                 }
                 let turned =
                     steps.last().is_some_and(|before| dot(&before[gripper], quaternion) < 0.0);

@@ -3,8 +3,9 @@
 use super::path::Vector;
 use super::spacing::farthest;
 use super::tuning::TUNING;
-use super::{Bounds, Motion, MotionError};
-use crate::ply::{FARTHEST, PlaceError, Ply, is_near};
+use super::{Bounds, Motion};
+use crate::Error;
+use crate::ply::{FARTHEST, Ply, is_near};
 
 /// Most steps of a motion.
 pub const MOST_STEPS: usize = 1_000_000;
@@ -19,16 +20,16 @@ impl Ply {
     /// Refuses a motion that has no step, times that do not ascend, or positions as [`Ply::check_places`] does.
     ///
     /// # Errors
-    /// [`PlaceError`]: the first fault, with its step.
-    pub fn check_motion(&self, motion: &Motion) -> Result<(), PlaceError> {
+    /// [`Error::StepCount`], [`Error::StepTime`], or that of [`Ply::check_places`]: the first fault, with its step.
+    pub fn check_motion(&self, motion: &Motion) -> Result<(), Error> {
         let (times, steps) = (motion.times.len(), motion.positions.len());
         if times != steps || times == 0 {
-            return Err(PlaceError::Steps { times, steps });
+            return Err(Error::StepCount { times, steps });
         }
         let mut before: Option<f64> = None;
         for (k, (&time, positions)) in motion.times.iter().zip(&motion.positions).enumerate() {
             if !time.is_finite() || before.is_some_and(|before| time <= before) {
-                return Err(PlaceError::Time { step: k + 1, time, before });
+                return Err(Error::StepTime { step: k + 1, time, before });
             }
             before = Some(time);
             self.check_places(positions).map_err(|fault| fault.at_step(k + 1))?;
@@ -38,31 +39,31 @@ impl Ply {
 }
 
 /// Refuses steps with different numbers of grippers, and positions that are not finite or too far away.
-pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), MotionError> {
+pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), Error> {
     let expected = planned.first().map_or(0, Vec::len);
     if expected == 0 {
-        return Err(MotionError::Empty);
+        return Err(Error::MotionEmpty);
     }
     for (k, step) in planned.iter().enumerate() {
         if step.len() != expected {
-            return Err(MotionError::Unequal { step: k + 1, found: step.len(), expected });
+            return Err(Error::MotionUnequal { step: k + 1, found: step.len(), expected });
         }
         let strange = step.iter().position(|place| !is_near(place));
         if let Some(gripper) = strange {
             let position = step[gripper];
-            return Err(MotionError::Place { step: k + 1, gripper, position, most: FARTHEST });
+            return Err(Error::MotionFar { step: k + 1, gripper, position, most: FARTHEST });
         }
     }
     Ok(())
 }
 
 /// Refuses bounds that are no numbers above zero.
-pub(super) fn bounds(bounds: &Bounds) -> Result<(), MotionError> {
+pub(super) fn bounds(bounds: &Bounds) -> Result<(), Error> {
     let Bounds { speed, acceleration, jerk } = *bounds;
     let [least, most] = RANGE;
     for (quantity, value) in [("speed", speed), ("acceleration", acceleration), ("jerk", jerk)] {
         if !(least..=most).contains(&value) {
-            return Err(MotionError::Limit { quantity, value, least, most });
+            return Err(Error::MotionLimit { quantity, value, least, most });
         }
     }
     Ok(())
@@ -90,16 +91,16 @@ pub(super) fn moving(planned: &[Vec<Vector>]) -> Vec<&[Vector]> {
 }
 
 /// Times (s) from 0 at a rate (Hz), the last exactly the duration.
-pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f64>, MotionError> {
+pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f64>, Error> {
     if !(rate > 0.0 && rate.is_finite()) {
-        return Err(MotionError::Rate { rate });
+        return Err(Error::MotionRate { rate });
     }
     let most = MOST_STEPS.min(MOST_POSITIONS / grippers);
     let whole = (rate * duration - TUNING.last_sample).ceil().max(0.0);
     if whole + 1.0 > most as f64 {
         let largest_rate = (most - 1) as f64 / duration;
         let samples = whole + 1.0;
-        return Err(MotionError::TooManySamples {
+        return Err(Error::MotionTooManySamples {
             rate,
             duration,
             grippers,

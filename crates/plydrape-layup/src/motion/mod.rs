@@ -12,7 +12,6 @@
 
 mod attitude;
 mod check;
-mod error;
 mod path;
 mod peaks;
 mod quickest;
@@ -25,12 +24,12 @@ pub mod tuning;
 pub use attitude::Attitudes;
 pub(crate) use attitude::{slerp, turn};
 pub use check::{MOST_POSITIONS, MOST_STEPS};
-pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
 pub use quickest::{Course, Limiting, Moving};
 pub use spacing::farthest;
 pub use steps::Motion;
 
+use crate::Error;
 use crate::geometry::vector::{norm, sub};
 use path::{Path, Vector};
 use time_law::{State, TimeLaw};
@@ -66,18 +65,18 @@ impl TimedMotion {
     /// before. One position, or none a nanometer from the first, gives a motion of duration 0 at the target.
     ///
     /// # Errors
-    /// [`MotionError`] if there is no position, a step lacks grippers, a coordinate is not a number up to
-    /// 10⁶ m, or a bound is none from 10⁻⁶ to 10⁹.
-    pub fn new(planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, MotionError> {
+    /// [`Error::MotionEmpty`] without a position, [`Error::MotionUnequal`] if a step lacks grippers, [`Error::MotionFar`] if a
+    /// coordinate is not a number up to 10⁶ m, [`Error::MotionLimit`] if a bound is none from 10⁻⁶ to 10⁹.
+    pub fn new(planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, Error> {
         check::positions(planned)?;
         check::bounds(bounds)?;
         let steps = check::moving(planned);
-        let [.., target] = steps[..] else { return Err(MotionError::Empty) };
+        let [.., target] = steps[..] else { return Err(Error::MotionEmpty) };
         if steps.len() == 1 {
             return Ok(Self::resting(target));
         }
 
-        let (path, law) = timing::fastest(&steps, bounds).ok_or(MotionError::Empty)?;
+        let (path, law) = timing::fastest(&steps, bounds).ok_or(Error::MotionEmpty)?;
         Ok(Self::timed(path, law))
     }
 
@@ -85,12 +84,12 @@ impl TimedMotion {
     /// of the time law, see [`Self::spacing`] and [`Self::law`].
     ///
     /// # Errors
-    /// Those of positions as [`Self::new`], and [`MotionError::Law`] if knots and rows are none of a motion of these positions.
+    /// Those of positions as [`Self::new`], and [`Error::MotionLaw`] if knots and rows are none of a motion of these positions.
     pub fn recorded(
         planned: &[Vec<[f64; 3]>],
         spacing: &[f64],
         law: &[[f64; 5]],
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, Error> {
         check::positions(planned)?;
         // a path that was corrected has a row for each knot, others may have steps that hardly move
         let steps = match planned.len() == spacing.len() + 1 {
@@ -102,10 +101,10 @@ impl TimedMotion {
         }
         let positive = spacing.iter().all(|h| *h > 0.0 && h.is_finite());
         if spacing.len() + 1 != steps.len() || steps.len() < 2 || !positive {
-            return Err(MotionError::Law);
+            return Err(Error::MotionLaw);
         }
         let path = Path::new(&steps, spacing);
-        let law = TimeLaw::of_rows(law, path.length()).ok_or(MotionError::Law)?;
+        let law = TimeLaw::of_rows(law, path.length()).ok_or(Error::MotionLaw)?;
         Ok(Self::timed(path, law))
     }
 
@@ -152,18 +151,18 @@ impl TimedMotion {
     /// as this motion keeps them.
     ///
     /// # Errors
-    /// [`MotionError`] if there are not as many positions as steps and grippers, a coordinate is not a number up to 10⁶ m, or a bound
-    /// is none from 10⁻⁶ to 10⁹.
-    pub fn moved(&self, planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, MotionError> {
+    /// Those of [`Self::new`], and [`Error::MotionSteps`] or [`Error::MotionGrippers`] if there are not as many positions as steps
+    /// and grippers.
+    pub fn moved(&self, planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, Error> {
         check::positions(planned)?;
         check::bounds(bounds)?;
         let (steps, found) = (self.times.len(), planned.len());
         if found != steps {
-            return Err(MotionError::Steps { found, expected: steps });
+            return Err(Error::MotionSteps { found, expected: steps });
         }
         if planned[0].len() != self.grippers() {
             let (found, expected) = (planned[0].len(), self.grippers());
-            return Err(MotionError::Grippers { found, expected });
+            return Err(Error::MotionGrippers { found, expected });
         }
         let Some(path) = &self.path else {
             return Ok(TimedMotion { positions: planned.to_vec(), ..self.clone() });
@@ -315,9 +314,9 @@ impl TimedMotion {
     /// Times (s) from 0 at a rate (Hz), the last exactly [`Self::duration`].
     ///
     /// # Errors
-    /// [`MotionError::Rate`] if the rate is no number above 0, [`MotionError::TooManySamples`] if a motion
+    /// [`Error::MotionRate`] if the rate is no number above 0, [`Error::MotionTooManySamples`] if a motion
     /// of so many steps would be larger than a scene's may be.
-    pub fn samples(&self, rate: f64) -> Result<Vec<f64>, MotionError> {
+    pub fn samples(&self, rate: f64) -> Result<Vec<f64>, Error> {
         check::samples(rate, self.duration(), self.grippers())
     }
 
@@ -326,7 +325,7 @@ impl TimedMotion {
     ///
     /// # Errors
     /// Those of [`Self::samples`].
-    pub fn standing_samples(&self, rate: f64, standing: f64) -> Result<Vec<f64>, MotionError> {
+    pub fn standing_samples(&self, rate: f64, standing: f64) -> Result<Vec<f64>, Error> {
         let times = check::samples(rate, standing, self.grippers())?;
         let between = times.get(1..times.len().saturating_sub(1)).unwrap_or_default();
         Ok(between.iter().map(|t| self.duration() + t).collect())
@@ -336,7 +335,7 @@ impl TimedMotion {
     ///
     /// # Errors
     /// Those of [`Self::samples`].
-    pub fn sampled(&self, rate: f64) -> Result<Motion, MotionError> {
+    pub fn sampled(&self, rate: f64) -> Result<Motion, Error> {
         let times = self.samples(rate)?;
         let positions = times.iter().map(|t| self.at(*t)).collect();
         Ok(Motion { times, positions })

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Error;
 use crate::geometry::vector::{distance, dot, norm};
 use crate::mold::{Cylinder, Face, Graph, Mesh, Plane, Pose, Saddle, Sphere, Surface};
 
@@ -252,10 +253,10 @@ fn trim_around_a_cylinder_is_measured_along_it() {
 fn a_wanted_boundary_lies_on_the_mold() {
     let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.1, 0.1, 0.02]];
     let refused = Wanted::new(&plane(), &corners, 0.01).unwrap_err();
-    assert_eq!(refused, CurveError::OffMold { point: 2, distance: 0.02 });
+    assert_eq!(refused, Error::BoundaryOffMold { point: 2, distance: 0.02 });
     assert_eq!(
         Wanted::new(&plane(), &corners[..2], 0.01).unwrap_err(),
-        CurveError::TooFew { points: 2 }
+        Error::BoundaryTooFew { points: 2 }
     );
     assert!(
         Wanted::new(&plane(), &corners, 0.03)

@@ -3,9 +3,10 @@
 use super::edge::EdgeRule;
 use super::meet::{Condition, meet};
 use super::missing::Reason;
-use super::placement::{Generators, Placement, PlacementError};
+use super::placement::{Generators, Placement};
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
+use crate::Error;
 use crate::geometry::vector::{along, cross, dot};
 
 /// A node counted from [0, 0], or beside the net.
@@ -23,7 +24,7 @@ pub(super) struct Build<'a> {
 
 impl Build<'_> {
     /// Places all nodes that can be.
-    pub fn run(&mut self) -> Result<(), PlacementError> {
+    pub fn run(&mut self) -> Result<(), Error> {
         let seed = self.placement.seed.map(|n| n as isize);
         let start = self.surface.under(self.placement.place);
         let directions = self.placement.directions(start.normal)?;

@@ -35,13 +35,14 @@ pub use boundary::{Boundary, Farthest, LeftOut, Line, PlyPoint};
 pub use coverage::Coverage;
 pub use edge::EdgeRule;
 pub use missing::{Missing, Reason};
-pub use placement::{Generators, Placement, PlacementError};
+pub use placement::{Generators, Placement};
 pub use report::Report;
 pub use seeds::{Choice, Free, Seeds};
 pub use sharp_edges::SharpEdges;
 pub use shear::CellShear;
-pub use trim::{CurveError, Trim, TrimPlace, Wanted};
+pub use trim::{Trim, TrimPlace, Wanted};
 
+use crate::Error;
 use crate::mold::Mold;
 use crate::ply::Outline;
 use build::Build;
@@ -73,20 +74,21 @@ impl Net {
     /// Drapes a ply on a mold that is all that the net covers. Nodes that find no place are [`Net::missing`], not an error.
     ///
     /// # Errors
-    /// [`PlacementError`] if no net can be begun.
-    pub fn drape(mold: &Mold, placement: Placement) -> Result<Self, PlacementError> {
+    /// Those of a placement with which no net can be begun: [`Error::NetNoNodes`], [`Error::NetMeshWidth`], [`Error::NetSeedNode`],
+    /// [`Error::NetSeedPlace`], [`Error::NetUpright`] or [`Error::NetShear`].
+    pub fn drape(mold: &Mold, placement: Placement) -> Result<Self, Error> {
         Net::drape_cut(mold, placement, None)
     }
 
     /// Drapes a ply that is cut, if it has an outline: only what is on the ply counts, see [`Coverage`].
     ///
     /// # Errors
-    /// [`PlacementError`] if no net can be begun.
+    /// Those of [`Net::drape`].
     pub fn drape_cut(
         mold: &Mold,
         placement: Placement,
         outline: Option<Outline>,
-    ) -> Result<Self, PlacementError> {
+    ) -> Result<Self, Error> {
         let coverage = Coverage::of(&placement, outline.as_ref());
         let net = Net::drape_covered(mold, placement, &coverage)?;
         Ok(Net { outline, ..net })
@@ -97,7 +99,7 @@ impl Net {
         mold: &Mold,
         placement: Placement,
         coverage: &Coverage,
-    ) -> Result<Self, PlacementError> {
+    ) -> Result<Self, Error> {
         placement.check(mold)?;
         let [nu, nv] = placement.nodes;
         let mut build = Build {

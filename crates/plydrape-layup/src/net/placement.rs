@@ -2,6 +2,7 @@
 
 use super::edge::EdgeRule;
 use super::tuning::TUNING;
+use crate::Error;
 use crate::geometry::vector::{along, cross, dot, unit};
 use crate::mold::Mold;
 
@@ -42,60 +43,6 @@ pub struct Placement {
     pub edges: EdgeRule,
 }
 
-/// Why no net can be begun.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum PlacementError {
-    /// No nodes in one direction.
-    #[error("a net of {nu} × {nv} nodes has none: both counts must be at least 1")]
-    NoNodes {
-        /// Nodes along u.
-        nu: usize,
-        /// Nodes along v.
-        nv: usize,
-    },
-    /// A mesh width that is no length.
-    #[error("the mesh widths are {du} m and {dv} m: both must be positive")]
-    MeshWidth {
-        /// Along u (m).
-        du: f64,
-        /// Along v (m).
-        dv: f64,
-    },
-    /// The seed is no node.
-    #[error("the seed node [{i}, {j}] is none of the {nu} × {nv} nodes, which count from [0, 0]")]
-    SeedNode {
-        /// Of the seed, along u.
-        i: usize,
-        /// Of the seed, along v.
-        j: usize,
-        /// Nodes along u.
-        nu: usize,
-        /// Nodes along v.
-        nv: usize,
-    },
-    /// The seed does not lie on the mold.
-    #[error("the seed lies {distance_mm:.3} mm off the mold: give a point of the mold")]
-    SeedPlace {
-        /// How far off (mm).
-        distance_mm: f64,
-    },
-    /// The mold is upright at the seed.
-    #[error(
-        "the mold is upright at the seed, where a heading in plan leads nowhere along it: seed it elsewhere"
-    )]
-    Upright,
-    /// A pre-shear that shuts the cells, or a heading that is none.
-    #[error(
-        "pre-shear {shear_deg:.2}° and heading {heading_deg:.2}°: the pre-shear must be within ±89°"
-    )]
-    Shear {
-        /// Pre-shear (degrees).
-        shear_deg: f64,
-        /// Heading (degrees).
-        heading_deg: f64,
-    },
-}
-
 #[cfg(feature = "serde")]
 /// Whether coordinates need not be written.
 fn is_zero(origin: &[f64; 2]) -> bool {
@@ -123,39 +70,39 @@ impl Placement {
     }
 
     /// Whether a net can be begun: sensible numbers, and a seed on the mold.
-    pub(super) fn check(&self, mold: &Mold) -> Result<(), PlacementError> {
+    pub(super) fn check(&self, mold: &Mold) -> Result<(), Error> {
         let ([nu, nv], [du, dv], [i, j]) = (self.nodes, self.mesh, self.seed);
         if nu == 0 || nv == 0 {
-            return Err(PlacementError::NoNodes { nu, nv });
+            return Err(Error::NetNoNodes { nu, nv });
         }
         if ![du, dv].iter().all(|d| d.is_finite() && *d > 0.0) {
-            return Err(PlacementError::MeshWidth { du, dv });
+            return Err(Error::NetMeshWidth { du, dv });
         }
         if i >= nu || j >= nv {
-            return Err(PlacementError::SeedNode { i, j, nu, nv });
+            return Err(Error::NetSeedNode { i, j, nu, nv });
         }
         if !self.heading.is_finite()
             || self.shear.is_nan()
             || self.shear.abs() > TUNING.largest_shear
         {
             let [shear_deg, heading_deg] = [self.shear, self.heading].map(f64::to_degrees);
-            return Err(PlacementError::Shear { shear_deg, heading_deg });
+            return Err(Error::NetShear { shear_deg, heading_deg });
         }
         let closest = mold.closest_point(self.place);
         if closest.beyond
             || closest.distance.is_nan()
             || closest.distance.abs() > TUNING.seed_distance * du.min(dv)
         {
-            return Err(PlacementError::SeedPlace { distance_mm: closest.distance.abs() * 1e3 });
+            return Err(Error::NetSeedPlace { distance_mm: closest.distance.abs() * 1e3 });
         }
         Ok(())
     }
 
     /// Unit tangents of u and v at the seed, where the mold has this unit normal.
-    pub(super) fn directions(&self, normal: [f64; 3]) -> Result<[[f64; 3]; 2], PlacementError> {
+    pub(super) fn directions(&self, normal: [f64; 3]) -> Result<[[f64; 3]; 2], Error> {
         let (sin, cos) = self.heading.sin_cos();
         if normal[2].abs() < TUNING.upright {
-            return Err(PlacementError::Upright);
+            return Err(Error::NetUpright);
         }
         // lifted straight up into the tangent plane
         let rise = -(cos * normal[0] + sin * normal[1]) / normal[2];

@@ -8,7 +8,8 @@
 use super::boundary::PlyPoint;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
-use super::{Coverage, Net, Placement, PlacementError};
+use super::{Coverage, Net, Placement};
+use crate::Error;
 use crate::geometry::vector::{along, cross, distance, dot, norm, sub, unit};
 use crate::mold::Mold;
 use crate::ply::Outline;
@@ -67,13 +68,13 @@ impl Seeds {
     /// cut. Where no choice keeps the held point in place, the placement itself is taken.
     ///
     /// # Errors
-    /// [`PlacementError`] if no net can be begun at the held point.
+    /// Those of [`Net::drape`] if no net can be begun at the held point.
     pub fn search(
         mold: &Mold,
         placement: Placement,
         outline: Option<&Outline>,
         free: Free,
-    ) -> Result<Self, PlacementError> {
+    ) -> Result<Self, Error> {
         placement.check(mold)?;
         let whole = || {
             Outline::rectangle(placement.origin, placement.fabric(placement.nodes.map(|n| n - 1)))

@@ -8,6 +8,7 @@ use super::boundary::{Boundary, Line, PlyPoint};
 use super::edge::EdgeRule;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
+use crate::Error;
 use crate::geometry::vector::{along, between, cross, distance, dot, norm, sub, unit};
 use crate::mold::Mold;
 
@@ -17,25 +18,6 @@ pub struct Wanted {
     points: Vec<SurfacePoint>,
     /// Largest distance of its given points from the mold (m).
     pub distance: f64,
-}
-
-/// Why points are no wanted boundary.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum CurveError {
-    /// Fewer than three points.
-    #[error("the wanted boundary has {points} different points: a closed line needs three or more")]
-    TooFew {
-        /// How many.
-        points: usize,
-    },
-    /// A point that is not on the mold.
-    #[error("point {} of the wanted boundary lies {:.3} mm off the mold", point + 1, distance * 1e3)]
-    OffMold {
-        /// Which, counted from 0.
-        point: usize,
-        /// How far (m).
-        distance: f64,
-    },
 }
 
 /// Where the ply ends beside its wanted boundary.
@@ -75,8 +57,8 @@ impl Wanted {
     /// over the mold. `mesh` is a mesh width of the net (m), the scale of all tolerances.
     ///
     /// # Errors
-    /// [`CurveError`] if there are fewer than three points, or one is not on the mold.
-    pub fn new(mold: &Mold, points: &[[f64; 3]], mesh: f64) -> Result<Self, CurveError> {
+    /// [`Error::BoundaryTooFew`] for fewer than three points, [`Error::BoundaryOffMold`] if one is not on the mold.
+    pub fn new(mold: &Mold, points: &[[f64; 3]], mesh: f64) -> Result<Self, Error> {
         let mut points: Vec<(usize, [f64; 3])> = points.iter().copied().enumerate().collect();
         let same = |a: [f64; 3], b: [f64; 3]| distance(a, b) <= TUNING.same_boundary_point * mesh;
         points.dedup_by(|b, a| same(a.1, b.1));
@@ -84,7 +66,7 @@ impl Wanted {
             points.pop();
         }
         if points.len() < 3 {
-            return Err(CurveError::TooFew { points: points.len() });
+            return Err(Error::BoundaryTooFew { points: points.len() });
         }
         let surface = ExtendedSurface::new(mold);
         let mut given = Vec::with_capacity(points.len());
@@ -94,7 +76,7 @@ impl Wanted {
             let away = distance(place, closest.point).max(closest.beyond);
             // what is no number is on no mold
             if away.is_nan() || away > TUNING.curve_distance * mesh {
-                return Err(CurveError::OffMold { point, distance: away });
+                return Err(Error::BoundaryOffMold { point, distance: away });
             }
             farthest = farthest.max(away);
             given.push(closest);

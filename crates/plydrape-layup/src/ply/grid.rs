@@ -1,7 +1,6 @@
-//! The names of grippers and of the catenaries between them.
+//! An array of grippers, and the names of the catenaries between them.
 
-/// A gripper by its grid indices `[i, j]`, from `[0, 0]`: i along u, j along v.
-pub type GripperId = [usize; 2];
+use super::GripperId;
 
 /// An array of `nu × nv` grippers; `nv = 1` is a single strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

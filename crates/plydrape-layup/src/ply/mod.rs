@@ -6,21 +6,20 @@ mod cut;
 mod flat;
 mod grid;
 mod lines;
-mod name;
 mod outline;
 mod places;
 mod ruck;
 pub mod shear;
 mod tuning;
 
+pub use crate::gripper::{GripperId, gripper_name, read_gripper_name};
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use cut::{Cut, Held, Neighbours, directions, orientations, tangent_shares, tangents};
 pub use flat::flat_axes;
-pub use grid::{Catenary, Grid, GripperId, Kind};
+pub use grid::{Catenary, Grid, Kind};
 pub use lines::{BiasLines, Fibres, FoundLines, LineCell, Lines};
-pub use name::{gripper_name, read_gripper_name};
-pub use outline::{Outline, OutlineError, Ring, RingId};
-pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
+pub use outline::{Outline, Ring};
+pub use places::{FARTHEST, STEEPEST, is_near};
 pub use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};

@@ -2,6 +2,8 @@
 //!
 //! A curved boundary is a polygon that follows it; what reads it says how closely. Places are fabric coordinates (m).
 
+use crate::Error;
+
 /// A closed polygon; its first point is not repeated at its end (m).
 pub type Ring = Vec<[f64; 2]>;
 
@@ -13,95 +15,22 @@ pub struct Outline {
     holes: Vec<Ring>,
 }
 
-/// Which ring of an outline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RingId {
-    /// Its boundary.
-    Boundary,
-    /// A hole, counted from 0.
-    Hole(usize),
-}
-
-impl std::fmt::Display for RingId {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            RingId::Boundary => write!(f, "the boundary"),
-            RingId::Hole(n) => write!(f, "hole {}", n + 1),
-        }
-    }
-}
-
-/// Why rings are no outline of a ply.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum OutlineError {
-    /// Fewer than three points.
-    #[error(
-        "{ring} has {points} different points: a closed line that bounds an area needs three or more"
-    )]
-    TooFew {
-        /// The ring.
-        ring: RingId,
-        /// Its points.
-        points: usize,
-    },
-    /// A coordinate that is no number.
-    #[error("{ring} has no finite number for point {point}, counted from 1")]
-    NotFinite {
-        /// The ring.
-        ring: RingId,
-        /// The point, counted from 1.
-        point: usize,
-    },
-    /// Two of its lines meet other than end to end.
-    #[error("{} at ({:.3}, {:.3}) mm", crossing(*.a, *.b), at[0] * 1e3, at[1] * 1e3)]
-    Crosses {
-        /// One ring.
-        a: RingId,
-        /// The other, or the same.
-        b: RingId,
-        /// Where (m).
-        at: [f64; 2],
-    },
-    /// No area to speak of.
-    #[error("{ring} bounds no area")]
-    Flat {
-        /// The ring.
-        ring: RingId,
-    },
-    /// A hole that is not in the ply.
-    #[error("hole {} at ({:.3}, {:.3}) mm is not inside the boundary, or lies inside another hole", hole + 1, at[0] * 1e3, at[1] * 1e3)]
-    HoleOutside {
-        /// The hole, counted from 0.
-        hole: usize,
-        /// A point of it (m).
-        at: [f64; 2],
-    },
-}
-
-fn crossing(a: RingId, b: RingId) -> String {
-    if a == b {
-        format!("{a} crosses or touches itself")
-    } else {
-        format!("{a} and {b} cross or touch")
-    }
-}
-
 impl Outline {
     /// An outline from its boundary and its holes, each in either sense (m).
     ///
     /// # Errors
-    /// [`OutlineError`] for rings that cross, bound nothing, or holes that are not in the ply.
-    pub fn new(boundary: Ring, holes: Vec<Ring>) -> Result<Self, OutlineError> {
+    /// [`Error::OutlineNotFinite`], [`Error::OutlineTooFew`] or [`Error::OutlineFlat`] for a ring that bounds nothing,
+    /// [`Error::OutlineCrosses`] for rings that cross, [`Error::OutlineHoleOutside`] for a hole that is not in the ply.
+    pub fn new(boundary: Ring, holes: Vec<Ring>) -> Result<Self, Error> {
         let rings = std::iter::once(boundary).chain(holes).enumerate();
         let mut rings: Vec<Ring> =
-            rings.map(|(n, ring)| checked(ring, id(n))).collect::<Result<_, _>>()?;
+            rings.map(|(n, ring)| checked(ring, n)).collect::<Result<_, _>>()?;
         check_crossings(&rings)?;
         for (n, ring) in rings.iter().enumerate() {
             let [low, high] = bounds(ring);
             let size = (high[0] - low[0]).max(high[1] - low[1]);
             if area(ring).abs() <= 1e-9 * size * size {
-                return Err(OutlineError::Flat { ring: id(n) });
+                return Err(Error::OutlineFlat { ring: n });
             }
         }
         let holes = rings.split_off(1);
@@ -110,7 +39,7 @@ impl Outline {
             let others = holes.iter().enumerate().filter(|(other, _)| *other != hole);
             let apart = others.into_iter().all(|(_, other)| !is_inside(other, ring[0]));
             if !is_inside(&boundary, ring[0]) || !apart {
-                return Err(OutlineError::HoleOutside { hole, at: ring[0] });
+                return Err(Error::OutlineHoleOutside { ring: hole + 1, at: ring[0] });
             }
         }
         let wound = |ring: Ring, sense: f64| {
@@ -125,8 +54,8 @@ impl Outline {
     /// A rectangle between two of its corners (m).
     ///
     /// # Errors
-    /// [`OutlineError`] if it bounds nothing.
-    pub fn rectangle([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Result<Self, OutlineError> {
+    /// Those of [`Outline::new`] if it bounds nothing.
+    pub fn rectangle([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Result<Self, Error> {
         Outline::new(vec![[a, b], [c, b], [c, d], [a, d]], Vec::new())
     }
 
@@ -319,10 +248,10 @@ fn clip(ring: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Ring {
     out
 }
 
-/// A ring of different points.
-fn checked(mut ring: Ring, id: RingId) -> Result<Ring, OutlineError> {
+/// The n-th ring, with different points.
+fn checked(mut ring: Ring, n: usize) -> Result<Ring, Error> {
     if let Some(point) = ring.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
-        return Err(OutlineError::NotFinite { ring: id, point: point + 1 });
+        return Err(Error::OutlineNotFinite { ring: n, point: point + 1 });
     }
     let [low, high] = bounds(&ring);
     let size = (high[0] - low[0]).max(high[1] - low[1]);
@@ -332,13 +261,13 @@ fn checked(mut ring: Ring, id: RingId) -> Result<Ring, OutlineError> {
         ring.pop();
     }
     if ring.len() < 3 {
-        return Err(OutlineError::TooFew { ring: id, points: ring.len() });
+        return Err(Error::OutlineTooFew { ring: n, points: ring.len() });
     }
     Ok(ring)
 }
 
 /// Refuses lines that meet other than end to end; lines are taken in the order of their lowest x.
-fn check_crossings(rings: &[Ring]) -> Result<(), OutlineError> {
+fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
     struct Line {
         ring: usize,
         place: usize,
@@ -361,17 +290,12 @@ fn check_crossings(rings: &[Ring]) -> Result<(), OutlineError> {
             let neighbours = a.ring == b.ring && (next(a.place, b.place) || next(b.place, a.place));
             let met = if neighbours { folded_back(a.ends, b.ends) } else { meet(a.ends, b.ends) };
             if let Some(at) = met {
-                let [first, second] = [a.ring.min(b.ring), a.ring.max(b.ring)].map(id);
-                return Err(OutlineError::Crosses { a: first, b: second, at });
+                let (first, second) = (a.ring.min(b.ring), a.ring.max(b.ring));
+                return Err(Error::OutlineCrosses { a: first, b: second, at });
             }
         }
     }
     Ok(())
-}
-
-/// The ring at a place of the boundary and the holes after it.
-fn id(ring: usize) -> RingId {
-    ring.checked_sub(1).map_or(RingId::Boundary, RingId::Hole)
 }
 
 /// Where two lines that share no end meet or touch; none where they do not.

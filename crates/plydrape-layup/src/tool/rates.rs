@@ -1,8 +1,9 @@
 //! How fast a tool turns and its axes move, as the motion is written: between its samples.
 
 use super::{Posture, Tool};
+use crate::Error;
 use crate::geometry::vector::{cross, dot, norm, sub};
-use crate::motion::{MotionError, Peak, TimedMotion};
+use crate::motion::{Peak, TimedMotion};
 use rayon::prelude::*;
 
 /// The largest rates of a tool.
@@ -32,8 +33,8 @@ impl Tool {
     /// The largest rates along a motion between its samples at a rate (Hz), which begins and ends at rest.
     ///
     /// # Errors
-    /// [`MotionError`] if there would be too many samples.
-    pub fn peaks(&self, motion: &TimedMotion, rate: f64) -> Result<ToolPeaks, MotionError> {
+    /// Those of [`TimedMotion::samples`].
+    pub fn peaks(&self, motion: &TimedMotion, rate: f64) -> Result<ToolPeaks, Error> {
         // as many samples as at that rate, evenly: the last pair of a motion may be as short as rounding
         let count = motion.samples(rate)?.len();
         let last = count.saturating_sub(1).max(1) as f64;

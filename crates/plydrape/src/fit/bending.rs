@@ -1,7 +1,8 @@
 //! Rigidities and curves of the moment from strips that hang over an edge, and from bending tests.
 
+use super::positive;
 use super::statistics::{Estimate, Sure, between, mean_and_deviation, rising};
-use super::{FitError, positive};
+use crate::Error;
 use crate::elastica::{Bending, Cantilever, Shape};
 use crate::material::MomentCurve;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
@@ -11,11 +12,11 @@ use nalgebra::{DMatrix, DVector, Dyn, Owned, Vector2};
 /// eq. (21a) of `docs/theory/fit.md`: B = f(ϑ) w L³. At 41.5° f is 0.12493, the 1/8 of the standards.
 ///
 /// # Errors
-/// If the angle is not between 1 and 89°.
-pub fn rigidity_of_overhang(overhang: f64, weight: f64, angle: f64) -> Result<f64, FitError> {
+/// [`Error::FitRange`] if the angle is not between 1 and 89°; [`Error::FitNoStrip`] if no strip hangs so.
+pub fn rigidity_of_overhang(overhang: f64, weight: f64, angle: f64) -> Result<f64, Error> {
     if !(ANGLES[0]..=ANGLES[1]).contains(&angle) {
         let (what, range) = ("the angle of the chord", "from 1 to 89 degrees");
-        return Err(FitError::Range { what, value: angle, unit: "rad", range });
+        return Err(Error::FitRange { what, value: angle, unit: "rad", range });
     }
     let chord = |factor: f64| {
         let bending = Bending::Rigidity(factor);
@@ -36,7 +37,7 @@ pub fn rigidity_of_overhang(overhang: f64, weight: f64, angle: f64) -> Result<f6
         }
     }
     let reason = "no heavy strip has this chord".to_string();
-    Err(FitError::NoFit { what: "the overhang".into(), reason })
+    Err(Error::FitNoStrip { what: "the overhang".into(), reason })
 }
 
 /// Peirce's factor of w L³ (1930), cos(ϑ/2)/(8 tan ϑ).
@@ -60,14 +61,14 @@ impl Overhang {
     /// Rigidity per width (N·m) from the overhangs of specimens (m).
     ///
     /// # Errors
-    /// If there is none, or one is not positive.
-    pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, FitError> {
+    /// [`Error::FitTooFew`] if there is none, [`Error::FitRange`] if one is not positive.
+    pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, Error> {
         positive("the weight per area", self.weight, "N/m^2")?;
         for overhang in overhangs {
             positive("an overhang", *overhang, "m")?;
         }
         if overhangs.is_empty() {
-            return Err(FitError::Few { what: "the test".into(), found: 0, wanted: 1 });
+            return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
         }
         let unit = rigidity_of_overhang(1.0, self.weight, self.angle)?;
         let rigidities: Vec<f64> = overhangs.iter().map(|l| unit * l.powi(3)).collect();
@@ -165,16 +166,16 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
 }
 
 /// Rigidity per width (N·m) and the angle at the edge (rad) of one strip, with standard errors from the residuals.
-fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], FitError> {
+fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
     positive("the length of the overhang", hang.length, "m")?;
     positive("the weight per area", hang.weight, "N/m^2")?;
-    let few = |found| FitError::Few { what: name.to_string(), found, wanted: FEWEST };
+    let few = |found| Error::FitTooFew { what: name.to_string(), found, wanted: FEWEST };
     // points at the edge say nothing: every strip goes through it
     let far = hang.points.iter().filter(|[x, z]| x.hypot(*z) > 0.02 * hang.length).count();
     if far < FEWEST {
         return Err(few(far));
     }
-    let no_fit = |reason: String| FitError::NoFit { what: name.to_string(), reason };
+    let no_fit = |reason: String| Error::FitNoStrip { what: name.to_string(), reason };
     let reach = hang.points.iter().map(|[x, z]| x.hypot(*z)).fold(0.0, f64::max);
     if reach > 1.05 * hang.length {
         return Err(no_fit(format!(
@@ -219,12 +220,12 @@ fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], FitError> {
 /// beside it each strip's rigidity and angle at the edge.
 ///
 /// # Errors
-/// If a strip has too few points, or none of the law goes through them.
-pub fn fit_hang(strips: &[(String, Hang)]) -> Result<(Estimate, Vec<[Estimate; 2]>), FitError> {
+/// [`Error::FitTooFew`] if a strip has too few points, [`Error::FitNoStrip`] if none of the law goes through them.
+pub fn fit_hang(strips: &[(String, Hang)]) -> Result<(Estimate, Vec<[Estimate; 2]>), Error> {
     let each: Result<Vec<_>, _> = strips.iter().map(|(name, hang)| fit_one(hang, name)).collect();
     let each = each?;
     let whole = match each.as_slice() {
-        [] => return Err(FitError::Few { what: "the test".into(), found: 0, wanted: 1 }),
+        [] => return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 }),
         [[rigidity, _]] => *rigidity,
         many => {
             let values: Vec<f64> = many.iter().map(|[rigidity, _]| rigidity.value).collect();
@@ -241,10 +242,10 @@ const INTERVALS: usize = 10;
 /// unloading; the mean of both sides and both ways, never falling. Beside it the scatter between specimens.
 ///
 /// # Errors
-/// If a specimen has too few points, or its moment does not rise.
+/// [`Error::FitTooFew`] if a specimen has too few points, [`Error::FitNoStrip`] if its moment does not rise.
 pub fn fit_moments(
     specimens: &[(String, Vec<[f64; 2]>)],
-) -> Result<(MomentCurve, Option<f64>), FitError> {
+) -> Result<(MomentCurve, Option<f64>), Error> {
     let mut curves: Vec<Vec<[f64; 2]>> = Vec::new();
     for (name, points) in specimens {
         // M sign(κ): hysteresis, which is as far above as below, goes out in the mean
@@ -254,14 +255,14 @@ pub fn fit_moments(
         folded.sort_by(|a, b| a[0].total_cmp(&b[0]));
         if folded.len() < 3 {
             let found = folded.len();
-            return Err(FitError::Few { what: name.clone(), found, wanted: 3 });
+            return Err(Error::FitTooFew { what: name.clone(), found, wanted: 3 });
         }
         curves.push(folded);
     }
     let last = |curve: &Vec<[f64; 2]>| curve.last().map_or(0.0, |point| point[0]);
     let reach = curves.iter().map(last).fold(f64::INFINITY, f64::min);
     if curves.is_empty() {
-        return Err(FitError::Few { what: "the test".into(), found: 0, wanted: 1 });
+        return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
     }
     // means of curvature and moment in each interval, one curve a specimen
     let of = |curve: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
@@ -305,7 +306,7 @@ pub fn fit_moments(
     let curve = MomentCurve { curvature, moment };
     if !curve.is_sound() {
         let reason = "the moment does not rise with the curvature".to_string();
-        return Err(FitError::NoFit { what: "the bending test".into(), reason });
+        return Err(Error::FitNoStrip { what: "the bending test".into(), reason });
     }
     let shares: Option<Vec<f64>> = rows
         .iter()

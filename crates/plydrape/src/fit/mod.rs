@@ -14,44 +14,11 @@ pub use bending::{Hang, Overhang, fit_hang, fit_moments, rigidity_of_overhang};
 pub use shear::{BiasExtension, PictureFrame, ShearFit, ShearTest};
 pub use statistics::{Estimate, Sure};
 
-/// Why a law cannot be had from a test.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FitError {
-    /// Too few points.
-    #[error("{what} has {found} points; {wanted} are wanted")]
-    Few {
-        /// What.
-        what: String,
-        /// How many it has.
-        found: usize,
-        /// How many it needs.
-        wanted: usize,
-    },
-    /// A number that makes no sense.
-    #[error("{what} is {value} {unit}; it must be {range}")]
-    Range {
-        /// What it is.
-        what: &'static str,
-        /// Its value (SI).
-        value: f64,
-        /// The unit of the value.
-        unit: &'static str,
-        /// What it may be.
-        range: &'static str,
-    },
-    /// The points lie on no curve of the law.
-    #[error("the points of {what} fit no heavy strip: {reason}")]
-    NoFit {
-        /// Which specimen.
-        what: String,
-        /// Why.
-        reason: String,
-    },
-}
+use crate::Error;
 
-fn positive(what: &'static str, value: f64, unit: &'static str) -> Result<(), FitError> {
+fn positive(what: &'static str, value: f64, unit: &'static str) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(FitError::Range { what, value, unit, range: "positive" })
+    Err(Error::FitRange { what, value, unit, range: "positive" })
 }

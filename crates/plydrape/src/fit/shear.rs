@@ -4,8 +4,9 @@
 //! the shear angle; the normalized force along the sides of Cao et al. 2008 (Composites Part A 39:1037) is τ/cos γ, and with it the
 //! formula here is theirs for the bias extension.
 
+use super::positive;
 use super::statistics::{between, mean_and_deviation, rising};
-use super::{FitError, positive};
+use crate::Error;
 use crate::material::ShearCurve;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, SQRT_2};
@@ -69,8 +70,8 @@ impl ShearTest {
     /// Checks the specimen's measures.
     ///
     /// # Errors
-    /// If one is not positive, or a bias specimen is shorter than two widths.
-    pub fn check(&self) -> Result<(), FitError> {
+    /// [`Error::FitRange`] if one is not positive, or a bias specimen is shorter than two widths.
+    pub fn check(&self) -> Result<(), Error> {
         match self {
             ShearTest::Bias(BiasExtension { width, length }) => {
                 positive("the width", *width, "m")?;
@@ -82,7 +83,7 @@ impl ShearTest {
                     "the length",
                     "two widths or more: shorter strips have no middle that shears alone",
                 );
-                Err(FitError::Range { what, value: *length, unit: "m", range })
+                Err(Error::FitRange { what, value: *length, unit: "m", range })
             }
             ShearTest::Frame(PictureFrame { side, fabric }) => {
                 positive("the side", *side, "m")?;
@@ -91,7 +92,7 @@ impl ShearTest {
                     return Ok(());
                 }
                 let (what, range) = ("the side of the fabric", "at most that of the frame");
-                Err(FitError::Range { what, value: *fabric, unit: "m", range })
+                Err(Error::FitRange { what, value: *fabric, unit: "m", range })
             }
         }
     }
@@ -114,8 +115,8 @@ impl ShearTest {
     /// The curve τ(γ) of one specimen's points (displacement in m, force in N): angles (rad) ascending from 0, forces (N/m).
     ///
     /// # Errors
-    /// If measures make no sense or fewer than three points have an angle above zero.
-    pub fn curve(&self, points: &[[f64; 2]]) -> Result<[Vec<f64>; 2], FitError> {
+    /// Those of [`Self::check`], and [`Error::FitTooFew`] if fewer than three points have an angle above zero.
+    pub fn curve(&self, points: &[[f64; 2]]) -> Result<[Vec<f64>; 2], Error> {
         self.check()?;
         let mut known: Vec<[f64; 2]> = points
             .iter()
@@ -126,7 +127,7 @@ impl ShearTest {
         known.dedup_by(|b, a| b[0] - a[0] < 1e-12);
         if known.len() < 3 {
             let what = "the test, between no shear and 65 deg,".to_string();
-            return Err(FitError::Few { what, found: known.len(), wanted: 3 });
+            return Err(Error::FitTooFew { what, found: known.len(), wanted: 3 });
         }
         let (mut angles, mut forces) = (vec![0.0], vec![0.0]);
         for [angle, force] in known {
@@ -158,8 +159,8 @@ impl ShearTest {
     /// The law of all specimens.
     ///
     /// # Errors
-    /// As [`ShearTest::curve`], or if the specimens share less than 10° of shear.
-    pub fn fit(&self, specimens: &[Vec<[f64; 2]>]) -> Result<ShearFit, FitError> {
+    /// Those of [`ShearTest::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
+    pub fn fit(&self, specimens: &[Vec<[f64; 2]>]) -> Result<ShearFit, Error> {
         let curves: Result<Vec<_>, _> = specimens.iter().map(|points| self.curve(points)).collect();
         let curves = curves?;
         let reach = |[angles, _]: &[Vec<f64>; 2]| angles.last().copied().unwrap_or(0.0);
@@ -167,7 +168,7 @@ impl ShearTest {
         let whole = (shared / SPACING + 1e-9).floor() as usize;
         if whole < 2 || curves.is_empty() {
             let what = "the shear that all specimens reach, in points every 5 deg,".to_string();
-            return Err(FitError::Few { what, found: whole.min(100), wanted: 2 });
+            return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
         }
         let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();
         if shared > angle[whole] + 0.2 * SPACING {

@@ -1,6 +1,7 @@
 //! Against synthetic specimens of known laws, published figures and the statistics of many of them.
 
 use super::*;
+use crate::Error;
 use crate::elastica::{Bending, Cantilever};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -148,15 +149,15 @@ fn a_loop_with_hysteresis_gives_the_law_in_its_middle() {
 #[test]
 fn tests_that_say_nothing_are_refused() {
     let short = ShearTest::Bias(BiasExtension { width: 0.1, length: 0.15 });
-    assert!(matches!(short.check(), Err(FitError::Range { what: "the length", .. })));
+    assert!(matches!(short.check(), Err(Error::FitRange { what: "the length", .. })));
     let test = ShearTest::Frame(PictureFrame { side: 0.2, fabric: 0.2 });
-    assert!(matches!(test.fit(&[vec![[0.001, 1.0]]]), Err(FitError::Few { .. })));
+    assert!(matches!(test.fit(&[vec![[0.001, 1.0]]]), Err(Error::FitTooFew { .. })));
     let mut strip = seen(1e-3, 0.0, 1);
     strip.points.truncate(3);
-    assert!(matches!(fit_hang(&[("a".into(), strip)]), Err(FitError::Few { .. })));
+    assert!(matches!(fit_hang(&[("a".into(), strip)]), Err(Error::FitTooFew { .. })));
     let mut strip = seen(1e-3, 0.0, 1);
     strip.length = 0.05;
-    assert!(matches!(fit_hang(&[("a".into(), strip)]), Err(FitError::NoFit { .. })));
+    assert!(matches!(fit_hang(&[("a".into(), strip)]), Err(Error::FitNoStrip { .. })));
     let falling = (1..20).map(|n| [f64::from(n), -f64::from(n)]).collect();
-    assert!(matches!(fit_moments(&[("a".into(), falling)]), Err(FitError::NoFit { .. })));
+    assert!(matches!(fit_moments(&[("a".into(), falling)]), Err(Error::FitNoStrip { .. })));
 }

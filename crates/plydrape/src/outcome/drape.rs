@@ -1,7 +1,8 @@
 //! One drape by one model: the motion is followed, every step is measured and recorded, and the end is judged.
 
 use super::recorder::Recorder;
-use super::{ModelError, Status, Step, Summary};
+use super::{Status, Step, Summary, check_catenaries};
+use crate::Error;
 use crate::draping::spans::Shape;
 use crate::draping::{self, Draping, Follow};
 use crate::layup::{Layup, Model};
@@ -95,9 +96,9 @@ pub struct DrapeWatch<'a> {
 /// cells.
 ///
 /// # Errors
-/// [`ModelError`] if the scene lacks what the model needs.
-pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, ModelError> {
-    ModelError::check_catenaries(&scene.layup, model)?;
+/// Those of [`super::check_model`] if the scene lacks what the model needs.
+pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, Error> {
+    check_catenaries(&scene.layup, model)?;
     let (carried, tool) = scene.layup.carried();
     let mut recorder = Recorder::new(&carried, &scene.limits);
     let (mut summary, steps, sheet, solving) = match model {
@@ -155,7 +156,7 @@ fn drape_sheet(
     limits: &Limits,
     recorder: &mut Recorder,
     watch: &mut DrapeWatch,
-) -> Result<sheet::Drape, ModelError> {
+) -> Result<sheet::Drape, Error> {
     let (mut hand_over, low) = (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
     let mut ended = false;
     let DrapeWatch { stop, see } = watch;
@@ -176,13 +177,13 @@ fn drape_sheet(
 /// taken more than `most_equilibria`.
 ///
 /// # Errors
-/// [`ModelError`] if the layup lacks what the model of its settings needs.
+/// Those of [`super::check_model`] if the layup lacks what the model of its settings needs.
 pub fn judge(
     layup: &Layup,
     limits: &Limits,
     most_equilibria: usize,
     stop: &dyn Fn() -> bool,
-) -> Result<Judged, ModelError> {
+) -> Result<Judged, Error> {
     judge_seen(layup, limits, most_equilibria, stop).map(|(judged, _)| judged)
 }
 
@@ -192,8 +193,8 @@ pub(super) fn judge_seen(
     limits: &Limits,
     most_equilibria: usize,
     stop: &dyn Fn() -> bool,
-) -> Result<(Judged, Option<sheet::Drape>), ModelError> {
-    ModelError::check_catenaries(layup, layup.settings.model)?;
+) -> Result<(Judged, Option<sheet::Drape>), Error> {
+    check_catenaries(layup, layup.settings.model)?;
     let (carried, _) = layup.carried();
     let layup = &*carried;
     let planned = layup.motion.positions.len();

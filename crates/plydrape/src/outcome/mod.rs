@@ -8,8 +8,8 @@
 //! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
 //! 3. `sample`, `robustness`: the verdict over cells with the errors of the scene.
 
+mod check;
 mod drape;
-mod error;
 mod recorder;
 mod retime;
 mod robustness;
@@ -21,9 +21,10 @@ mod summary;
 #[cfg(test)]
 mod summary_tests;
 
+pub(crate) use check::check_catenaries;
+pub use check::check_model;
 pub(crate) use drape::drape_catenaries;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
-pub use error::ModelError;
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
 pub use step::{Gripper, Step, attitudes};
@@ -31,6 +32,7 @@ pub use step::{Gripper, Step, attitudes};
 pub use summary::Unjudged;
 pub use summary::{CatenaryReport, Status, Summary};
 
+use crate::Error;
 use crate::layup::Model;
 use crate::scene::Scene;
 use crate::sheet;
@@ -60,11 +62,11 @@ impl Outcome {
 /// and not accepted.
 ///
 /// # Errors
-/// [`ModelError`] if the scene lacks what the model needs.
+/// Those of [`check_model`] if the scene lacks what the model needs.
 pub fn simulate(
     scene: &Scene,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
-) -> Result<Outcome, ModelError> {
+) -> Result<Outcome, Error> {
     let model = scene.layup.settings.model;
     let mut drape = keeping_states(scene, model, &|| false, &mut progress)?;
     let also = also(scene, &drape.summary, &mut progress)?;
@@ -78,12 +80,12 @@ pub fn simulate(
 /// The drape of a scene by the model that does not decide, if the scene asks for it and the one that decides was not broken off.
 ///
 /// # Errors
-/// [`ModelError`] if the scene lacks what that model needs.
+/// Those of [`check_model`] if the scene lacks what that model needs.
 pub fn also(
     scene: &Scene,
     decided: &Summary,
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
-) -> Result<Option<Drape>, ModelError> {
+) -> Result<Option<Drape>, Error> {
     if !scene.also || decided.interrupted() {
         return Ok(None);
     }
@@ -97,7 +99,7 @@ pub(crate) fn keeping_states(
     model: Model,
     stop: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
-) -> Result<Drape, ModelError> {
+) -> Result<Drape, Error> {
     let (steps, keep) = (scene.layup.motion.positions.len(), scene.layup.settings.sheet.keep);
     let mut states: Vec<sheet::State> = Vec::new();
     let mut see = |step: usize, state: Option<&sheet::State>| {

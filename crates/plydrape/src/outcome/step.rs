@@ -1,11 +1,12 @@
 //! The record of one step: the grippers and the measures, and what the catenaries add where they drape.
 
+use crate::LayupError;
 use crate::draping::record::CatenaryStep;
 use crate::geometry::distance;
 use crate::geometry::rotation::normal;
 use crate::layup::Layup;
 use crate::measure::Measures;
-use crate::motion::{Attitudes, MotionError};
+use crate::motion::Attitudes;
 use crate::ply::GripperId;
 use crate::state::PlyState;
 
@@ -106,8 +107,8 @@ impl Step {
 /// Orientations of the grippers between the steps of a drape.
 ///
 /// # Errors
-/// [`MotionError`] if there are no steps.
-pub fn attitudes(steps: &[Step]) -> Result<Attitudes, MotionError> {
+/// Those of [`Attitudes::new`] if there are no steps.
+pub fn attitudes(steps: &[Step]) -> Result<Attitudes, LayupError> {
     let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
     let quaternions: Vec<Vec<[f64; 4]>> = steps
         .iter()

@@ -1,7 +1,7 @@
 //! The result of a search, from which another search continues.
 
-use super::PlanError;
 use super::path::{Strategy, preload};
+use crate::Error;
 use crate::scene::Scene;
 
 /// Positions (m) of all grippers, step by step.
@@ -49,16 +49,16 @@ impl Checkpoint {
     }
 
     /// Refuses a checkpoint of another ply.
-    pub(super) fn check(&self, scene: &Scene) -> Result<(), PlanError> {
+    pub(super) fn check(&self, scene: &Scene) -> Result<(), Error> {
         let own = grippers(scene);
         if self.grippers != own {
             let (earlier, now) = (self.grippers.len(), own.len());
-            return Err(PlanError::OtherPly { earlier, now });
+            return Err(Error::CheckpointOtherPly { earlier, now });
         }
         let sound = |place: &[f64; 3]| place.iter().all(|c| c.is_finite());
         let whole = |step: &Vec<[f64; 3]>| step.len() == own.len() && step.iter().all(sound);
         if self.strategy.is_some_and(|s| !s.is_sound()) || !self.positions.iter().all(whole) {
-            return Err(PlanError::Numbers);
+            return Err(Error::CheckpointNumbers);
         }
         Ok(())
     }

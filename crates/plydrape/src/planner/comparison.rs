@@ -8,10 +8,10 @@ mod drapes;
 
 use super::evaluation;
 use super::path::{Fronts, Strategy};
-use super::plan::PlanError;
 use super::search_state::{SearchState, Watcher};
+use crate::Error;
 use crate::measure::Verdict;
-use crate::outcome::{Drape, Judged, ModelError};
+use crate::outcome::{Drape, Judged, check_model};
 use crate::scene::Scene;
 use drapes::{best_front, by_steps, straight};
 use rayon::prelude::*;
@@ -58,24 +58,13 @@ impl Display for StrategyName {
     }
 }
 
-/// Why there is no drape by a strategy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NotDraped {
-    /// Its positions cannot become a motion, or the model that decides cannot drape along it.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// The comparison was ended before its drape was complete.
-    #[error("interrupted before its drape was complete")]
-    Interrupted,
-}
-
 /// One strategy of a comparison.
 #[derive(Debug, Clone)]
 pub struct Compared {
     /// The strategy.
     pub name: StrategyName,
     /// The drape along its motion.
-    pub drape: Result<ComparedDrape, NotDraped>,
+    pub drape: Result<ComparedDrape, Error>,
 }
 
 /// The drape by one strategy.
@@ -156,16 +145,16 @@ impl Comparison {
 }
 
 /// Drapes a scene by every named strategy. `watcher` receives the progress, a candidate being a strategy; when it breaks, the
-/// strategies that are not complete end with [`NotDraped::Interrupted`]. The same scene gives the same comparison on any number of threads.
+/// strategies that are not complete end with [`Error::ComparisonInterrupted`]. The same scene gives the same comparison on any number of threads.
 ///
 /// # Errors
-/// [`PlanError`] if the scene has no mold or target.
-pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError> {
+/// [`Error::NoMold`] or [`Error::NoTarget`], or those of [`check_model`] for the model that decides.
+pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
     if scene.layup.mold.is_none() {
-        return Err(PlanError::NoMold);
+        return Err(Error::NoMold);
     }
-    ModelError::check(&scene.layup, scene.layup.settings.model)?;
-    let fronts = Fronts::new(scene).ok_or(PlanError::NoTarget)?;
+    check_model(&scene.layup, scene.layup.settings.model)?;
+    let fronts = Fronts::new(scene).ok_or(Error::NoTarget)?;
     let state = SearchState::new(StrategyName::ALL.len(), watcher);
     state.begin("draping the strategies");
     let (lines, points): (Vec<Strategy>, Vec<Strategy>) =
@@ -181,7 +170,7 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError>
             StrategyName::Stepwise => by_steps(scene, &state),
         };
         let drape = drape.and_then(|drape| match state.is_stopped() {
-            true => Err(NotDraped::Interrupted),
+            true => Err(Error::ComparisonInterrupted),
             false => Ok(drape),
         });
         if let Ok(drape) = &drape {

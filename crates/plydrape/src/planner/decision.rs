@@ -3,13 +3,13 @@
 
 use super::evaluation;
 use super::path::Strategy;
-use super::plan::PlanError;
 use super::search_state::SearchState;
+use crate::Error;
 use crate::geometry::Point;
 use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
 use crate::measure::Verdict;
 use crate::motion::{Attitudes, Motion, TimedMotion};
-use crate::outcome::{self, Drape, Judged, ModelError};
+use crate::outcome::{self, Drape, Judged};
 use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
@@ -54,7 +54,7 @@ impl Decision {
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
         state: &SearchState,
-    ) -> Result<Self, PlanError> {
+    ) -> Result<Self, Error> {
         let decision = Self::uncounted(scene, strategy, positions, state)?;
         state.record(&decision.decided.judged, decision.decided.score, true);
         Ok(decision)
@@ -69,7 +69,7 @@ impl Decision {
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
         state: &SearchState,
-    ) -> Result<Self, PlanError> {
+    ) -> Result<Self, Error> {
         let (positions, asked) = match &scene.layup.tool {
             Some(tool) => {
                 let Carried { positions, record, .. } = tool.carry(&positions);
@@ -91,7 +91,7 @@ impl Decision {
         scene: &Scene,
         motion: TimedMotion,
         state: &SearchState,
-    ) -> Result<(), PlanError> {
+    ) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.motion, motion);
         let dwells_on_the_way =
             scene.layup.release.as_ref().is_some_and(|release| {
@@ -121,7 +121,7 @@ impl Decision {
 
 /// The drape along a motion, its limits and failures, and its score. The drape with a step half-way between all steps counts
 /// where it is the worse.
-fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<Decided, PlanError> {
+fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<Decided, Error> {
     let followed = evaluation::along_motion(&scene.layup, motion.steps());
     // both at once, because most of a drape runs on one core; the second counts only where the first is accepted
     let refused = AtomicBool::new(false);
@@ -179,7 +179,7 @@ fn between_steps(
     scene: &Scene,
     motion: &TimedMotion,
     stop: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Judged>, ModelError> {
+) -> Result<Option<Judged>, Error> {
     if scene.layup.settings.model != Model::Sheet {
         return Ok(None);
     }
@@ -193,7 +193,7 @@ fn between_steps(
 }
 
 /// The drape of a layup by the model that decides, with the states of the sheet that the scene keeps.
-fn draped(scene: &Scene, layup: &Layup, state: &SearchState) -> Result<Drape, ModelError> {
+fn draped(scene: &Scene, layup: &Layup, state: &SearchState) -> Result<Drape, Error> {
     let scene = Scene { layup: layup.clone(), errors: None, ..scene.clone() };
     let mut go_on = |_: usize| match state.report() {
         ControlFlow::Break(()) => ControlFlow::Break(()),

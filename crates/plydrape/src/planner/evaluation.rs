@@ -3,12 +3,13 @@
 //! The model of the scene decides. A sheet is draped with a coarse mesh to rank candidates, with the scene's own where
 //! that ranking led to no plan, and with this one to decide (`decision`).
 
+use crate::Error;
 use crate::clearance::Nearest;
 use crate::errors::Errors;
 use crate::layup::{Layup, Model, SheetTime, Stepping};
 use crate::measure::{Limits, Name, Unit, Verdict, Worst, Worth, clearance_found};
 use crate::motion::{Attitudes, Motion, TimedMotion};
-use crate::outcome::{self, Judged, ModelError};
+use crate::outcome::{self, Judged};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{TUNING, Tuning};
 use crate::scene::Scene;
@@ -36,13 +37,13 @@ pub enum Mesh {
 /// sheet; broken off where it needs too much or the search is stopped.
 ///
 /// # Errors
-/// [`ModelError`] if the model that decides cannot drape the scene.
+/// Those of [`outcome::judge`] if the model that decides cannot drape the scene.
 pub fn drape(
     scene: &Scene,
     planned: &[Vec<[f64; 3]>],
     mesh: Mesh,
     state: &SearchState,
-) -> Result<Judged, ModelError> {
+) -> Result<Judged, Error> {
     let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
     let layup = along_motion(&scene.layup, Motion { times, positions });
@@ -110,7 +111,7 @@ fn ranked_sheet(
     limits: &Limits,
     mesh: Mesh,
     state: &SearchState,
-) -> Result<Judged, ModelError> {
+) -> Result<Judged, Error> {
     if mesh == Mesh::Coarse {
         let (pitch, radius) = (sheet::pitch(&layup.ply), layup.settings.pad.radius);
         let coarse = (TUNING.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));

@@ -35,6 +35,6 @@ pub mod stepwise;
 pub mod tuning;
 
 pub use checkpoint::Checkpoint;
-pub use plan::{PlanError, Planned, along, plan, plan_without_errors};
+pub use plan::{Planned, along, plan, plan_without_errors};
 pub use record::{LimitedBy, PickedUp, PlanRecord};
 pub use search_state::{Progress, Watcher};

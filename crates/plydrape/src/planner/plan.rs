@@ -10,10 +10,11 @@ use super::quickest::{Quickest, quickest};
 use super::record::{LimitedBy, PlanRecord};
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
+use crate::Error;
 use crate::layup::Model;
 use crate::measure::{Name, Verdict, WholeMotion, Worst};
-use crate::motion::{Attitudes, MotionError, TimedMotion};
-use crate::outcome::{self, ModelError, Outcome, Robustness, Watch};
+use crate::motion::{Attitudes, TimedMotion};
+use crate::outcome::{self, Outcome, Robustness, Watch};
 use crate::scene::{PlanMethod, Scene};
 use crate::state::Site;
 use std::ops::ControlFlow;
@@ -46,38 +47,6 @@ impl Planned {
     }
 }
 
-/// Why there is no plan.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PlanError {
-    /// The scene has no mold.
-    #[error("the scene has no mold to lay the ply on")]
-    NoMold,
-    /// The scene has no target.
-    #[error("the scene has no target: a plan needs to know where the ply shall end")]
-    NoTarget,
-    /// A plan for other grippers or other fabric.
-    #[error(
-        "the earlier plan is for {earlier} grippers, or for other places in the fabric, and the scene has {now}: plan anew"
-    )]
-    OtherPly {
-        /// Grippers of the earlier plan.
-        earlier: usize,
-        /// Grippers of the scene.
-        now: usize,
-    },
-    /// A checkpoint with numbers that no search writes.
-    #[error(
-        "the earlier plan holds a strategy or positions that no search can have left: plan anew"
-    )]
-    Numbers,
-    /// The positions cannot become a motion.
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-    /// The model that decides cannot drape the scene.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-}
-
 /// Plans the gripper motion of a scene, from where it starts to its target, and judges it by the model that decides, with the errors of the
 /// scene if it has any.
 ///
@@ -86,12 +55,13 @@ pub enum PlanError {
 /// verdicts say which limits, where and by how much.
 ///
 /// # Errors
-/// [`PlanError`] if the scene has no mold or target, the checkpoint is not of its ply, or the model that decides cannot drape it.
+/// [`Error::NoMold`] or [`Error::NoTarget`]; [`Error::CheckpointOtherPly`] or [`Error::CheckpointNumbers`] if the checkpoint is not of its
+/// ply; those of [`outcome::check_model`] if the model that decides cannot drape it; [`Error::Layup`] if positions cannot become a motion.
 pub fn plan(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     watcher: Watcher,
-) -> Result<Planned, PlanError> {
+) -> Result<Planned, Error> {
     let mut planned = plan_without_errors(scene, checkpoint, watcher)?;
     let Outcome { drape, also } = &mut planned.outcome;
     let robustness = Robustness::of_planned(scene, planned.motion.steps());
@@ -110,14 +80,14 @@ pub fn plan_without_errors(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     watcher: Watcher,
-) -> Result<Planned, PlanError> {
+) -> Result<Planned, Error> {
     if scene.layup.mold.is_none() {
-        return Err(PlanError::NoMold);
+        return Err(Error::NoMold);
     }
     if scene.layup.target.is_none() {
-        return Err(PlanError::NoTarget);
+        return Err(Error::NoTarget);
     }
-    ModelError::check(&scene.layup, scene.layup.settings.model)?;
+    outcome::check_model(&scene.layup, scene.layup.settings.model)?;
     if let Some(checkpoint) = checkpoint {
         checkpoint.check(scene)?;
     }
@@ -161,7 +131,7 @@ pub(super) fn finish(
     decision: &mut Decision,
     own_limits: Vec<Verdict>,
     state: &SearchState,
-) -> Result<Vec<LimitedBy>, PlanError> {
+) -> Result<Vec<LimitedBy>, Error> {
     let Quickest { motion, limited_by } =
         quickest(scene, &decision.motion, &decision.decided.drape);
     if motion != decision.motion {
@@ -196,13 +166,13 @@ fn by_path(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     state: &SearchState,
-) -> Result<Found, PlanError> {
-    let best = path::search(scene, checkpoint, state)?.ok_or(PlanError::NoTarget)?;
+) -> Result<Found, Error> {
+    let best = path::search(scene, checkpoint, state)?.ok_or(Error::NoTarget)?;
     Ok((best, Vec::new()))
 }
 
-fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
-    ModelError::check_catenaries(&scene.layup, Model::Catenaries)?;
+fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, Error> {
+    outcome::check_catenaries(&scene.layup, Model::Catenaries)?;
     state.begin("step by step");
     let plan = stepwise(scene, &mut |done| {
         state.set_steps(done);

@@ -1,7 +1,8 @@
 //! What a result keeps of a plan: the motion is made from it again.
 
+use crate::LayupError;
 use crate::measure::Name;
-use crate::motion::{MotionError, TimedMotion};
+use crate::motion::TimedMotion;
 use crate::pick_up::Offset;
 use crate::ply::GripperId;
 use crate::scene::PlanMethod;
@@ -75,8 +76,8 @@ impl PlanRecord {
     /// The motion at any time.
     ///
     /// # Errors
-    /// [`MotionError`] if the plan is none that a planner has made.
-    pub fn motion(&self) -> Result<TimedMotion, MotionError> {
+    /// Those of [`TimedMotion::recorded`] if the plan is none that a planner has made.
+    pub fn motion(&self) -> Result<TimedMotion, LayupError> {
         TimedMotion::recorded(&self.path, &self.spacing, &self.law)
     }
 }

@@ -1,11 +1,12 @@
 //! A ply and a mold as a scene: the ideal drape is the target, and the grippers start level above it.
 
 use super::Scene;
+use crate::Error;
 use crate::geometry::Point;
 use crate::layup::{Settings, Target};
 use crate::mold::Mold;
 use crate::motion::Motion;
-use crate::net::{EdgeRule, Generators, Net, Placement, PlacementError};
+use crate::net::{EdgeRule, Generators, Net, Placement};
 use crate::ply::{Grid, Ply};
 use std::sync::Arc;
 
@@ -16,35 +17,15 @@ const CLOSER: f64 = 0.98;
 /// Height of the start above the highest point of the drape, in cells.
 const CLEAR: f64 = 0.5;
 
-/// Why a ply and a mold make no scene.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum AboveError {
-    /// The mold has no point at the place of the ply.
-    #[error("the mold has no point at x = {} m, y = {} m", place[0], place[1])]
-    NoPoint {
-        /// Where the middle of the ply should lie (m).
-        place: [f64; 2],
-    },
-    /// The ideal drape cannot begin there.
-    #[error(transparent)]
-    Placement(#[from] PlacementError),
-    /// The ideal drape has no place on the mold for some grippers.
-    #[error("{missing} grippers have no place on the mold: the ply reaches beyond it, or folds")]
-    Missing {
-        /// How many.
-        missing: usize,
-    },
-}
-
 impl Scene {
     /// A ply that is to lie on a mold, the middle of its grippers at the place x, y (m) and u along x as seen from above, with the usual
     /// rules and limits. The target is the ideal drape with geodesic generators; the grippers start level above it, 2 % closer than the
     /// fabric between them and half a cell above its highest point. There is no motion but the start: [`crate::plan`] finds one.
     ///
     /// # Errors
-    /// [`AboveError`] if the ply has no ideal drape there.
-    pub fn above(ply: Ply, mold: Mold, place: [f64; 2]) -> Result<Self, AboveError> {
-        let seed = mold.highest_point(place).ok_or(AboveError::NoPoint { place })?;
+    /// [`Error::MoldNoPoint`] if the mold has no point there, [`Error::Layup`] or [`Error::GrippersOffMold`] if the ply has no ideal drape there.
+    pub fn above(ply: Ply, mold: Mold, place: [f64; 2]) -> Result<Self, Error> {
+        let seed = mold.highest_point(place).ok_or(Error::MoldNoPoint { place })?;
         let [low, high] = ply.held_bounds();
         let meshes = meshes(&ply, &mold);
         let mesh = [0, 1].map(|n| ply.cell[n] / meshes[n] as f64);
@@ -67,7 +48,7 @@ impl Scene {
         let ends: Vec<Point> =
             grippers.filter_map(|n| net.place_or_node(&mold, ply.place(n))).collect();
         if ends.len() < ply.grippers() {
-            return Err(AboveError::Missing { missing: ply.grippers() - ends.len() });
+            return Err(Error::GrippersOffMold { missing: ply.grippers() - ends.len() });
         }
         let start = start_above(&ply, &net);
         let motion = Motion { times: vec![0.0], positions: vec![start] };

@@ -5,7 +5,7 @@
 mod above;
 mod plan;
 
-pub use above::{AboveError, start_above};
+pub use above::start_above;
 pub use plan::{Plan, PlanMethod};
 
 use crate::errors::Errors;

@@ -4,12 +4,13 @@
 use super::cloth::Cloth;
 use super::gripper::Pad;
 use super::march::March;
-use super::model::{Sheet, SheetError};
+use super::model::Sheet;
 use super::release::Releases;
 use super::report::{Drape, Report};
 use super::shear::angle;
 use super::state::State;
 use super::tuning::Tuning;
+use crate::Error;
 use crate::layup::Layup;
 use crate::ply::flat_axes;
 use crate::stopwatch::Stopwatch;
@@ -36,20 +37,20 @@ pub enum Status {
 /// asked before each time step. Nodes up to `low` (m) over the mold lie, as far as the release of pads asks for that.
 ///
 /// # Errors
-/// If the layup has no sheet.
+/// Those of [`Sheet::new`], and [`Error::SheetNoMotion`] if the motion has no steps for the grippers.
 pub fn drape(
     layup: &Layup,
     tuning: Tuning,
     low: f64,
     stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&Sheet, &State, bool) -> ControlFlow<()>,
-) -> Result<Drape, SheetError> {
+) -> Result<Drape, Error> {
     let watch = Stopwatch::start();
     let sheet = Sheet::new(layup)?;
     let steps = &layup.motion.positions;
     let grippers = sheet.grippers.len();
     let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
-        return Err(SheetError::NoMotion { grippers });
+        return Err(Error::SheetNoMotion { grippers });
     };
     let (flat, pads) = flat(&sheet, start);
     let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();

@@ -50,7 +50,7 @@ pub use event::{Event, EventKind};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
 pub use hand_over::HandOver;
-pub use model::{Sheet, SheetError, coarsest_mesh, pitch};
+pub use model::{Sheet, coarsest_mesh, pitch};
 pub use raised::{Raised, raised};
 pub use report::{Drape, Report};
 pub use state::State;

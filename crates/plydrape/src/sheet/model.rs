@@ -2,10 +2,11 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
+use crate::Error;
 use crate::layup::{Friction, Layup, PadSettings, Settings};
 use crate::material::{MomentCurve, Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply, gripper_name};
+use crate::ply::{Direction, Grid, Neighbours, Outline, Ply};
 use crate::tool::Tool;
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
@@ -47,137 +48,21 @@ pub struct Sheet {
     pub tool: Option<Tool>,
 }
 
-/// Why a layup has no sheet.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SheetError {
-    /// The material does not say how it shears.
-    #[error(
-        "material {material} has no shear curve; the sheet needs one, which a picture-frame or bias-extension test gives"
-    )]
-    NoShear {
-        /// Its name.
-        material: String,
-    },
-    /// The material does not say how its yarns stretch.
-    #[error(
-        "material {material} has no tension; the sheet needs the tensile stiffness per width, which a strip tensile test gives"
-    )]
-    NoTension {
-        /// Its name.
-        material: String,
-    },
-    /// No line of nodes between two pads.
-    #[error(
-        "a mesh of {mesh_mm:.3} mm puts no line of nodes into the {between_mm:.3} mm of fabric between neighboring pads; at most {most_mm:.3} mm does"
-    )]
-    Coarse {
-        /// The mesh (mm).
-        mesh_mm: f64,
-        /// Fabric between two pads (mm).
-        between_mm: f64,
-        /// The largest mesh (mm).
-        most_mm: f64,
-    },
-    /// Two pads are in each other's way.
-    #[error("pads of {radius_mm:.3} mm radius overlap: grippers are {pitch_mm:.3} mm apart")]
-    Overlap {
-        /// Radius of a pad (mm).
-        radius_mm: f64,
-        /// Distance of the grippers (mm).
-        pitch_mm: f64,
-    },
-    /// A pad reaches beyond the fabric.
-    #[error(
-        "pads of {radius_mm:.3} mm radius hang over the boundary: the fabric ends {overhang_mm:.3} mm beyond the outermost grippers"
-    )]
-    Overhang {
-        /// Radius of a pad (mm).
-        radius_mm: f64,
-        /// Fabric beyond the outermost grippers (mm).
-        overhang_mm: f64,
-    },
-    /// A pad that is not on the ply as a whole.
-    #[error(
-        "the pad of gripper {} has a radius of {radius_mm:.3} mm and its middle is {inside_mm:.3} mm inside the boundary of the ply",
-        gripper_name(*gripper)
-    )]
-    PadOff {
-        /// The gripper.
-        gripper: GripperId,
-        /// Radius of its pad (mm).
-        radius_mm: f64,
-        /// How far inside the boundary its middle is (mm); negative beyond it.
-        inside_mm: f64,
-    },
-    /// A pad between lines of nodes that holds too few of them.
-    #[error(
-        "the pad of gripper {}, of {radius_mm:.3} mm radius, holds no three nodes of a mesh of {mesh_mm:.3} mm: grippers that do not stand in rows along the yarns need pads larger than the mesh",
-        gripper_name(*gripper)
-    )]
-    PadSmall {
-        /// The gripper.
-        gripper: GripperId,
-        /// Radius of its pad (mm).
-        radius_mm: f64,
-        /// The mesh (mm).
-        mesh_mm: f64,
-    },
-    /// A pad without a joint that holds a point alone, which has no direction.
-    #[error(
-        "pads without joints hold the ply in their direction, and the pad of gripper {} holds one point of it",
-        gripper_name(*gripper)
-    )]
-    PadPoint {
-        /// The gripper.
-        gripper: GripperId,
-    },
-    /// A number that is not one, or has the wrong sign.
-    #[error("{what} is {value}; it must be {range}")]
-    Range {
-        /// What it is.
-        what: &'static str,
-        /// Its value (SI).
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
-    /// A tension table that is none.
-    #[error(
-        "the tension table of material {material} needs as many strains as forces, at least two, ascending from zero"
-    )]
-    TensionTable {
-        /// Its name.
-        material: String,
-    },
-    /// A moment–curvature table that is none.
-    #[error(
-        "the moment table of material {material} needs as many curvatures as moments, at least two, both ascending from zero"
-    )]
-    MomentTable {
-        /// Its name.
-        material: String,
-    },
-    /// The motion has no steps, or steps with another number of grippers.
-    #[error("the motion has no steps for {grippers} grippers")]
-    NoMotion {
-        /// Grippers of the ply.
-        grippers: usize,
-    },
-}
-
 impl Sheet {
     /// The sheet of a layup.
     ///
     /// # Errors
-    /// If the layup lacks what a sheet needs.
-    pub fn new(layup: &Layup) -> Result<Self, SheetError> {
+    /// [`Error::SheetNoShear`], [`Error::SheetNoTension`], [`Error::SheetTensionTable`] or [`Error::SheetMomentTable`] for the material;
+    /// [`Error::SheetCoarse`] for the mesh; [`Error::SheetPadsOverlap`], [`Error::SheetPadsOverhang`], [`Error::SheetPadOff`],
+    /// [`Error::SheetPadSmall`] or [`Error::SheetPadPoint`] for pads; [`Error::SheetRange`] for a number.
+    pub fn new(layup: &Layup) -> Result<Self, Error> {
         let (ply, settings) = (&layup.ply, &layup.settings);
         let material = &ply.material;
         let name = || material.name.clone();
         let shear =
-            material.shear_curve.clone().ok_or_else(|| SheetError::NoShear { material: name() })?;
+            material.shear_curve.clone().ok_or_else(|| Error::SheetNoShear { material: name() })?;
         let tension =
-            material.tension.clone().ok_or_else(|| SheetError::NoTension { material: name() })?;
+            material.tension.clone().ok_or_else(|| Error::SheetNoTension { material: name() })?;
 
         if let TensionLaw::Table { strain, force } = &tension {
             let ascends = |x: &[f64], strictly: bool| {
@@ -187,12 +72,12 @@ impl Sheet {
             };
             let table = ascends(strain, true) && ascends(force, false);
             if !table || strain.len() != force.len() || strain.len() < 2 {
-                return Err(SheetError::TensionTable { material: name() });
+                return Err(Error::SheetTensionTable { material: name() });
             }
         }
 
         if !material.moment.iter().flatten().all(MomentCurve::is_sound) {
-            return Err(SheetError::MomentTable { material: name() });
+            return Err(Error::SheetMomentTable { material: name() });
         }
 
         let [a, b] = ply.cell;
@@ -214,12 +99,12 @@ impl Sheet {
             positive("the stiffness of the mounts", stiffness)?;
         }
         if 2.0 * radius >= pitch {
-            return Err(SheetError::Overlap { radius_mm: radius * 1e3, pitch_mm: pitch * 1e3 });
+            return Err(Error::SheetPadsOverlap { radius_mm: radius * 1e3, pitch_mm: pitch * 1e3 });
         }
         let most = coarsest_mesh(pitch, radius);
         if mesh > most * (1.0 + 1e-9) {
             let [mesh_mm, between_mm, most_mm] = [mesh, 2.0 * most, most].map(|x| x * 1e3);
-            return Err(SheetError::Coarse { mesh_mm, between_mm, most_mm });
+            return Err(Error::SheetCoarse { mesh_mm, between_mm, most_mm });
         }
         // a single line stands for a strip one cell wide
         let width = if b > 0.0 { b } else { a };
@@ -270,12 +155,12 @@ impl Sheet {
         let fixed = sheet.tool.as_ref().is_some_and(|tool| tool.fixed_pads.is_some());
         for (n, held) in sheet.held().iter().enumerate() {
             if fixed && held.len() < 2 {
-                return Err(SheetError::PadPoint { gripper: ply.id(n) });
+                return Err(Error::SheetPadPoint { gripper: ply.id(n) });
             }
             // one node may be held at the gripper's own point alone; a pad that turns needs three
             if sheet.fabric.node_at(ply.place(n)).is_none() && !spans_an_area(held) {
                 let [radius_mm, mesh_mm] = [radius, mesh].map(|x| x * 1e3);
-                return Err(SheetError::PadSmall { gripper: ply.id(n), radius_mm, mesh_mm });
+                return Err(Error::SheetPadSmall { gripper: ply.id(n), radius_mm, mesh_mm });
             }
         }
         Ok(sheet)
@@ -304,8 +189,8 @@ impl Fabric {
     /// The fabric of a ply as a layup divides it.
     ///
     /// # Errors
-    /// If pads hang over the boundary.
-    pub fn of(ply: &Ply, settings: &Settings) -> Result<Self, SheetError> {
+    /// [`Error::SheetPadsOverhang`] or [`Error::SheetPadOff`] if pads hang over the boundary.
+    pub fn of(ply: &Ply, settings: &Settings) -> Result<Self, Error> {
         let ([a, b], grid) = (ply.cell, ply.grid);
         let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch(ply));
@@ -315,7 +200,7 @@ impl Fabric {
                 let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
                 let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius - rounding;
                 if let Some(off) = (0..ply.grippers()).find(off) {
-                    return Err(SheetError::PadOff {
+                    return Err(Error::SheetPadOff {
                         gripper: ply.id(off),
                         radius_mm: radius * 1e3,
                         inside_mm: cut.outline.depth(ply.place(off)) * 1e3,
@@ -327,7 +212,7 @@ impl Fabric {
             None => {
                 if radius > overhang * (1.0 + 1e-9) {
                     let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
-                    return Err(SheetError::Overhang { radius_mm, overhang_mm });
+                    return Err(Error::SheetPadsOverhang { radius_mm, overhang_mm });
                 }
                 let along = |count: usize, cell: f64| {
                     if count == 1 {
@@ -423,11 +308,6 @@ pub fn pitch(ply: &Ply) -> f64 {
     ply.neighbours().iter().map(distance).fold(f64::INFINITY, f64::min).min(a.max(b))
 }
 
-fn check(
-    holds: bool,
-    what: &'static str,
-    value: f64,
-    range: &'static str,
-) -> Result<(), SheetError> {
-    if holds && value.is_finite() { Ok(()) } else { Err(SheetError::Range { what, value, range }) }
+fn check(holds: bool, what: &'static str, value: f64, range: &'static str) -> Result<(), Error> {
+    if holds && value.is_finite() { Ok(()) } else { Err(Error::SheetRange { what, value, range }) }
 }

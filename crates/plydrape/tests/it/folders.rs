@@ -12,10 +12,10 @@ const CRATES: [(&str, &str); 8] = [
     ),
     (
         "plydrape-layup",
-        "stopwatch geometry mold material ply net motion bodies tool layup clearance state",
+        "gripper error stopwatch geometry mold material ply net motion bodies tool layup clearance state",
     ),
-    ("plydrape-catenary", "catenary elastica equilibrium draping sensitivity stepwise"),
-    ("plydrape", "fit sheet pick_up measure errors scene outcome planner"),
+    ("plydrape-catenary", "error catenary elastica equilibrium draping sensitivity stepwise"),
+    ("plydrape", "error fit sheet pick_up measure errors scene outcome planner"),
     (
         "plydrape-io",
         "error store read result scene text write robot page export fit plan replan sample",

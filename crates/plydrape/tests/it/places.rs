@@ -1,10 +1,11 @@
 //! Gripper positions that have no solution are refused, and nothing runs without end on numbers that are out of all range.
 
+use plydrape::LayupError;
 use plydrape::layup::{Layup, Model, Settings};
 use plydrape::material::{Material, Section};
 use plydrape::measure::{Name, Sense};
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
-use plydrape::ply::{Grid, PlaceError, Ply};
+use plydrape::ply::{Grid, Ply};
 use plydrape::{Limits, Motion, Scene, simulate};
 use std::ops::ControlFlow;
 
@@ -36,13 +37,13 @@ fn positions_without_a_solution_are_refused_with_place_and_remedy() {
             let mut positions = level();
             positions[4][n] = value;
             let fault = ply.check_places(&positions).unwrap_err();
-            assert!(matches!(fault, PlaceError::Far { gripper: [1, 1], .. }), "{fault}");
+            assert!(matches!(fault, LayupError::GripperFar { gripper: [1, 1], .. }), "{fault}");
             let text = fault.to_string();
             assert!(text.contains(&format!("{value:?}")) && text.contains("up to 1e6 m"), "{text}");
         }
     }
     let one_place = ply.check_places(&[[0.1, 0.2, 0.3]; 6]).unwrap_err();
-    assert!(matches!(one_place, PlaceError::Steep { a: [0, 0], b: [1, 0], run: 0.0, .. }));
+    assert!(matches!(one_place, LayupError::GripperSteep { a: [0, 0], b: [1, 0], run: 0.0, .. }));
     assert!(one_place.to_string().contains("move them apart"), "{one_place}");
     // 1 % of the fabric is far enough, a hair less is not
     for (run, fits) in [(1.001e-3, true), (0.999e-3, false)] {
@@ -52,7 +53,7 @@ fn positions_without_a_solution_are_refused_with_place_and_remedy() {
         assert_eq!(ply.check_places(&positions).is_ok(), fits, "{run}");
     }
     let few = ply.check_places(&level()[..5]).unwrap_err();
-    assert!(matches!(few, PlaceError::Count { found: 5, expected: 6, .. }));
+    assert!(matches!(few, LayupError::GripperCount { found: 5, expected: 6, .. }));
 }
 
 /// A motion has finite times that ascend, and every step is checked.
@@ -65,14 +66,14 @@ fn times_that_do_not_ascend_are_refused_with_their_step() {
     for times in [[0.0, 1.0, 1.0], [0.0, 2.0, 1.0], [0.0, 1.0, f64::NAN], [0.0, 1.0, f64::INFINITY]]
     {
         let fault = ply.check_motion(&motion(&times)).unwrap_err();
-        assert!(matches!(fault, PlaceError::Time { step: 3, .. }), "{fault}");
+        assert!(matches!(fault, LayupError::StepTime { step: 3, .. }), "{fault}");
     }
     let mut far = motion(&[0.0, 1.0]);
     far.positions[1][5][2] = 1e200;
     let fault = ply.check_motion(&far).unwrap_err().to_string();
     assert!(fault.contains("gripper g2_1") && fault.contains("in step 2"), "{fault}");
     let none = Motion { times: vec![], positions: vec![] };
-    assert!(matches!(ply.check_motion(&none), Err(PlaceError::Steps { .. })));
+    assert!(matches!(ply.check_motion(&none), Err(LayupError::StepCount { .. })));
 }
 
 fn molds() -> Vec<Mold> {

@@ -6,11 +6,10 @@ use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
 use plydrape::measure::{Name, Scope, Verdict};
 use plydrape::mold::{Face, Mold, Pose, Sphere};
 use plydrape::outcome::{Status, Summary, judge};
-use plydrape::planner::PlanError;
 use plydrape::ply::{Grid, Ply};
 use plydrape::scene::PlanMethod;
 use plydrape::tool::{Axis, Tool};
-use plydrape::{Limits, ModelError, Motion, Scene, Settings, plan, simulate};
+use plydrape::{Error, Limits, Motion, Scene, Settings, plan, simulate};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
@@ -125,7 +124,7 @@ fn every_limit_is_judged_along_a_given_motion() {
 /// Catenaries hold their grippers rigidly: wherever they would follow mounts that give, the scene is refused with the stiffness.
 #[test]
 fn catenaries_refuse_mounts_that_give() {
-    let refused = ModelError::Mounts { lateral: Some(2e3), axial: Some(5e3) };
+    let refused = Error::CatenariesMounts { lateral: Some(2e3), axial: Some(5e3) };
     assert!(refused.to_string().ends_with("give: 2 N/mm along the ply, 5 N/mm across it"));
     let mut mounted = scene(Model::Catenaries, true);
     let Scene { layup, limits, .. } = &mounted;
@@ -133,14 +132,14 @@ fn catenaries_refuse_mounts_that_give() {
     let simulated = simulate(&mounted, |_| ControlFlow::Continue(()));
     assert_eq!(simulated.unwrap_err(), refused);
     let planned = |scene: &Scene| plan(scene, None, &mut |_| ControlFlow::Continue(()));
-    assert_eq!(planned(&mounted).unwrap_err(), PlanError::Model(refused.clone()));
+    assert_eq!(planned(&mounted).unwrap_err(), refused);
 
     mounted.layup.settings.model = Model::Sheet;
     mounted.also = true;
     let simulated = simulate(&mounted, |_| ControlFlow::Continue(()));
     assert_eq!(simulated.unwrap_err(), refused, "beside the sheet");
     (mounted.also, mounted.plan.method) = (false, PlanMethod::Stepwise);
-    assert_eq!(planned(&mounted).unwrap_err(), PlanError::Model(refused), "step by step");
+    assert_eq!(planned(&mounted).unwrap_err(), refused, "step by step");
 }
 
 /// Of a planned motion every limit is judged, those of the motion in time too.

@@ -9,8 +9,9 @@ mod text;
 
 use crate::Error;
 use crate::store::{input, size};
+use plydrape::LayupError;
+use plydrape::mold::Pose;
 use plydrape::mold::mesh::{Mesh, MeshReport};
-use plydrape::mold::{MeshError, Pose};
 use std::path::Path;
 
 /// Largest mesh file that is read (bytes).
@@ -38,11 +39,11 @@ pub fn parse(
     scale: f64,
     pose: &Pose,
 ) -> Result<(Mesh, MeshReport), Error> {
-    let no_mold = |fault: MeshError| Error::file(file, format!("{file}: {fault}"), fault.remedy());
+    let no_mold = |fault: LayupError| Error::file(file, format!("{file}: {fault}"), fault.remedy());
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
     if bytes.trim_ascii().is_empty() && !extension.is_empty() {
         let others = ": the file is empty".to_owned();
-        return Err(no_mold(MeshError::Empty { noun: "triangle", others }));
+        return Err(no_mold(LayupError::MeshEmpty { noun: "triangle", others }));
     }
     let soup = match extension.to_ascii_lowercase().as_str() {
         "stl" => stl::read(file, bytes)?,

@@ -5,7 +5,7 @@ use super::{SheetFile, SheetMesh, SheetState};
 use crate::Error;
 use crate::store::size;
 use plydrape::layup::Model;
-use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, ModelError, Step, Summary};
+use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, Step, Summary};
 use plydrape::scene::Scene;
 use plydrape::sheet::fabric::Cell;
 use plydrape::sheet::{Fabric, Sheet, State, is_kept};
@@ -43,7 +43,7 @@ impl SheetSize {
     /// # Errors
     /// [`Error`] if the scene has no sheet, or one that is too large.
     pub fn of(scene: &Scene) -> Result<Self, Error> {
-        let sheet = Sheet::new(&scene.layup).map_err(ModelError::from)?;
+        let sheet = Sheet::new(&scene.layup)?;
         let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
         Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })

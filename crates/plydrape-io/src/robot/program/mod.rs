@@ -23,10 +23,10 @@ use crate::result::{ResultFile, Turned};
 use crate::store::shown;
 use crate::text::table;
 use crate::write::csv;
+use plydrape::LayupError;
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::{cross, dot, norm};
 use plydrape::measure::Name;
-use plydrape::motion::MotionError;
 use plydrape::ply::{GripperId, gripper_name};
 pub use plydrape::sheet::{Event, EventKind};
 use plydrape::tool::{Posture, Tool};
@@ -226,7 +226,9 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), Error> {
         (Some(plan), Some(Turned { motion, attitudes })) => {
             for found in [motion.grippers(), attitudes.grippers()] {
                 if found != ply.grippers() {
-                    return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
+                    return Err(
+                        LayupError::MotionGrippers { found, expected: ply.grippers() }.into()
+                    );
                 }
             }
             let times = csv::written_times(result, motion, plan.rate)?;

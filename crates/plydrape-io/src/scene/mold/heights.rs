@@ -5,7 +5,8 @@ use crate::scene::csv::Csv;
 use crate::scene::located::Located;
 use crate::scene::places::{X, Y, Z, csv_file, point};
 use crate::scene::source::Document;
-use plydrape::mold::{HeightGrid, HeightGridError};
+use plydrape::LayupError;
+use plydrape::mold::HeightGrid;
 use std::ops::Range;
 use std::path::Path;
 
@@ -38,7 +39,7 @@ pub(super) fn heights(
     let [x, y] = axes;
     HeightGrid::new(x, y, z).map_err(|error| {
         let help = match error {
-            HeightGridError::TooFew { .. } => {
+            LayupError::HeightGridTooFew { .. } => {
                 "measure the mold at 4 or more places along x and along y"
             }
             _ => "give every node of the grid one row with x, y and z",

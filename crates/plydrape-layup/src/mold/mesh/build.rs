@@ -4,7 +4,8 @@ use super::orient::{neighbours, orient};
 use super::report::MeshReport;
 use super::soup::Soup;
 use super::tree::Tree;
-use super::{Mesh, MeshError, boundary, bounds, join, normals, one_ring};
+use super::{Mesh, boundary, bounds, join, normals, one_ring};
+use crate::Error;
 use crate::geometry::vector::distance;
 use crate::mold::Pose;
 use std::sync::OnceLock;
@@ -16,16 +17,17 @@ impl Mesh {
     /// A mold of triangles: corners (m), and the three of each triangle.
     ///
     /// # Errors
-    /// If the triangles are no mold: see [`MeshError`].
+    /// If the triangles are no mold: [`Error::MeshEmpty`], [`Error::MeshNoArea`], [`Error::MeshSize`],
+    /// [`Error::MeshBranching`], [`Error::MeshOneSided`] or [`Error::MeshSideways`].
     pub fn of_triangles(
         vertices: Vec<[f64; 3]>,
         triangles: &[[u32; 3]],
-    ) -> Result<(Self, MeshReport), MeshError> {
+    ) -> Result<(Self, MeshReport), Error> {
         let mut soup = Soup::new("triangle");
         let most = vertices.len();
         if triangles.as_flattened().iter().any(|n| *n as usize >= most) {
             let others = " of the vertices it has".to_owned();
-            return Err(MeshError::Empty { noun: "triangle", others });
+            return Err(Error::MeshEmpty { noun: "triangle", others });
         }
         soup.points = vertices;
         for (n, corners) in triangles.iter().enumerate() {
@@ -38,17 +40,17 @@ impl Mesh {
     /// by `pose`.
     ///
     /// # Errors
-    /// If the triangles are no mold: see [`MeshError`].
-    pub fn of_soup(soup: Soup, scale: f64, pose: &Pose) -> Result<(Self, MeshReport), MeshError> {
+    /// Those of [`Mesh::of_triangles`], and [`Error::MeshScale`] if the scale is no positive number.
+    pub fn of_soup(soup: Soup, scale: f64, pose: &Pose) -> Result<(Self, MeshReport), Error> {
         build(soup, scale, pose)
     }
 }
 
 /// Builds the mold from loose triangles.
-fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), MeshError> {
+fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), Error> {
     let noun = soup.noun;
     if !(scale > 0.0 && scale.is_finite()) {
-        return Err(MeshError::Scale { scale });
+        return Err(Error::MeshScale { scale });
     }
     if soup.triangles.is_empty() {
         let kinds: Vec<&str> = soup.skipped.iter().map(|(kind, _)| kind.as_str()).collect();
@@ -56,7 +58,7 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
             0 => String::new(),
             _ => format!(" of a surface, only of type {}", kinds.join(", ")),
         };
-        return Err(MeshError::Empty { noun, others });
+        return Err(Error::MeshEmpty { noun, others });
     }
     let mut used = vec![false; soup.points.len()];
     soup.triangles.as_flattened().iter().for_each(|n| used[*n as usize] = true);
@@ -69,13 +71,13 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
     let mut report =
         MeshReport { skipped: std::mem::take(&mut soup.skipped), ..MeshReport::default() };
     if !SIZES.contains(&size) {
-        return Err(MeshError::Size { size, scale });
+        return Err(Error::MeshSize { size, scale });
     }
 
     let mut joined = join::join(&soup, size, &mut report);
     if joined.triangles.is_empty() {
         let triangles = soup.triangles.len();
-        return Err(MeshError::NoArea { triangles, size });
+        return Err(Error::MeshNoArea { triangles, size });
     }
     drop(soup);
     let mut neighbours = neighbours(&joined, noun)?;

@@ -9,7 +9,6 @@ mod boundary;
 mod build;
 mod closest_point;
 mod curvature;
-mod error;
 mod highest_point;
 mod join;
 mod normals;
@@ -23,7 +22,6 @@ mod tree;
 mod triangle;
 
 pub use boundary::Boundary;
-pub use error::MeshError;
 pub use report::{Finding, MeshReport};
 pub use sharp::SharpEdge;
 pub use soup::Soup;

@@ -4,9 +4,9 @@
 //! one triangle of each surface the others follow, edge by edge. Then a closed surface is turned so that
 //! its volume Σ p·(q × r)/6 is positive, an open one so that its vector area points up.
 
-use super::MeshError;
 use super::join::Joined;
 use super::report::MeshReport;
+use crate::Error;
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::mold::tuning::TUNING;
 
@@ -22,7 +22,7 @@ pub(super) struct Component {
 }
 
 /// Finds the neighbors of all triangles; refuses edges of three triangles or more.
-pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours, MeshError> {
+pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours, Error> {
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (corners, n) in mesh.triangles.iter().zip(0u32..) {
         for k in 0..3 {
@@ -40,7 +40,7 @@ pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours
                 neighbours[t as usize / 3][t as usize % 3] = s / 3;
             }
             [(_, s), (_, t), (_, u), ..] => {
-                return Err(MeshError::Branching {
+                return Err(Error::MeshBranching {
                     noun,
                     numbers: [s, t, u].map(|side| mesh.numbers[side as usize / 3]),
                     place: edge_middle(mesh, s as usize / 3, s as usize % 3),
@@ -59,7 +59,7 @@ pub(super) fn orient(
     neighbours: &mut Neighbours,
     noun: &'static str,
     report: &mut MeshReport,
-) -> Result<(Vec<u32>, Vec<Component>), MeshError> {
+) -> Result<(Vec<u32>, Vec<Component>), Error> {
     let count = mesh.triangles.len();
     let (mut component, mut components) = (vec![NONE; count], Vec::new());
     let mut turn = vec![false; count];
@@ -90,7 +90,7 @@ pub(super) fn orient(
                     turn[o] = turned;
                     members.push(other);
                 } else if turn[o] != turned {
-                    return Err(MeshError::OneSided {
+                    return Err(Error::MeshOneSided {
                         noun,
                         numbers: [mesh.numbers[t], mesh.numbers[o]],
                         place: edge_middle(mesh, t, k),
@@ -104,7 +104,7 @@ pub(super) fn orient(
         } else {
             let upwards = sides.vector_area[2] / sides.area;
             if upwards.abs() < TUNING.sideways {
-                return Err(MeshError::Sideways {
+                return Err(Error::MeshSideways {
                     noun,
                     number: mesh.numbers[seed],
                     triangles: members.len(),

@@ -1,6 +1,7 @@
 //! The drape of a scene by each strategy of a comparison.
 
-use super::{ComparedDrape, NotDraped};
+use super::ComparedDrape;
+use crate::Error;
 use crate::geometry::Point;
 use crate::geometry::vector::between;
 use crate::layup::{Model, SheetTime};
@@ -9,10 +10,10 @@ use crate::motion::Motion;
 use crate::motion::TimedMotion;
 use crate::outcome::{self, DrapeWatch, Judged};
 use crate::planner::decision::{Decided, Decision};
-use crate::planner::evaluation::{self, Mesh};
+use crate::planner::evaluation::{Bias, Mesh};
 use crate::planner::path::tuning::TUNING;
-use crate::planner::path::{Fronts, NotRanked, Strategy};
-use crate::planner::plan::{self, PlanError};
+use crate::planner::path::{Fronts, Strategy};
+use crate::planner::plan;
 use crate::planner::search_state::SearchState;
 use crate::planner::stepwise::stepwise;
 use crate::scene::Scene;
@@ -20,21 +21,18 @@ use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// The drape along the straight paths of the scene, as `simulate` drapes them.
-pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, NotDraped> {
+pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Error> {
     let mut scene = Scene { errors: None, ..scene.clone() };
     scene.layup.motion = straight_motion(&scene);
     let layup = &scene.layup;
     let time = match (layup.settings.model, layup.settings.sheet.time) {
         (Model::Sheet, SheetTime::Real) => layup.motion.times.last().copied().unwrap_or(0.0),
-        _ => TimedMotion::new(&layup.motion.positions, &scene.limits.motion_bounds())
-            .map_err(PlanError::from)?
-            .duration(),
+        _ => TimedMotion::new(&layup.motion.positions, &scene.limits.motion_bounds())?.duration(),
     };
     let stop = || state.report().is_break();
     let mut see = |_: usize, _: Option<&crate::sheet::State>| ControlFlow::Continue(());
     let mut watch = DrapeWatch { stop: &stop, see: &mut see };
-    let drape =
-        outcome::drape(&scene, layup.settings.model, &mut watch).map_err(PlanError::from)?;
+    let drape = outcome::drape(&scene, layup.settings.model, &mut watch)?;
     let judged = Judged::of(&drape.summary, &drape.steps);
     Ok(ComparedDrape { drape, judged, time })
 }
@@ -65,23 +63,22 @@ pub fn best_front(
     fronts: &Fronts,
     strategies: &[Strategy],
     state: &SearchState,
-) -> Result<ComparedDrape, NotDraped> {
+) -> Result<ComparedDrape, Error> {
     let ranked = |strategy: &Strategy| {
         let positions = fronts.positions(*strategy)?;
         let score = match strategies {
             [_] => 0.0,
-            _ => match fronts.rank(&positions, Mesh::Coarse, state) {
-                Ok(drape) => evaluation::score(&drape),
-                Err(NotRanked::Excess(score)) => score,
-                Err(NotRanked::Model(fault)) => return Some(Err(PlanError::from(fault))),
+            _ => match fronts.rank(&positions, Mesh::Coarse, &Bias::default(), state) {
+                Ok((score, _)) => score,
+                Err(fault) => return Some(Err(fault)),
             },
         };
         Some(Ok((score, *strategy, positions)))
     };
-    let ranked: Result<Vec<_>, PlanError> = strategies.par_iter().filter_map(ranked).collect();
+    let ranked: Result<Vec<_>, Error> = strategies.par_iter().filter_map(ranked).collect();
     let mut ranked = ranked?;
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut best: Result<ComparedDrape, NotDraped> = Err(NotDraped::Interrupted);
+    let mut best: Result<ComparedDrape, Error> = Err(Error::ComparisonInterrupted);
     for (_, strategy, positions) in ranked.into_iter().take(TUNING.search.batch) {
         let drape = planned(scene, Some(strategy), positions, Vec::new(), state);
         let better = match (&best, &drape) {
@@ -100,7 +97,7 @@ pub fn best_front(
 }
 
 /// The drape along the motion of the stepwise planner.
-pub fn by_steps(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, NotDraped> {
+pub fn by_steps(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Error> {
     let plan = stepwise(scene, &mut |_| state.report());
     let limits = plan::unreached(scene, &plan);
     planned(scene, None, plan.positions, limits, state)
@@ -113,9 +110,9 @@ fn planned(
     positions: Vec<Vec<Point>>,
     own_limits: Vec<Verdict>,
     state: &SearchState,
-) -> Result<ComparedDrape, NotDraped> {
+) -> Result<ComparedDrape, Error> {
     if state.is_stopped() {
-        return Err(NotDraped::Interrupted);
+        return Err(Error::ComparisonInterrupted);
     }
     let mut decision = Decision::uncounted(scene, strategy, positions, state)?;
     plan::finish(scene, &mut decision, own_limits, state)?;

@@ -6,23 +6,13 @@ use super::strategy::Strategy;
 use super::tabulation::tabulated;
 use super::trajectory::trajectory;
 use super::tuning::TUNING;
+use crate::Error;
 use crate::geometry::Point;
-use crate::outcome::{Judged, ModelError};
-use crate::planner::evaluation::{self, Mesh};
+use crate::outcome::Judged;
+use crate::planner::evaluation::{self, Bias, Mesh};
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use std::borrow::Cow;
-
-/// Why a candidate has no drape to be ranked by.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NotRanked {
-    /// Its grippers alone exceed a limit too far: the score, worse than that of any drape.
-    #[error("grippers exceed a limit too far")]
-    Excess(f64),
-    /// The model that decides cannot drape the scene.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-}
 
 /// The fronts over the mold of a scene.
 pub struct Fronts<'a> {
@@ -53,22 +43,24 @@ impl<'a> Fronts<'a> {
         positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
     }
 
-    /// The drape along positions of grippers (m) with a mesh, by which candidates are ranked. One whose grippers alone exceed a
-    /// limit too far is not draped.
+    /// The score of positions of grippers (m) and their drape with a mesh, by which candidates are ranked. Positions whose grippers alone
+    /// exceed a limit too far have no drape, and a score worse than that of any drape.
     ///
     /// # Errors
-    /// [`NotRanked`] if there is no drape.
+    /// Those of [`evaluation::drape`] if the model that decides cannot drape the scene.
     pub fn rank(
         &self,
         positions: &[Vec<Point>],
         mesh: Mesh,
+        bias: &Bias,
         state: &SearchState,
-    ) -> Result<Judged, NotRanked> {
+    ) -> Result<(f64, Option<Judged>), Error> {
         let excess = geometry::excess(self.scene, positions);
         if excess > TUNING.search.excess {
-            return Err(NotRanked::Excess(TUNING.search.not_draped * excess));
+            return Ok((TUNING.search.not_draped * excess, None));
         }
-        Ok(evaluation::drape(&self.tabulated, positions, mesh, state)?)
+        let drape = evaluation::drape(&self.tabulated, positions, mesh, state)?;
+        Ok((evaluation::score_with(&drape, bias), Some(drape)))
     }
 
     /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.

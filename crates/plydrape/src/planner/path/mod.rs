@@ -13,7 +13,7 @@ mod transport;
 pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
-pub(super) use fronts::{Fronts, NotRanked};
+pub(super) use fronts::Fronts;
 pub(super) use search::search;
 pub use strategy::Strategy;
 pub use trajectory::trajectory;

@@ -6,9 +6,10 @@
 //! with a margin. Candidates are independent and run on all cores; which one is the best does not depend on the number of
 //! cores.
 
-use super::fronts::{Fronts, NotRanked};
+use super::fronts::Fronts;
 use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
+use crate::Error;
 use crate::geometry::Point;
 use crate::layup::Model;
 use crate::outcome::Judged;
@@ -16,7 +17,6 @@ use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
 use crate::planner::evaluation::{self, Bias, Mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
-use crate::planner::plan::PlanError;
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
@@ -42,7 +42,7 @@ struct Shared<'a, 'b> {
     /// How candidates are ranked; it changes between generations only.
     ranking: Mutex<Ranking>,
     /// Why the model that decides cannot drape, if it cannot.
-    fault: Mutex<Option<PlanError>>,
+    fault: Mutex<Option<Error>>,
 }
 
 /// How candidates are ranked.
@@ -61,7 +61,7 @@ struct Search<'a, 'b> {
     candidates: Vec<Candidate>,
     best: Option<Decision>,
     /// The first that could not become a motion.
-    fault: Option<PlanError>,
+    fault: Option<Error>,
     /// Rounds in which an accepted plan was not improved.
     idle: usize,
     /// Drapes that may be tried.
@@ -77,7 +77,7 @@ pub fn search(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     state: &SearchState,
-) -> Result<Option<Decision>, PlanError> {
+) -> Result<Option<Decision>, Error> {
     let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
     let ranking = Mutex::new(Ranking { mesh: Mesh::Coarse, bias: Bias::default() });
     let shared = Shared { scene, fronts, state, ranking, fault: Mutex::new(None) };
@@ -354,19 +354,15 @@ impl Shared<'_, '_> {
     /// The candidate with these positions (m).
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
-        let drape = match self.fronts.rank(&positions, mesh, self.state) {
-            Ok(drape) => drape,
-            Err(NotRanked::Excess(score)) => {
-                return Candidate { strategy, positions, drape: None, score };
-            }
-            Err(NotRanked::Model(fault)) => {
-                *lock(&self.fault) = Some(fault.into());
-                return Candidate { strategy, positions, drape: None, score: f64::INFINITY };
-            }
-        };
-        let score = evaluation::score_with(&drape, &bias);
-        self.state.record(&drape, score, false);
-        Candidate { strategy, positions, drape: Some(drape), score }
+        let ranked = self.fronts.rank(&positions, mesh, &bias, self.state);
+        let (score, drape) = ranked.unwrap_or_else(|fault| {
+            *lock(&self.fault) = Some(fault);
+            (f64::INFINITY, None)
+        });
+        if let Some(drape) = &drape {
+            self.state.record(drape, score, false);
+        }
+        Candidate { strategy, positions, drape, score }
     }
 }
 

@@ -6,8 +6,8 @@
 //! `δ ← δ + (D − B δ)` does it, because all eigenvalues of B are in 0 … 1, and it stays local: points from the landing on
 //! are not touched.
 
-use super::error::ReplanError;
 use super::tuning::TUNING;
+use crate::Error;
 use crate::geometry::vector::{distance, norm};
 use crate::motion::TimedMotion;
 use crate::pick_up::Moved;
@@ -65,7 +65,7 @@ pub fn rigid(
     planned: &TimedMotion,
     motion: &TimedMotion,
     last_free: usize,
-) -> Result<(), ReplanError> {
+) -> Result<(), Error> {
     let lines = scene.layup.ply.lines();
     let mut pairs: Vec<[usize; 2]> = (0..lines.catenaries()).map(|n| lines.ends(n)).collect();
     pairs.extend((1..motion.grippers()).map(|n| [n - 1, n]));
@@ -84,6 +84,6 @@ pub fn rigid(
     }
     match most <= TUNING.rigid {
         true => Ok(()),
-        false => Err(ReplanError::NotRigid { step: worst + 1, change: most, limit: TUNING.rigid }),
+        false => Err(Error::ReplanNotRigid { step: worst + 1, change: most, limit: TUNING.rigid }),
     }
 }

@@ -18,7 +18,6 @@
 //! [`Replanner`] prepares what does not depend on the offset, so that a cell has an answer for each ply at once.
 
 mod correction;
-mod error;
 mod fade;
 mod record;
 mod shapes;
@@ -26,9 +25,9 @@ mod shapes;
 mod tests;
 mod tuning;
 
-pub use error::ReplanError;
 pub use shapes::SheetShapes;
 
+use crate::Error;
 use crate::clearance::Nearest;
 use crate::layup::{ReleaseOrder, SheetTime};
 use crate::measure::Name;
@@ -130,30 +129,32 @@ impl<'a> Replanner<'a> {
     /// Prepares a plan; where the sheet decides, with its recorded states.
     ///
     /// # Errors
-    /// [`ReplanError`] if the plan has no transport in which an offset could be taken out, or was corrected before.
-    pub fn new(plan: Plan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, ReplanError> {
+    /// [`Error::ReplanAgain`] if the plan was corrected before; [`Error::ReplanRealTime`], [`Error::ReplanUnfinished`], [`Error::ReplanNoShapes`]
+    /// or [`Error::ReplanMotion`] if its drape says too little; [`Error::ReplanNoTransport`] if it has no transport in which an offset could
+    /// be taken out.
+    pub fn new(plan: Plan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, Error> {
         let Plan { scene, record, steps, summary } = plan;
         if record.picked_up.is_some() {
-            return Err(ReplanError::Again);
+            return Err(Error::ReplanAgain);
         }
         if scene.layup.settings.sheet.time == SheetTime::Real && summary.sheet.is_some() {
-            return Err(ReplanError::RealTime);
+            return Err(Error::ReplanRealTime);
         }
-        let motion = record.motion()?;
+        let motion = record.motion().map_err(Error::ReplanMotion)?;
         let count = motion.times().len();
         if summary.steps != summary.steps_planned || steps.len() != count || count < 2 {
-            return Err(ReplanError::Unfinished { steps: steps.len(), planned: count });
+            return Err(Error::ReplanUnfinished { steps: steps.len(), planned: count });
         }
         let first = summary.first_contact_step();
         // where nothing ever touches, the end is kept
         let last_free = first.map_or(count - 1, |first| first.saturating_sub(2));
         let mut shapes = Shapes::new(scene, steps, sheet, last_free);
         if shapes.is_empty() {
-            return Err(ReplanError::NoShapes);
+            return Err(Error::ReplanNoShapes);
         }
         let clear = shapes.clear_of_obstacles(scene);
         let weights = fade::weights(motion.parameter(), clear, last_free)
-            .ok_or(ReplanError::NoTransport { clear: clear + 1, first })?;
+            .ok_or(Error::ReplanNoTransport { clear: clear + 1, first })?;
         shapes.measure(scene);
 
         let middle = |places: &Vec<[f64; 3]>| {
@@ -164,7 +165,7 @@ impl<'a> Replanner<'a> {
             true => None,
             false => {
                 let times = [motion.times()[last_free], motion.duration()];
-                let attitudes = attitudes(steps)?;
+                let attitudes = attitudes(steps).map_err(Error::ReplanMotion)?;
                 let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
                 Nearest::of_motion_within(
                     &scene.layup,
@@ -196,11 +197,12 @@ impl<'a> Replanner<'a> {
     /// The motion for a ply that lies off by `offset`; `residual` is what seen points leave of it (m), for the record.
     ///
     /// # Errors
-    /// [`ReplanError`] if the ply would touch the mold before the planned landing, or could not be carried there as one body.
-    pub fn replan(&self, offset: &Offset, residual: Option<f64>) -> Result<Replanned, ReplanError> {
+    /// [`Error::ReplanOffset`] if the offset is no number; [`Error::ReplanTouches`] if the ply would touch the mold before the planned landing;
+    /// [`Error::ReplanNotRigid`], [`Error::ReplanDwells`] or [`Error::ReplanMotion`] if it could not be carried there as one body.
+    pub fn replan(&self, offset: &Offset, residual: Option<f64>) -> Result<Replanned, Error> {
         let Plan { scene, record, .. } = self.plan;
         if !offset.is_near() {
-            return Err(ReplanError::Numbers);
+            return Err(Error::ReplanOffset);
         }
         let offset = offset.about(self.middles[0]);
         let moved: Vec<Moved> = self
@@ -215,7 +217,7 @@ impl<'a> Replanner<'a> {
         // the path through the moved steps, and its time
         let path = correction::corrected(&self.motion, &self.path, &moved, self.last_free);
         let bounds = scene.limits.motion_bounds();
-        let mut motion = self.motion.moved(&path, &bounds)?;
+        let mut motion = self.motion.moved(&path, &bounds).map_err(Error::ReplanMotion)?;
         correction::rigid(scene, &self.motion, &motion, self.last_free)?;
         if let Some(touch) = self.shapes.touches(scene, &moved) {
             return Err(touch);
@@ -253,11 +255,11 @@ impl<'a> Replanner<'a> {
                 release.order == ReleaseOrder::Landed && release.dwell > 0.0
             });
         if longer > 1.0 && dwells {
-            return Err(ReplanError::Dwells { longer });
+            return Err(Error::ReplanDwells { longer });
         }
 
         record::times(&mut steps, &motion);
-        let attitudes = attitudes(&steps)?;
+        let attitudes = attitudes(&steps).map_err(Error::ReplanMotion)?;
         record::places(&mut steps, &moved, self.last_free);
         let outcome = record::Outcome {
             motion: &motion,

@@ -4,8 +4,8 @@
 //! point whose way in the plan stays farther from the mold than it is moved needs no look at all. Of the others, the moved way is halved until
 //! the distances at the ends say that nothing between touches, or that something does.
 
-use super::error::ReplanError;
 use super::tuning::TUNING;
+use crate::Error;
 use crate::bodies::Obstacle;
 use crate::draping::free_curves;
 use crate::geometry::vector::{between, distance, norm};
@@ -159,7 +159,7 @@ impl Shapes {
     }
 
     /// The first part of the ply that would touch the mold where each step is moved, and does not in the plan.
-    pub fn touches(&self, scene: &Scene, moved: &[Moved]) -> Option<ReplanError> {
+    pub fn touches(&self, scene: &Scene, moved: &[Moved]) -> Option<Error> {
         let mold = scene.layup.mold.as_ref()?;
         let first = self.series.iter().filter_map(|series| {
             let pairs = series.states.windows(2).zip(&series.least);
@@ -189,7 +189,7 @@ impl Shapes {
             found.next().map(|(step, worst)| (step, worst, &series.sites))
         });
         let (step, (n, Nearest { distance, place }), sites) = first.min_by_key(|found| found.0)?;
-        Some(ReplanError::Touches {
+        Some(Error::ReplanTouches {
             at: sites.label(n, scene),
             step: step + 1,
             place,

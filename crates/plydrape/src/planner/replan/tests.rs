@@ -1,6 +1,7 @@
 //! What a corrected plan keeps and what it changes, on a small ply that is carried over the flank of a dome, turned, and laid on its top.
 
 use super::*;
+use crate::Error;
 use crate::bodies::{Bodies, Body, Mount, Obstacle, Shape};
 use crate::clearance::{self, Poses};
 use crate::geometry::vector::{distance, norm, sub};
@@ -324,7 +325,7 @@ fn a_corrected_motion_keeps_its_limits_at_fine_samples() {
 fn an_offset_into_the_mold_is_refused_with_its_place() {
     let found = dome();
     let refused = found.replanner().replan(&off(0.3, 0.0, 0.0), None).unwrap_err();
-    let ReplanError::Touches { step, place, distance_mm, .. } = &refused else {
+    let Error::ReplanTouches { step, place, distance_mm, .. } = &refused else {
         panic!("{refused}");
     };
     assert!(*step <= 3 && *distance_mm < 0.2, "{refused}");
@@ -375,16 +376,16 @@ fn a_workspace_and_an_obstacle_are_judged_again() {
 fn a_plan_that_leaves_no_room_is_refused() {
     let found = planned(path()[STEPS - 3..].to_vec(), Bodies::default());
     let refused = Replanner::new(found.plan(), None).unwrap_err();
-    assert!(matches!(refused, ReplanError::NoTransport { .. }), "{refused}");
+    assert!(matches!(refused, Error::ReplanNoTransport { .. }), "{refused}");
 
     let mut found = dome();
     for offset in [off(f64::NAN, 0.0, 0.0), off(0.0, 1e7, 0.0), off(0.0, 0.0, 200.0)] {
         let refused = found.replanner().replan(&offset, None).unwrap_err();
-        assert_eq!(refused, ReplanError::Numbers);
+        assert_eq!(refused, Error::ReplanOffset);
     }
     found.record = found.replanner().replan(&seen(), None).unwrap().record;
     let again = Replanner::new(found.plan(), None).unwrap_err();
-    assert_eq!(again, ReplanError::Again);
+    assert_eq!(again, Error::ReplanAgain);
 }
 
 /// Over a table the whole offset is kept until the ply is clear of it; without one it fades from the first step on.

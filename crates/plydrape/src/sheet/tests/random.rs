@@ -1,6 +1,7 @@
 //! Random sheets: whatever is asked of it, a sheet answers with numbers and an honest status.
 
 use super::*;
+use crate::Error;
 use crate::layup::{Layup, Model, PadSettings, Release, ReleaseOrder, Settings, SheetTime};
 use crate::material::{Material, Section};
 use crate::measure::{Judge, Limits, Name};
@@ -9,7 +10,7 @@ use crate::motion::Motion;
 use crate::outcome::{self, simulate};
 use crate::ply::{Grid, Ply};
 use crate::scene::Scene;
-use crate::sheet::{HandOver, SheetError, State, Status, drape};
+use crate::sheet::{HandOver, State, Status, drape};
 use crate::tool::Tool;
 use std::ops::ControlFlow;
 
@@ -142,9 +143,9 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         let drape = match drape(&layup, tuning, 0.0, &stop, see) {
             Ok(drape) => drape,
             Err(
-                SheetError::Coarse { .. }
-                | SheetError::Overlap { .. }
-                | SheetError::Overhang { .. },
+                Error::SheetCoarse { .. }
+                | Error::SheetPadsOverlap { .. }
+                | Error::SheetPadsOverhang { .. },
             ) => {
                 assert!(layup.settings.pad.radius > 0.0);
                 refused += 1;
@@ -180,7 +181,7 @@ fn a_mesh_is_refused_from_half_of_the_free_fabric_between_pads_on() {
         Sheet::new(&layup)
     };
     assert!(with_mesh(0.3 * pitch).is_ok());
-    let Err(SheetError::Coarse { most_mm, .. }) = with_mesh(0.31 * pitch) else {
+    let Err(Error::SheetCoarse { most_mm, .. }) = with_mesh(0.31 * pitch) else {
         panic!("a mesh without a line between the pads");
     };
     assert!((most_mm - 300.0 * pitch).abs() < 1e-9, "{most_mm}");

@@ -4,7 +4,8 @@
 //! of ROS 2, as a set of a deck and as a variable of a robot program. Earlier versions wrote it in other ways, which are
 //! still read.
 
-use super::GripperId;
+/// A gripper by its grid indices `[i, j]`, from `[0, 0]`: i along u, j along v.
+pub type GripperId = [usize; 2];
 
 /// The name of a gripper, `g2_0`.
 #[must_use]
