@@ -111,7 +111,7 @@ pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, Error> {
 /// A scene can follow it: `[motion]`, `kind = "file"`.
 ///
 /// # Errors
-/// [`Error::Motion`] if motion, attitudes and ply differ in grippers, or the rate gives no or too
+/// [`Error::NotPossible`] if motion, attitudes and ply differ in grippers, or the rate gives no or too
 /// many samples.
 pub fn motion(
     motion: &TimedMotion,
