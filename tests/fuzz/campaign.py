@@ -11,6 +11,7 @@ import traceback
 import zlib
 from collections import Counter
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -20,7 +21,7 @@ from random import Random
 from time import monotonic
 
 from . import contract, mesh, result, scene, study, table
-from .case import Case, Kind, Occupied, Outlet
+from .case import Case, Files, Kind, Occupied, Outlet
 from .contract import Fault
 from .process import Ended, Program
 
@@ -84,20 +85,24 @@ class Fuzzer:
     @cached_property
     def results(self) -> list[bytes]:
         """Results of the program itself: drapes and plans of short examples."""
-        written = []
         program = replace(self.program, patience=60.0)
-        with workshop() as folder:
-            for number, files in enumerate(scene.examples()):
-                place = folder / str(number)
-                place.mkdir()
-                for name, content in files.items():
-                    assert isinstance(content, bytes)
-                    (place / name).write_bytes(content)
-                command = "simulate" if number % 3 else "plan"
-                program.run((command, scene.NAME, "-o", "out", "-q"), place)
-                found = place / "out" / result.NAME
-                if found.is_file() and found.stat().st_size < 250_000:
-                    written.append(found.read_bytes())
+
+        def result_of(numbered: tuple[int, Files]) -> bytes | None:
+            number, files = numbered
+            place = folder / str(number)
+            place.mkdir()
+            for name, content in files.items():
+                assert isinstance(content, bytes)
+                (place / name).write_bytes(content)
+            command = "simulate" if number % 3 else "plan"
+            program.run((command, scene.NAME, "-o", "out", "-q", "--without-errors"), place)
+            found = place / "out" / result.NAME
+            small = found.is_file() and found.stat().st_size < 250_000
+            return found.read_bytes() if small else None
+
+        with workshop() as folder, ThreadPoolExecutor(os.cpu_count()) as workers:
+            found = workers.map(result_of, enumerate(scene.examples()))
+            written = [content for content in found if content is not None]
         if not written:
             raise SystemExit("fuzz: the program wrote no result of any example")
         return written

@@ -34,6 +34,12 @@ TOGETHER = {
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Leaves out what takes minutes, unless all cases are asked for."""
+    if item.get_closest_marker("long") and "PLYDRAPE_LONG" not in os.environ:
+        pytest.skip("NOT RUN: it takes minutes; scripts/soak runs it")
+
+
 def scope(test: str) -> str:
     """Tests of one scope run on one process, one after the other; the largest scopes begin."""
     return TOGETHER.get(Path(test.partition("::")[0]).name, test)

@@ -13,6 +13,12 @@ from program import ROOT, binary
 
 CHAPTERS = [ROOT / "docs" / "index.md", *sorted((ROOT / "docs" / "guide").glob("*.md"))]
 NAMES = [chapter.stem for chapter in CHAPTERS]
+# Chapters whose commands plan for minutes.
+LONG = ("bias", "cell", "planning", "robot")
+RUN = [
+    pytest.param(chapter, id=chapter.stem, marks=[pytest.mark.long] * (chapter.stem in LONG))
+    for chapter in CHAPTERS
+]
 
 # What a block may be called. Everything else, a misspelt `console` above all, is an error.
 KNOWN = {"console", "sh", "text", "toml", "json", "csv", "python", "matlab", "{toctree}", "{math}"}
@@ -33,7 +39,7 @@ def left_out() -> list[tuple[str, Block]]:
     ]
 
 
-@pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
+@pytest.mark.parametrize("chapter", RUN)
 def test_a_chapter_does_what_it_says(chapter: Path, tmp_path: Path) -> None:
     """A reader who types the commands in their order gets these exit codes and this output."""
     reader = follower(tmp_path, binary())

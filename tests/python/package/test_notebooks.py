@@ -11,6 +11,9 @@ import pytest
 from notebooks import FOLDER, read
 
 NOTEBOOKS = notebooks.names()
+# A notebook that plans for minutes.
+LONG = "02_robust_plan.ipynb"
+RUN = [pytest.param(name, marks=[pytest.mark.long] * (name == LONG)) for name in NOTEBOOKS]
 
 
 def test_there_are_notebooks() -> None:
@@ -34,7 +37,7 @@ def test_a_notebook_is_kept_with_its_outputs(name: str) -> None:
     assert longest <= 130, longest
 
 
-@pytest.mark.parametrize("name", NOTEBOOKS)
+@pytest.mark.parametrize("name", RUN)
 def test_a_notebook_says_what_was_recorded(name: str) -> None:
     """Without an error or a warning, in its own folder; `scripts/notebooks` records it anew."""
     recorded = read(name)

@@ -52,6 +52,7 @@ def test_a_plan_is_the_command_lines(tmp_path: Path) -> None:
         assert file.read_bytes() == (tmp_path / "cli" / file.name).read_bytes(), file.name
 
 
+@pytest.mark.long
 def test_a_plan_is_improved_until_its_time_is_over() -> None:
     """A search that shall improve its plan takes more drapes; without time it is whole too."""
     text = EXAMPLE.read_text(encoding="utf-8")
@@ -65,6 +66,11 @@ def test_a_plan_is_improved_until_its_time_is_over() -> None:
     short = plydrape.plan(scene, improve=True, time="1 ms", without_errors=True)
     assert short.time_over and short.evaluations < first.evaluations
     assert plydrape.plan(scene, time=0.001, without_errors=True).time_over
+
+
+def test_a_time_that_is_none_is_refused() -> None:
+    """It has to be longer than nothing, and one with a unit a time."""
+    scene = plydrape.Scene.read(EXAMPLE)
     for refused in (0, -1.0, float("nan"), "5 mm", "soon", "0 s"):
         with pytest.raises(ValueError, match="time"):
             plydrape.plan(scene, time=refused)
