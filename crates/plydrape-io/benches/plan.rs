@@ -3,13 +3,15 @@
 //!
 //! Each is made once, on all cores. `cargo bench -p plydrape-io --bench plan -- dome` makes those whose name holds a text.
 
+mod scenes;
+
 use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::outcome::{DrapeWatch, Summary, drape};
 use plydrape::planner;
 use plydrape::scene::Scene;
-use plydrape_io::scene;
 use plydrape_io::text::table;
+use scenes::{array, dome, example, is_asked};
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -19,55 +21,41 @@ use std::time::Instant;
 const UNSOLVED: &str = "07_cubic";
 /// Grippers along u and v, and the radius (m) of the dome below them.
 const DOMES: [([usize; 2], f64); 3] = [([6, 4], 0.8), ([8, 8], 1.0), ([12, 10], 1.5)];
+/// The ply of all arrays.
+const PLY: &str = "material = \"krogh2018\"";
 /// Squares of the triangle mesh along each side: 20 000 triangles.
 const SQUARES: usize = 100;
 
 fn main() {
-    let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let folder = tempfile::tempdir().expect("a folder");
     println!(
         "| plan | nodes | straight: height | time | plan: height | position | drapes | accepted | time |\n|---|---|---|---|---|---|---|---|---|"
     );
     for (name, scene) in scenes(folder.path()) {
-        if asked.is_empty() || asked.iter().any(|text| name.contains(text)) {
+        if is_asked(&name) {
             row(&name, &scene);
         }
     }
 }
 
 fn scenes(folder: &Path) -> Vec<(String, Scene)> {
-    let home = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples"));
-    let entries = std::fs::read_dir(home).expect("the examples");
+    let entries = std::fs::read_dir(scenes::examples()).expect("the examples");
     let mut examples: Vec<_> = entries.map(|entry| entry.expect("an example").path()).collect();
     examples.retain(|path| path.join("planned.png").exists() || path.ends_with(UNSOLVED));
     examples.sort();
     let examples = examples.into_iter().map(|path| {
-        let text = std::fs::read_to_string(path.join("scene.toml")).expect("a shipped scene");
         let name = path.file_name().expect("its name").to_string_lossy().into_owned();
-        (name, read(&text, &path))
+        (name, example(&path))
     });
     let domes = DOMES.map(|([nu, nv], radius)| {
-        let mold = format!("kind = \"sphere\"\nradius = {radius}\nposition = [0, 0, -{radius}]");
-        (format!("{nu} × {nv} dome, R = {radius} m"), array([nu, nv], &mold, folder))
+        let scene = array([nu, nv], PLY, &dome(radius), folder);
+        (format!("{nu} × {nv} dome, R = {radius} m"), scene)
     });
     std::fs::write(folder.join("mold.stl"), triangles()).expect("a file");
-    let mesh = array([6, 4], "kind = \"mesh\"\nfile = \"mold.stl\"\nunit = \"m\"", folder);
+    let mold = "kind = \"mesh\"\nfile = \"mold.stl\"\nunit = \"m\"";
+    let mesh = array([6, 4], PLY, mold, folder);
     let name = format!("6 × 4 on {} triangles", 2 * SQUARES * SQUARES);
     examples.chain(domes).chain([(name, mesh)]).collect()
-}
-
-fn read(text: &str, folder: &Path) -> Scene {
-    scene::parse(text, folder, "scene.toml").unwrap_or_else(|error| panic!("{error}")).scene
-}
-
-/// Grippers in cells of 100 mm over a mold.
-fn array([nu, nv]: [usize; 2], mold: &str, folder: &Path) -> Scene {
-    let text = format!(
-        "[ply]\ngrippers = [{nu}, {nv}]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
-         [grippers]\nspacing = [0.098, 0.098]\nheight = 0.1\norigin = \"centred\"\n\
-         [target]\nseed = \"middle\"\n"
-    );
-    read(&text, folder)
 }
 
 /// A shallow doubly curved surface of 0.8 m by 0.6 m as an ASCII STL file.

@@ -3,20 +3,20 @@
 //! A ring that rolls over a dome, the first candidate of a search, lays the ply; the paper's example goes along its own straight
 //! paths. `cargo bench -p plydrape-io --bench sheet -- "4 × 4"` drapes those whose name has this text.
 
+mod scenes;
+
 use plydrape::layup::Layup;
 use plydrape::motion::Motion;
 use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
 use plydrape::scene::Scene;
 use plydrape::sheet::{self, Tuning};
-use plydrape_io::scene;
+use scenes::{array, dome, example, examples, is_asked};
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::time::Instant;
 
-const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
 /// Grippers along u and v, and the radius (m) of the dome below them.
 const DOMES: [([usize; 2], f64); 3] = [([4, 4], 0.6), ([8, 8], 2.4), ([12, 10], 2.4)];
-/// Materials: names, and lines of a scene.
+/// Materials: names, and lines of their scenes.
 const MATERIALS: [(&str, &str); 3] = [
     ("the paper's ply", "material = \"krogh2018\""),
     (
@@ -27,44 +27,29 @@ const MATERIALS: [(&str, &str); 3] = [
 ];
 
 fn main() {
-    let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let is_asked = |name: &str| asked.is_empty() || asked.iter().any(|text| name.contains(text));
     println!(
         "| drape | nodes | time steps | linear systems | each step | time | height | end |\n|---|---|---|---|---|---|---|---|"
     );
     if is_asked("the paper's example") {
-        let flat = Path::new(EXAMPLES).join("01_flat_sheared_mold");
-        let text = std::fs::read_to_string(flat.join("scene.toml")).expect("a shipped scene");
-        row("the paper's example", &read(&text, &flat).layup);
+        row("the paper's example", &example(&examples().join("01_flat_sheared_mold")).layup);
     }
     let plain = DOMES.iter().map(|dome| (*dome, MATERIALS[0]));
     let stiff = MATERIALS[1..].iter().map(|material| (DOMES[0], *material));
-    for (([nu, nv], radius), (material, lines)) in plain.chain(stiff) {
+    for (([nu, nv], radius), (material, line)) in plain.chain(stiff) {
         let name = format!("{nu} × {nv} dome, {material}");
         if is_asked(&name) {
-            row(&name, &rolled([nu, nv], radius, lines));
+            row(&name, &rolled(array([nu, nv], line, &dome(radius), &examples())));
         }
     }
 }
 
-/// A ply over a dome of a radius (m), laid by a ring that rolls over it.
-fn rolled([nu, nv]: [usize; 2], radius: f64, material: &str) -> Layup {
-    let text = format!(
-        "[ply]\ngrippers = [{nu}, {nv}]\ncell = [0.1, 0.1]\n{material}\n\
-         [mold]\nkind = \"sphere\"\nradius = {radius}\nposition = [0, 0, -{radius}]\n\
-         [grippers]\nspacing = [0.098, 0.098]\nheight = 0.1\norigin = \"centered\"\n\
-         [target]\nseed = \"middle\"\n"
-    );
-    let scene = read(&text, Path::new(EXAMPLES));
+/// The layup of a scene, with a ring that rolls over its mold for a motion.
+fn rolled(scene: Scene) -> Layup {
     let heights = MoldHeights::new(&scene).expect("a sphere is a height");
     let ring = Strategy { slope: 0.4, ..Strategy::families(&scene, |shape| shape.slope)[0] };
     let positions = trajectory(&scene, &heights, ring).expect("a mold and a target");
     let times = (0..positions.len()).map(|n| n as f64).collect();
     Layup { motion: Motion { times, positions }, ..scene.layup }
-}
-
-fn read(text: &str, folder: &Path) -> Scene {
-    scene::parse(text, folder, "scene.toml").unwrap_or_else(|error| panic!("{error}")).scene
 }
 
 fn row(name: &str, layup: &Layup) {

@@ -122,7 +122,7 @@ fn a_book_has_a_folder_for_each_ply_and_one_report_over_all() {
 
 /// A ply's plan depends on no other plan, and on no number of threads: all files but the times are the same bytes.
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
+#[ignore = "long; plans of one ply are compared over threads; scripts/soak runs it"]
 fn results_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let path = book(folder.path(), BOOK);

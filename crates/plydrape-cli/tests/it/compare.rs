@@ -32,7 +32,7 @@ fn strategy<'a>(printed: &'a Value, name: &str) -> &'a Value {
 /// Straight paths leave ridges of millimeters, as `simulate` measures them on another way through the program; a front that
 /// spreads from a point leaves none. All limits of straight are the same to the last digit.
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
+#[ignore = "long; a table over one cell stands for it; scripts/soak runs it"]
 fn on_the_papers_example_straight_is_refused_for_its_height_and_a_front_accepted() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("compared");
@@ -88,7 +88,6 @@ fn the_table_has_every_strategy() {
 
 /// Grippers on neighboring corners of a cell are never 10 m apart: each strategy fails by that, and so would any plan.
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
 fn without_an_accepted_strategy_the_exit_code_is_one() {
     let home = tempfile::tempdir().unwrap();
     let scene = cell(home.path(), "[limits]\ngripper_distance = \"10 m\"\n");

@@ -410,7 +410,7 @@ fn signalled(scene: &Path, signals: &[(u64, &str)]) -> Output {
 /// Whatever is under way when SIGTERM or SIGINT comes, the drape that decides runs to its end, and nothing says otherwise.
 #[cfg(unix)]
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
+#[ignore = "long; a second signal and searches ended by a program stand for it; scripts/soak runs it"]
 fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
     let folder = tempfile::tempdir().unwrap();
     let path = scene(folder.path(), &long_sheet("10 mm"));

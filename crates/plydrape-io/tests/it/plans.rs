@@ -242,7 +242,7 @@ fn the_flat_mold_is_draped_from_two_heights() {
 }
 
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
+#[ignore = "long; the shallow mold and the saddle stand for others; scripts/soak runs it"]
 fn a_dome_and_one_of_a_tenth_are_draped() {
     let example = Example::of("04_dome");
     example_is_draped(&example, POSITION[0]);
@@ -271,7 +271,7 @@ fn a_saddle_is_draped_and_a_turned_one_too() {
 }
 
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
+#[ignore = "long; the shallow mold and the saddle stand for others; scripts/soak runs it"]
 fn a_mold_of_triangles_and_one_ten_times_as_large_are_draped() {
     let example = Example::of("08_stl_mold");
     example_is_draped(&example, POSITION[0]);
@@ -321,16 +321,21 @@ fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
     (result, limiting)
 }
 
-/// The ideal drape puts corners where the wall is steeper than a gripper may tilt. This is known before any
-/// search, and every plan has it.
+/// The ideal drape puts corners where the wall is steeper than a gripper may tilt. This is known before any search.
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
-fn a_hemisphere_too_steep_for_the_grippers_is_said_to_be() {
-    let few = "steps = 30\nevaluations = 10";
-    let scene = Example::of("11_hemisphere").with_table("plan", |_| None, few).scene();
-    let known = planner::infeasible_limits::infeasible_limits(&scene);
+fn a_hemisphere_too_steep_for_the_grippers_is_known_before_the_search() {
+    let known =
+        planner::infeasible_limits::infeasible_limits(&Example::of("11_hemisphere").scene());
     let [tilt] = &known[..] else { panic!("{known:?}") };
     assert!(tilt.name == Name::Tilt && (tilt.value - 57.08).abs() < 0.01, "{tilt:?}");
+}
+
+/// Every plan of such a hemisphere has that tilt.
+#[test]
+#[ignore = "long; the cubic mold stands for molds beyond a plan; scripts/soak runs it"]
+fn a_plan_of_a_hemisphere_too_steep_says_so() {
+    let few = "steps = 30\nevaluations = 10";
+    let scene = Example::of("11_hemisphere").with_table("plan", |_| None, few).scene();
     let (result, _) = is_explained(&scene);
     let tilt = verdict(&result, "tilt");
     assert!(!tilt.ok && tilt.value >= 57.0, "{tilt:?}");

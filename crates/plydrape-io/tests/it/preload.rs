@@ -117,7 +117,6 @@ fn the_first_members_pull_against_the_errors_of_the_scene() {
 
 /// The paper's example, planned for mounts of 2 N/mm, stands errors ten times as large as a plan for rigid grippers.
 #[test]
-#[ignore = "takes long; scripts/soak runs it"]
 fn mounts_stand_ten_times_the_errors_of_rigid_grippers() {
     let rigid = example("01_flat_sheared_mold");
     let mut mounted = rigid.clone();
