@@ -119,6 +119,9 @@ impl Element {
         for (node, weight) in self.nodes.into_iter().zip(self.weights) {
             add(&mut system.gradient[node], stiffness * weight, curvature);
         }
+        if !system.wants_matrix() {
+            return;
+        }
         let couplings = self.pairs.into_iter().zip([a * b, b * c, a * c]);
         let Some(more) = more else {
             for (node, weight) in self.nodes.into_iter().zip(self.weights) {

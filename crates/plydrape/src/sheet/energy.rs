@@ -12,13 +12,40 @@ use super::system::System;
 use super::weight::Weight;
 use super::{Sheet, Tuning};
 
-/// How much of the stiffness of an energy, its second derivative, is added.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stiffness {
+/// How much of the stiffness of an energy, its second derivative, is added: the positive part of each element, and a share of
+/// the negative one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stiffness {
+    /// Share of the negative parts.
+    negative: f64,
+}
+
+impl Stiffness {
     /// All of it, with which Newton's iteration converges fastest; the matrix may not be positive definite.
-    Whole,
+    pub const WHOLE: Self = Stiffness { negative: 1.0 };
     /// The positive part of each element, a positive semi-definite matrix.
-    Positive,
+    pub const POSITIVE: Self = Stiffness { negative: 0.0 };
+
+    /// The next smaller share of the negative parts, where the matrix is not positive definite with this one; `None` below the
+    /// positive parts alone.
+    pub fn less(self) -> Option<Self> {
+        let half = Stiffness { negative: 0.5 };
+        match self.negative {
+            0.0 => None,
+            1.0 => Some(half),
+            _ => Some(Self::POSITIVE),
+        }
+    }
+
+    /// What is added of a coefficient that makes its part of an element positive or negative.
+    pub fn of(self, coefficient: f64) -> f64 {
+        coefficient.max(0.0) + self.negative * coefficient.min(0.0)
+    }
+
+    /// The share of the negative parts.
+    pub fn negative(self) -> f64 {
+        self.negative
+    }
 }
 
 /// A term of the energy.

@@ -8,6 +8,7 @@ use super::Sheet;
 use super::cloth::Cloth;
 use super::drape::Status;
 use super::energy::Phase;
+use super::newton::Failure;
 use super::release::Releases;
 use super::tuning::Tuning;
 use crate::geometry::vector::{between, distance};
@@ -153,8 +154,12 @@ impl<'a> March<'a> {
                         self.share = (2.0 * self.share).min(1.0);
                     }
                 }
-                Err(_) => {
-                    self.share = 0.5 * share;
+                Err(failure) => {
+                    let shorter = match failure {
+                        Failure::Turn(turn) => (0.8 * self.tuning.turn / turn).clamp(0.05, 0.5),
+                        _ => 0.5,
+                    };
+                    self.share = shorter * share;
                     if self.share < self.tuning.smallest_step && due.is_none() {
                         return Err(Ended::NotSolved);
                     }
@@ -237,14 +242,15 @@ impl<'a> March<'a> {
                 dt = self.cloth.longest_step(dt);
             }
             match self.cloth.advance(places, dt, tolerance) {
-                Ok(_) => {
+                Ok(iterations) => {
                     self.time_steps += 1;
                     let still =
                         self.cloth.movement() <= self.tuning.rest_movement * self.sheet.mesh;
                     if still && dt >= longest {
                         return true;
                     }
-                    dt = (2.0 * dt).min(longest);
+                    let longer = if iterations == 1 { 3.0 } else { 2.0 };
+                    dt = (longer * dt).min(longest);
                 }
                 Err(_) => dt *= 0.25,
             }

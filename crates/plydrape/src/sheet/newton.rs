@@ -7,15 +7,16 @@
 
 use super::cloth::Cloth;
 use super::energy::{Phase, Stiffness};
+use super::system::Parts;
 use crate::geometry::vector::{norm, sub};
 
 /// Why a time step was not solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Failure {
     /// Newton's iteration did not come to an end.
     Iterations,
-    /// The first step turns segments too far to be linear.
-    Turn,
+    /// The first step turns segments by so much (rad), too far to be linear.
+    Turn(f64),
     /// A node came to the mold from too far away.
     Landing,
     /// The matrix is not positive definite, or a number is not finite.
@@ -64,15 +65,17 @@ impl Cloth<'_> {
             contact.anchor(&self.now.x);
         }
 
-        // 13. nodes that did not move come to rest
-        self.resting.count(&self.now, &self.before);
+        // 13. nodes that did not move while the grippers did come to rest
+        if self.phase == Phase::Follow {
+            self.resting.count(&self.now, &self.before);
+        }
         found
     }
 
     /// Finds the configuration in which the incremental potential is stationary, to steps of `tolerance` (m). Returns the
     /// iterations.
     fn iterate(&mut self, tolerance: f64) -> Result<usize, Failure> {
-        let mut stiffness = Stiffness::Whole;
+        let mut stiffness = Stiffness::WHOLE;
         self.energies.stretch.start(&self.now.x);
 
         // 3. gradient and stiffness of all terms
@@ -81,18 +84,20 @@ impl Cloth<'_> {
         // 4. nodes that lie are no unknowns
         self.leave_out();
 
+        let mut before = 0.0;
         for iteration in 0..self.tuning.iterations {
-            // 5. the linear step, with the positive parts alone where the whole stiffness is not positive definite
-            let turn = match self.solve() {
-                Err(_) if stiffness == Stiffness::Whole => {
-                    stiffness = Stiffness::Positive;
-                    self.linearize(stiffness);
-                    self.solve()?
+            // 5. the linear step, with less of the negative parts where the whole stiffness is not positive definite
+            let turn = loop {
+                match (self.solve(), stiffness.less()) {
+                    (Err(_), Some(less)) => {
+                        stiffness = less;
+                        self.assemble(stiffness, Parts::All);
+                    }
+                    (found, _) => break found?,
                 }
-                found => found?,
             };
             if iteration == 0 && turn > self.tuning.turn {
-                return Err(Failure::Turn);
+                return Err(Failure::Turn(turn));
             }
 
             // 6. the share of it that is taken
@@ -101,25 +106,46 @@ impl Cloth<'_> {
 
             // 7. the step is taken
             let largest = self.take(share)?;
-            if share == most && largest <= tolerance && iteration > 0 {
+            let left = self.left(iteration, largest, before, stiffness);
+            if share == most && iteration > 0 && left <= tolerance {
                 return Ok(iteration + 1);
             }
-
-            // 3. again, where the nodes are now
-            self.linearize(stiffness);
+            // nothing is known after a part of a step
+            before = if share == 1.0 { largest } else { 0.0 };
 
             // 8. one more step with the matrix of the step before, where what a linear step neglects, the square of its turn, is
             //    small; if it is small too, it is the last one
+            self.find_contacts();
             let neglected = turn * turn * self.sheet.pitch;
             if share == 1.0 && neglected <= tolerance && !self.has_switched() {
+                self.assemble(stiffness, Parts::Gradient);
                 let correction = self.correct();
                 if correction.is_some_and(|largest| largest <= tolerance) {
                     self.take(1.0)?;
                     return Ok(iteration + 1);
                 }
             }
+
+            // 3. again, where the nodes are now
+            self.assemble(stiffness, Parts::All);
         }
         Err(Failure::Iterations)
+    }
+
+    /// What tells whether a whole step of an iteration was its last one (m), by the largest movement of a node in it and in the
+    /// whole step before it (m).
+    fn left(&self, iteration: usize, largest: f64, before: f64, stiffness: Stiffness) -> f64 {
+        if self.has_switched() {
+            return largest;
+        }
+        if stiffness == Stiffness::WHOLE {
+            // each step goes with the square of the one before
+            let next = largest * (largest / before).powi(2);
+            return largest.min(self.tuning.next_step * next);
+        }
+        // a ply that buckles creeps, and goes on in the time steps that follow
+        let creeps = iteration >= self.tuning.creep_iterations;
+        if creeps { largest / self.tuning.creep } else { largest }
     }
 
     /// Finds where the mold presses nodes, and which of them slip.
@@ -133,7 +159,12 @@ impl Cloth<'_> {
     /// Gradient and stiffness of the incremental potential (19g), in the linear system.
     fn linearize(&mut self, stiffness: Stiffness) {
         self.find_contacts();
-        self.system.begin(&self.now);
+        self.assemble(stiffness, Parts::All);
+    }
+
+    /// The same with the contacts that were found last, or its gradient alone.
+    fn assemble(&mut self, stiffness: Stiffness, parts: Parts) {
+        self.system.begin(&self.now, parts);
         for term in self.energies.incremental(self.phase) {
             term.linearize(&self.now, stiffness, &mut self.system);
         }
@@ -143,9 +174,9 @@ impl Cloth<'_> {
     /// Gradient and whole stiffness of the energy (19) alone, of all nodes.
     pub(super) fn linearize_potential(&mut self) {
         self.find_contacts();
-        self.system.begin(&self.now);
+        self.system.begin(&self.now, Parts::All);
         for term in self.energies.potential(self.phase) {
-            term.linearize(&self.now, Stiffness::Whole, &mut self.system);
+            term.linearize(&self.now, Stiffness::WHOLE, &mut self.system);
         }
     }
 

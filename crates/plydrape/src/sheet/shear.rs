@@ -84,7 +84,6 @@ impl Energy for Shear {
     }
 
     fn linearize(&self, now: &Configuration, stiffness: Stiffness, system: &mut System) {
-        let whole = stiffness == Stiffness::Whole;
         for e in &self.cells {
             if system.skips(&e.nodes) {
                 continue;
@@ -105,24 +104,25 @@ impl Energy for Shear {
                 add(&mut system.gradient[node], force * across, by[1]);
             }
 
+            if !system.wants_matrix() {
+                continue;
+            }
+
             // turns of the mid-lines out of the plane of the cell, alike and opposite, eq. (19c)
             let normal = cross(u, v).map(|c| c / lines.cos);
             let turn = [0, 1].map(|n| normal.map(|c| c / lines.length[n]));
             // tan(θ/2) = cos γ / (1 + sin γ)
             let tangent = lines.cos / (1.0 + lines.sin);
-            let [mut alike, mut opposite] = [stress * tangent, -stress / tangent];
-            if !whole {
-                [alike, opposite] = [alike.max(0.0), opposite.max(0.0)];
-            }
+            let [alike, opposite] = [stress * tangent, -stress / tangent].map(|k| stiffness.of(k));
             let [own, mixed] = [alike + opposite, alike - opposite].map(|sum| 0.5 * e.area * sum);
             // second derivatives to the mid-lines
             let second = |i: usize, j: usize| {
                 let mut k = scaled(e.area * slope, &outer(by[i], by[j]));
                 k = plus(&k, if i == j { own } else { mixed }, &outer(turn[i], turn[j]));
-                if whole && i == j {
+                if i == j && stiffness.negative() > 0.0 {
                     // along a mid-line and across it: a longer one turns less
                     let both = outer(by[i], lines.unit[i].map(|c| c / lines.length[i]));
-                    let stress = -e.area * stress;
+                    let stress = -e.area * stress * stiffness.negative();
                     k = plus(&plus(&k, stress, &both), stress, &transposed(&both));
                 }
                 k

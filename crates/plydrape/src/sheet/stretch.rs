@@ -87,11 +87,12 @@ impl Energy for Stretch {
             add(&mut system.gradient[b], tension * s.width, unit);
             add(&mut system.gradient[a], -tension * s.width, unit);
 
+            if !system.wants_matrix() {
+                continue;
+            }
+
             // along it the slope of the law, across it the predicted tension, eq. (19h)
-            let turning = match stiffness {
-                Stiffness::Whole => *predicted,
-                Stiffness::Positive => predicted.max(0.0),
-            } / length;
+            let turning = stiffness.of(*predicted) / length;
             let stretching = slope * s.width / s.length;
             let mut k: Matrix3 =
                 outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));

@@ -26,9 +26,19 @@ pub struct PadStep {
     pub shift: [f64; 3],
 }
 
+/// What is assembled of a linear system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parts {
+    /// Gradient and matrix.
+    All,
+    /// The gradient; the matrix stays as it is.
+    Gradient,
+}
+
 /// The linear system.
 #[derive(Debug)]
 pub struct System {
+    parts: Parts,
     carriers: Vec<Carrier>,
     matrix: BlockMatrix,
     cholesky: Cholesky,
@@ -79,6 +89,7 @@ impl System {
         let nodes = carriers.len();
         let zero = vec![[0.0; 3]; nodes];
         System {
+            parts: Parts::All,
             carriers,
             cholesky: Cholesky::new(&matrix),
             gradient: zero.clone(),
@@ -141,8 +152,11 @@ impl System {
 
     /// Begins a system in a configuration: nothing is added yet. Where grippers move nodes in the next step
     /// ([`System::moved`]), this adds to the gradient of their neighbors.
-    pub fn begin(&mut self, now: &Configuration) {
-        self.matrix.clear();
+    pub fn begin(&mut self, now: &Configuration, parts: Parts) {
+        self.parts = parts;
+        if self.wants_matrix() {
+            self.matrix.clear();
+        }
         self.gradient.fill([0.0; 3]);
         self.block_gradient.clear();
         self.pulled.fill([0.0; 3]);
@@ -152,6 +166,11 @@ impl System {
                 self.arms[node] = sub(now.x[node], now.pads[*gripper as usize].position);
             }
         }
+    }
+
+    /// Whether second derivatives are asked for, or the gradient alone.
+    pub fn wants_matrix(&self) -> bool {
+        self.parts == Parts::All
     }
 
     /// Adds the second derivative `k` of an energy to two different nodes (N/m); the block of the second and the first
@@ -198,6 +217,9 @@ impl System {
 
     /// Adds the second derivative `k` of an energy to one node (N/m).
     pub fn stiffen(&mut self, node: usize, k: &Matrix3) {
+        if !self.wants_matrix() {
+            return;
+        }
         let carrier = self.carriers[node];
         if let Carrier::Free { block } = carrier {
             self.matrix.add_diagonal(block as usize, k);
@@ -232,7 +254,9 @@ impl System {
     /// Adds gradient and second derivative of an energy to a block of unknowns itself: to a pad's turn (N·m) or shift (N).
     pub fn add_to_block(&mut self, block: u32, gradient: [f64; 3], k: &Matrix3) {
         self.block_gradient.push((block, gradient));
-        self.matrix.add_diagonal(block as usize, k);
+        if self.wants_matrix() {
+            self.matrix.add_diagonal(block as usize, k);
+        }
     }
 
     /// Ends the assembly: the gradient at nodes becomes that of the unknowns. How the forces on a pad act on its turn by their
@@ -249,7 +273,9 @@ impl System {
                     let arm = self.arms[node];
                     if let Some(turn) = turn {
                         add_at(&mut self.right, turn, cross(arm, g));
-                        self.matrix.add_diagonal(turn as usize, &lever(force, arm, stiffness));
+                        if self.parts == Parts::All {
+                            self.matrix.add_diagonal(turn as usize, &lever(force, arm, stiffness));
+                        }
                     }
                     if let Some(shift) = shift {
                         add_at(&mut self.right, shift, g);
@@ -312,20 +338,20 @@ impl System {
     }
 }
 
+const ZERO: Matrix3 = [[0.0; 3]; 3];
+
 /// Second derivative of the work of a force −g on an arm a over the turn of the arm: ½ (g aᵀ + a gᵀ) − (g·a) I. Its
 /// positive part is that of a force that pulls along the arm.
 fn lever(g: [f64; 3], arm: [f64; 3], stiffness: Stiffness) -> Matrix3 {
     let (reach, square) = (-dot(g, arm), dot(arm, arm));
     let pulls = reach > 0.0 && square > 0.0;
-    let mut k = match stiffness {
-        Stiffness::Whole => plus(&scaled(0.5, &outer(g, arm)), 0.5, &outer(arm, g)),
-        Stiffness::Positive if pulls => scaled(-reach / square, &outer(arm, arm)),
-        Stiffness::Positive => return [[0.0; 3]; 3],
-    };
+    let mut whole = plus(&scaled(0.5, &outer(g, arm)), 0.5, &outer(arm, g));
+    let mut positive = if pulls { scaled(-reach / square, &outer(arm, arm)) } else { ZERO };
     for n in 0..3 {
-        k[n][n] += reach;
+        whole[n][n] += reach;
+        positive[n][n] += if pulls { reach } else { 0.0 };
     }
-    k
+    plus(&scaled(1.0 - stiffness.negative(), &positive), stiffness.negative(), &whole)
 }
 
 /// a += s b.

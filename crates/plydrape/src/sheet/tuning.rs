@@ -19,6 +19,14 @@ pub struct Tuning {
     pub step_tolerance: f64,
     /// The same where the drape ends.
     pub rest_tolerance: f64,
+    /// Safety with which a step of the iteration is taken to go with the square of the one before, where it tells that the next
+    /// one is below the tolerance.
+    pub next_step: f64,
+    /// Iterations after which a time step in which the ply buckles, so that its matrix is not positive definite, is solved with
+    /// steps that are so many times as large as otherwise.
+    pub creep_iterations: usize,
+    /// How many times as large.
+    pub creep: f64,
     /// Largest turn of a segment in one step of the iteration (rad): a linear step of an inextensible line is wrong by the
     /// square of it.
     pub turn: f64,
@@ -66,9 +74,12 @@ impl Default for Tuning {
             lift: 5e-4,
             step_tolerance: 1e-3,
             rest_tolerance: 1e-4,
+            next_step: 30.0,
+            creep_iterations: 8,
+            creep: 10.0,
             turn: 0.3,
             iterations: 20,
-            full_iterations: 8,
+            full_iterations: 4,
             easy_iterations: 6,
             contact_way: 0.01,
             lying_movement: 1e-4,

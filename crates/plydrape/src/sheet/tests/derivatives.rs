@@ -6,6 +6,7 @@ use crate::material::{MomentCurve, ShearCurve};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::{Phase, Stiffness};
 use crate::sheet::matrix3::{rotation, times};
+use crate::sheet::system::Parts;
 
 /// A crumpled sheet: every node off its place by a pseudo-random share of a spacing.
 fn crumpled(sheet: &Sheet) -> Cloth<'_> {
@@ -102,7 +103,7 @@ fn linearize(cloth: &mut Cloth, n: usize, now: &Configuration, stiffness: Stiffn
     if let Some(contact) = &mut energies.contact {
         contact.find(&now.x, |_| false);
     }
-    system.begin(now);
+    system.begin(now, Parts::All);
     let term = energies.incremental(Phase::Rest).nth(n).expect("a term");
     term.linearize(now, stiffness, system);
     system.end(stiffness);
@@ -139,7 +140,7 @@ fn the_gradient_of_each_term_is_the_derivative_of_its_value() {
     let mut cloth = loaded(&sheet);
     for (n, name) in TERMS.iter().enumerate() {
         let now = cloth.now.clone();
-        linearize(&mut cloth, n, &now, Stiffness::Whole);
+        linearize(&mut cloth, n, &now, Stiffness::WHOLE);
         let gradient = cloth.system.gradient_of_unknowns();
         let largest = gradient.iter().fold(0.0, |most: f64, g| most.max(g.abs()));
         assert!(largest > 0.0, "{name} does nothing");
@@ -165,7 +166,7 @@ fn the_stiffness_of_each_term_is_the_derivative_of_its_gradient() {
     let mut cloth = loaded(&sheet);
     for (n, name) in TERMS.iter().enumerate() {
         let now = cloth.now.clone();
-        linearize(&mut cloth, n, &now, Stiffness::Whole);
+        linearize(&mut cloth, n, &now, Stiffness::WHOLE);
         let all: Vec<Vec<f64>> = directions(cloth.system.gradient_of_unknowns().len()).collect();
         let products: Vec<Vec<f64>> = all.iter().map(|d| cloth.system.multiply(d)).collect();
         let largest = products.iter().flatten().fold(0.0, |most: f64, g| most.max(g.abs()));
@@ -176,7 +177,7 @@ fn the_stiffness_of_each_term_is_the_derivative_of_its_gradient() {
             // along a turn about one axis, the torque about this axis is the derivative of the value
             let mut slope = |share: f64| {
                 let now = moved(&mut cloth, direction, share);
-                linearize(&mut cloth, n, &now, Stiffness::Whole);
+                linearize(&mut cloth, n, &now, Stiffness::WHOLE);
                 product(&cloth.system.gradient_of_unknowns(), direction)
             };
             let central = (slope(h) - slope(-h)) / (2.0 * h);
@@ -200,11 +201,11 @@ fn a_tilt_limit_is_as_stiff_about_its_axis_as_its_torque_grows() {
     // the pads' blocks come first, the turn before the shift
     direction[..3].copy_from_slice(&axis);
     let now = cloth.now.clone();
-    linearize(&mut cloth, mounts, &now, Stiffness::Whole);
+    linearize(&mut cloth, mounts, &now, Stiffness::WHOLE);
     let stiffness = product(&cloth.system.multiply(&direction), &direction);
     let mut torque = |turn: f64| {
         let now = moved(&mut cloth, &direction, turn);
-        linearize(&mut cloth, mounts, &now, Stiffness::Whole);
+        linearize(&mut cloth, mounts, &now, Stiffness::WHOLE);
         product(&cloth.system.gradient_of_unknowns(), &direction)
     };
     let central = (torque(1e-5) - torque(-1e-5)) / 2e-5;
@@ -225,9 +226,9 @@ fn the_positive_part_of_each_term_is_positive_semi_definite() {
             linearize(&mut cloth, n, &now, stiffness);
             cloth.system.is_positive(1e-9)
         };
-        assert!(is_positive(Stiffness::Positive), "{name}");
+        assert!(is_positive(Stiffness::POSITIVE), "{name}");
         if matches!(*name, "stretch" | "shear") {
-            assert!(!is_positive(Stiffness::Whole), "{name}");
+            assert!(!is_positive(Stiffness::WHOLE), "{name}");
         }
     }
 }
