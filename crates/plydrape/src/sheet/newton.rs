@@ -106,6 +106,7 @@ impl Cloth<'_> {
 
             // 7. the step is taken
             let largest = self.take(share)?;
+            self.find_contacts();
             let left = self.left(iteration, largest, before, stiffness);
             if share == most && iteration > 0 && left <= tolerance {
                 return Ok(iteration + 1);
@@ -115,7 +116,6 @@ impl Cloth<'_> {
 
             // 8. one more step with the matrix of the step before, where what a linear step neglects, the square of its turn, is
             //    small; if it is small too, it is the last one
-            self.find_contacts();
             let neglected = turn * turn * self.sheet.pitch;
             if share == 1.0 && neglected <= tolerance && !self.has_switched() {
                 self.assemble(stiffness, Parts::Gradient);

@@ -79,7 +79,7 @@ impl Default for Tuning {
             creep: 10.0,
             turn: 0.3,
             iterations: 20,
-            full_iterations: 4,
+            full_iterations: 8,
             easy_iterations: 6,
             contact_way: 0.01,
             lying_movement: 1e-4,
