@@ -50,6 +50,7 @@ mod record;
 mod sag_ratio;
 #[cfg(test)]
 mod sample;
+mod sensitivity;
 #[cfg(feature = "serde")]
 mod serial;
 mod shear;
@@ -346,6 +347,7 @@ measures! {
     move_limit: MoveLimit,
     steps: Steps,
     height: Height,
+    sensitivity: Sensitivity,
     out_of_plane: OutOfPlane,
     position: Position,
     gripper_force: GripperForce,

@@ -1,6 +1,7 @@
 //! One drape by one model: the motion is followed, every step is measured and recorded, and the end is judged.
 
 use super::recorder::Recorder;
+use super::sensitivity::judge_sensitivity;
 use super::{Status, Step, Summary, check_catenaries};
 use crate::Error;
 use crate::draping::spans::Shape;
@@ -117,6 +118,7 @@ pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drap
     if let Some(tool) = tool {
         summary.follow_tool(scene, tool);
     }
+    judge_sensitivity(&mut summary, &scene.layup, &scene.limits, watch.stop);
     Ok(Drape { steps, summary, sheet, solving })
 }
 

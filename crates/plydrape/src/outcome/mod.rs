@@ -6,7 +6,8 @@
 //!
 //! 1. `drape`: one drape by one model; `recorder`, `step`: what is kept of it;
 //! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
-//! 3. `sample`, `robustness`: the verdict over cells with the errors of the scene.
+//! 3. `sensitivity`: whether it depends on what is too small to know;
+//! 4. `sample`, `robustness`: the verdict over cells with the errors of the scene.
 
 mod check;
 mod drape;
@@ -16,6 +17,7 @@ mod robustness;
 mod sample;
 #[cfg(test)]
 mod sample_tests;
+mod sensitivity;
 mod step;
 mod summary;
 #[cfg(test)]
@@ -27,6 +29,7 @@ pub(crate) use drape::drape_catenaries;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
+pub use sensitivity::minute_changes;
 pub use step::{Gripper, Step, attitudes};
 #[cfg(feature = "serde")]
 pub use summary::Unjudged;

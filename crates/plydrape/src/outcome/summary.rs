@@ -153,21 +153,33 @@ impl Summary {
         }
     }
 
-    /// Judges by another drape too, along the same motion with a step half-way between all its steps: a limit that it does
-    /// not keep is not kept, and its verdict says so. What is measured stays as it is.
+    /// Judges by another drape too, along the same motion with a step half-way between all its steps, as [`Summary::judge_beside`].
     pub(crate) fn judge_between(&mut self, between: &super::Judged) {
+        // the steps of the motion are the odd ones of the other drape
+        let step = |step| step / 2 + 1;
+        self.judge_beside(between, "with steps half-way between all steps", step, |_| true);
+    }
+
+    /// Judges by another drape too: a limit that `counts` and that it does not keep is not kept, and its verdict says `how` that came.
+    /// `step` is the step of the motion in which the other drape had one of its steps. What is measured stays as it is.
+    pub(super) fn judge_beside(
+        &mut self,
+        beside: &super::Judged,
+        how: &str,
+        step: impl Fn(usize) -> usize,
+        counts: impl Fn(&Verdict) -> bool,
+    ) {
         for verdict in &mut self.limits {
-            let other = between.limits.iter().find(|other| other.name == verdict.name);
-            if let Some(other) = other.filter(|other| verdict.ok && !other.ok) {
+            let other = beside.limits.iter().find(|other| other.name == verdict.name);
+            if let Some(other) = other.filter(|other| verdict.ok && !other.ok && counts(other)) {
                 *verdict = Verdict {
-                    // the steps of the motion are the odd ones of the other drape
-                    step: other.step.map(|step| step / 2 + 1),
-                    at: format!("{}, with steps half-way between all steps", other.at),
+                    step: other.step.map(&step),
+                    at: format!("{}, {how}", other.at),
                     ..other.clone()
                 };
             }
         }
-        if self.status == Status::Converged && !between.complete {
+        if self.status == Status::Converged && !beside.complete {
             self.status = Status::NotAtRest;
         }
     }

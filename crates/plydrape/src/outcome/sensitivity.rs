@@ -1,0 +1,73 @@
+//! Whether a verdict on a sheet depends on nothing that is too small to know: a few more drapes of the same motion with minute changes.
+
+use super::drape::judge;
+use super::{Judged, Status, Summary};
+use crate::errors::{Errors, Term};
+use crate::layup::{Layup, Model};
+use crate::measure::{Limits, Name, Verdict, Worst, Worth};
+use crate::sheet::{self, event::at_these_times};
+use rayon::prelude::*;
+
+/// Drapes with minute changes: if one of two ridges stays by accident, all of them agree with the drape itself once in 16 times.
+const DRAPES: usize = 4;
+/// Deviation of each gripper along each axis, of the pitch of the grippers: a micrometer of 100 mm.
+const POSITION: f64 = 1e-5;
+/// Deviation of the shear force, of itself.
+const SHEAR: f64 = 0.01;
+
+/// The minute changes by which the verdict on a sheet is tried: each gripper is off by a hundred-thousandth of the pitch, and the ply by
+/// one percent of its shear force.
+#[must_use]
+pub fn minute_changes(layup: &Layup) -> Errors {
+    let mut changes = Errors { samples: DRAPES, share: 1.0, ..Errors::default() };
+    changes.gripper.position = Term::Deviation(POSITION * sheet::pitch(&layup.ply));
+    changes.material.shear = Term::Deviation(SHEAR);
+    changes
+}
+
+/// Judges a drape of the sheet that is accepted by more drapes along its motion, with minute changes: by the range of their heights, and by
+/// limits of the ply that one of them does not keep. What is measured stays as it is. A drape that is stopped on the way is not accepted.
+pub(super) fn judge_sensitivity(
+    summary: &mut Summary,
+    layup: &Layup,
+    limits: &Limits,
+    stop: &(dyn Fn() -> bool + Sync),
+) {
+    let limit = Name::Sensitivity.measure().limit(layup, limits);
+    let (Some(limit), Some(own)) = (limit, height(&summary.limits)) else { return };
+    if summary.model != Model::Sheet || !summary.accepted_without_errors() {
+        return;
+    }
+    // pads let go when they did: a robot knows no other time
+    let layup = at_these_times(layup, &summary.events);
+    let changes = minute_changes(&layup);
+    let one = |n: usize| {
+        let changed = changes.draw(n, layup.ply.grippers()).apply(&layup);
+        judge(&changed, limits, usize::MAX, stop).unwrap_or_else(|_| Judged::nothing())
+    };
+    let drapes: Vec<Judged> = (0..changes.samples).into_par_iter().map(one).collect();
+    if drapes.iter().any(|drape| drape.interrupted) {
+        summary.status = Status::Interrupted;
+        return;
+    }
+
+    let heights = drapes.iter().filter_map(|drape| height(&drape.limits));
+    let [low, high] = heights.fold([own, own], |[low, high], h| [h.min(low), h.max(high)]);
+    for drape in &drapes {
+        summary.judge_beside(
+            drape,
+            "with minute changes",
+            |step| step,
+            |verdict| verdict.name.measure().worth() == Worth::Less,
+        );
+    }
+    let at =
+        format!("{low:.2} to {high:.2} mm high in {} drapes with minute changes", drapes.len());
+    let worst = Worst { value: high - low, at, place: None };
+    summary.judge_also([Verdict::of(Name::Sensitivity, worst, limit, None)]);
+}
+
+/// The height at the end (mm) among verdicts.
+fn height(limits: &[Verdict]) -> Option<f64> {
+    limits.iter().find(|verdict| verdict.name == Name::Height).map(|verdict| verdict.value)
+}
