@@ -4,7 +4,7 @@ use super::drape::judge;
 use super::{Judged, Status, Summary};
 use crate::errors::{Errors, Term};
 use crate::layup::{Layup, Model};
-use crate::measure::{Limits, Name, Verdict, Worst, Worth};
+use crate::measure::{Limits, Name, Scope, Verdict, Worst, Worth};
 use crate::sheet::{self, event::at_these_times};
 use rayon::prelude::*;
 
@@ -35,7 +35,10 @@ pub(super) fn judge_sensitivity(
 ) {
     let limit = Name::Sensitivity.measure().limit(layup, limits);
     let (Some(limit), Some(own)) = (limit, height(&summary.limits)) else { return };
-    if summary.model != Model::Sheet || !summary.accepted_without_errors() {
+    // a motion gets its least time after it was decided on
+    let timeless = |verdict: &&Verdict| verdict.name.measure().scope() != Scope::Time;
+    let accepted = summary.limits.iter().filter(timeless).all(|verdict| verdict.ok);
+    if summary.model != Model::Sheet || summary.status != Status::Converged || !accepted {
         return;
     }
     // pads let go when they did: a robot knows no other time
