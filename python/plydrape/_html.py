@@ -202,7 +202,9 @@ def result(result: Result, kind: str = "result", more: dict[str, str] | None = N
     if (stands := result.stands_mm) is not None:
         rows["stands"] = f"errors of {stands:.2g} mm"
     if (sample := result.sample) is not None:
-        rows["cells"] = f"{sample.accepted} of {len(sample)} accepted, {sample.needed} needed"
+        rows["cells"] = (
+            f"{sample.accepted} of {len(sample)} accepted, {sample.confidence:.0%} confidence"
+        )
     picture = drape(result) if steps else ""
     return card(
         kind,

@@ -1890,7 +1890,7 @@ class Result:
 @final
 class Sample:
     """
-    The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion.
+    The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion, up to the cell that decides.
 
     Examples
     --------
@@ -1910,6 +1910,11 @@ class Sample:
     def accepted(self, /) -> int:
         """
         How many cells keep every limit.
+        """
+    @property
+    def confidence(self, /) -> float:
+        """
+        Confidence, from 0 to 1, that the share of all possible cells keeps every limit if `ok`, and that fewer do if not.
         """
     @property
     def height_mm(self, /) -> float | None:
@@ -1942,12 +1947,12 @@ class Sample:
     @property
     def needed(self, /) -> int:
         """
-        How many cells must keep every limit.
+        How many cells of at most `errors.samples` must keep every limit.
         """
     @property
     def ok(self, /) -> bool:
         """
-        Whether so many do.
+        Whether so many do, or as many without a failure as give 95 % confidence.
         """
     @property
     def ratios(self, /) -> NDArray[float64]:

@@ -17,7 +17,7 @@ pub fn judge(
     quiet: bool,
 ) -> bool {
     let samples = robustness.sampled().map_or(0, |errors| errors.samples);
-    let template = "draping {pos} of {len} cells with errors {bar:40} {eta} left";
+    let template = "draping {pos} of at most {len} cells with errors {bar:40} at most {eta} left";
     let eyes = Eyes::new(interrupt, bar(samples, template, quiet), samples, quiet);
     if !eyes.judge_by(|watch| robustness.judge_sample(&mut result.summary, watch)) {
         return false;
@@ -41,7 +41,7 @@ struct Eyes<'a> {
     bar: ProgressBar,
     lines: SharedLines,
     done: AtomicUsize,
-    /// Drapes in all; 0 where nobody knows.
+    /// Drapes at most; 0 where nobody knows.
     most: usize,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Eyes<'a> {
         let done = self.done.load(Ordering::Relaxed);
         self.lines.say(|| match self.most {
             0 => "looking for the errors that it tolerates".into(),
-            most => format!("draping {done} of {most} cells with errors"),
+            most => format!("draping {done} of at most {most} cells with errors"),
         });
     }
 }

@@ -20,7 +20,7 @@ Writes result.json, steps.csv, trajectory.csv and report.html, and sheet.npz whe
 name with `.results`; report.html is a page for any browser. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten. Ctrl-C ends after the step under way and writes the steps done.
 
-With [errors] in the scene, a sample of complete drapes of cells that are off by them is judged too, 64 unless set there, and the \
+With [errors] in the scene, a sample of complete drapes of cells that are off by them is judged too, at most 64 unless set there, and the \
 verdict says which errors the motion tolerates.")]
 pub struct Arguments {
     #[command(flatten)]

@@ -399,10 +399,12 @@ pub(crate) fn sample_verdict() -> SampleVerdict {
         ratio: 2.0 * height,
     };
     let [from, to] = ["gripper g0_1", "gripper g3_1"];
+    let errors = Errors { samples: 4, share: 0.75, ..errors() };
     SampleVerdict {
-        errors: Errors { samples: 4, share: 0.75, ..errors() },
+        errors,
         needed: 3,
         ok: false,
+        confidence: errors.confidence(2, 4, false),
         limits: Vec::new(),
         cells: [0.3, 0.7, 0.4, 0.6].map(cell).to_vec(),
         highest: Some(Highest {

@@ -6,7 +6,7 @@ use crate::limits::Limits;
 use plydrape::outcome::{CellVerdict, SampleVerdict};
 use pyo3::prelude::*;
 
-/// The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion.
+/// The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion, up to the cell that decides.
 ///
 /// Examples
 /// --------
@@ -37,16 +37,22 @@ impl Sample {
         self.0.accepted()
     }
 
-    /// How many cells must keep every limit.
+    /// How many cells of at most `errors.samples` must keep every limit.
     #[getter]
     fn needed(&self) -> usize {
         self.0.needed
     }
 
-    /// Whether so many do.
+    /// Whether so many do, or as many without a failure as give 95 % confidence.
     #[getter]
     fn ok(&self) -> bool {
         self.0.ok
+    }
+
+    /// Confidence, from 0 to 1, that the share of all possible cells keeps every limit if `ok`, and that fewer do if not.
+    #[getter]
+    fn confidence(&self) -> f64 {
+        self.0.confidence
     }
 
     /// Whether each cell keeps every limit, shape (cells,).

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -37,25 +38,33 @@ def scene(**tables: Any) -> plydrape.Scene:
 
 
 def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
-    """Each height is that of the cell's own scene; the sample's is the third of five, 60 %."""
+    """Each height is that of the cell's own scene; 60 % of the cells keep the sample's."""
     judged = scene(errors=ERRORS)
     result = plydrape.simulate(judged)
     sample = result.sample
-    assert sample is not None and len(sample) == 5 and sample.needed == 3
-    cells = [plydrape.simulate(judged.with_errors(n)) for n in range(5)]
+    assert sample is not None and sample.needed == 3
+    count = len(sample)
+    rank = math.ceil(0.6 * count) - 1
+    cells = [plydrape.simulate(judged.with_errors(n)) for n in range(count)]
     heights = [cell.summary["final"]["height_mm"] for cell in cells]
     np.testing.assert_allclose(sample.heights_mm, heights, rtol=1e-12)
     assert sample.kept.tolist() == [cell.accepted for cell in cells]
     assert sample.accepted == sum(cell.accepted for cell in cells)
-    assert sample.height_mm == np.sort(sample.heights_mm)[2]
+    assert sample.height_mm == np.sort(sample.heights_mm)[rank]
     assert (sample.ratios > 1).tolist() == [not kept for kept in sample.kept]
 
-    # at each node the third of the five heights, in four digits
+    # three cells decide, whether they keep the limits or not; the confidence is that of their count
+    assert sample.kept.tolist().count(sample.ok) == 3 and sample.kept[-1] == sample.ok
+    counts = range(sample.accepted) if sample.ok else range(sample.accepted + 1, count + 1)
+    chances = [math.comb(count, n) * 0.6**n * 0.4 ** (count - n) for n in counts]
+    np.testing.assert_allclose(sample.confidence, sum(chances), rtol=1e-12)
+
+    # at each node the height of the same rank, in four digits
     ends = [cell.sheet.heights[-1] for cell in cells if cell.sheet is not None]
-    third = np.sort(1e3 * np.maximum(ends, 0), axis=0)[2]
-    assert sample.spread_mm.shape == third.shape
-    on_mold = third > 1e-3
-    np.testing.assert_allclose(sample.spread_mm[on_mold], third[on_mold], rtol=1e-3)
+    ranked = np.sort(1e3 * np.maximum(ends, 0), axis=0)[rank]
+    assert sample.spread_mm.shape == ranked.shape
+    on_mold = ranked > 1e-3
+    np.testing.assert_allclose(sample.spread_mm[on_mold], ranked[on_mold], rtol=1e-3)
     highest = sample.highest
     assert highest is not None and highest["gripper"].startswith("gripper g")
     np.testing.assert_allclose(highest["height_mm"], sample.spread_mm.max(), rtol=1e-3)

@@ -193,11 +193,12 @@ export interface DrapeData {
 
 /** The verdict over a sample of cells, each with errors of its own. */
 export interface SampleData {
-  /** Cells that keep every limit, and how many must. */
+  /** Cells that keep every limit. */
   accepted: number;
-  needed: number;
   ok: boolean;
-  /** The share of the cells that must, as text. */
+  /** What the sample says of all cells, and with which confidence, as text. */
+  words: string;
+  /** The share of the cells that must keep the limits, as text. */
   share: string;
   /** Largest height of each at the end (mm); null of catenaries and without an end. */
   cells: { accepted: boolean; height_mm: number | null; ratio: number }[];

@@ -19,7 +19,7 @@ function verdict(data: PageData): string {
     return `Accepted ${by}: ${kept}${cells === "" ? "" : `, in ${cells}`}`;
   }
   if (failed === 0 && sample?.ok === false) {
-    return `Not accepted ${by}: ${cells} keep all limits, ${String(sample.needed)} must`;
+    return `Not accepted ${by}: ${sample.words}`;
   }
   if (failed === 0) return `Not accepted ${by}`;
   return `Not accepted ${by}: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;

@@ -35,8 +35,8 @@ export function showSample(state: State, motion: Motion): void {
       "p",
       { class: sample.ok ? "sample-verdict pass" : "sample-verdict fail" },
       sign(sample.ok),
-      make("b", {}, `Accepted in ${String(sample.accepted)} of ${String(count)} cells`),
-      ` with errors of their own; ${String(sample.needed)} must be (${sample.share}).`,
+      make("b", {}, sample.ok ? "Accepted" : "Not accepted"),
+      ` with errors: ${sample.words}.`,
     ),
   );
   const heights = sample.cells.filter((cell) => cell.height_mm !== null);
@@ -53,7 +53,7 @@ export function showSample(state: State, motion: Motion): void {
       make(
         "details",
         {},
-        make("summary", {}, `Limits, by the values that ${sample.share} of the cells keep`),
+        make("summary", {}, `Limits, by the values that ${sample.share} of these cells keep`),
         limitsTable(state, motion.data, sample.limits),
       ),
     );

@@ -24,7 +24,7 @@ One model drapes and decides, that of the scene: its steps, its limits and its v
 code. With --also the other model is draped along the plan too and shown beside it; it never judges.
 
 The plan is then judged with errors. With [errors] in the scene, a sample of complete drapes of cells that are off by them decides \
-too, 64 unless set there. The verdict says which errors the plan tolerates, of each gripper's position where the scene has none. \
+too, at most 64 unless set there. The verdict says which errors the plan tolerates, of each gripper's position where the scene has none. \
 --time does not bound these drapes; Ctrl-C ends them, and the plan is written without what they would say.
 
 Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html and plan.json, and sheet.npz \

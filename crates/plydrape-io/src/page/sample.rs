@@ -3,7 +3,7 @@
 use super::limit::{Limit, closest_first};
 use crate::result::ResultFile;
 use crate::result::sheet::SheetMesh;
-use crate::text::table::{share, stands_in_words};
+use crate::text::table::{sample_in_words, share, stands_in_words};
 use plydrape::geometry::distance;
 use plydrape::measure::Name;
 use plydrape::outcome::CellVerdict;
@@ -12,11 +12,11 @@ use serde::Serialize;
 /// The verdict over a sample.
 #[derive(Serialize)]
 pub(super) struct Sample<'a> {
-    /// Cells that keep every limit, and how many must.
+    /// Cells that keep every limit.
     accepted: usize,
-    needed: usize,
     ok: bool,
-    /// The share of the cells that must, in words.
+    /// What the sample says of all cells, and the share of them that must keep the limits.
+    words: String,
     share: String,
     cells: &'a [CellVerdict],
     /// Limit of the heights (mm), where they are judged.
@@ -49,8 +49,8 @@ pub(super) fn sample<'a>(result: &'a ResultFile, mesh: Option<&SheetMesh>) -> Op
     });
     Some(Sample {
         accepted: verdict.accepted(),
-        needed: verdict.needed,
         ok: verdict.ok,
+        words: sample_in_words(verdict),
         share: share(verdict),
         cells: &verdict.cells,
         height_limit: height.map(|height| height.limit),
@@ -91,10 +91,12 @@ mod tests {
         };
         let worst = Worst { value: 0.4, at: String::new(), place: None };
         result.summary.limits.push(Verdict::of(Name::Height, worst, 0.5, Some(3)));
+        let errors = Errors { share: 0.75, samples: 4, ..Errors::default() };
         result.summary.sample = Some(SampleVerdict {
-            errors: Errors { share: 0.75, samples: 4, ..Errors::default() },
+            errors,
             needed: 3,
             ok: true,
+            confidence: errors.confidence(3, 4, true),
             limits: result.summary.limits.clone(),
             cells: vec![
                 cell(true, Some(0.1)),
@@ -125,7 +127,9 @@ mod tests {
     fn a_sample_is_told_with_the_node_of_its_highest_place() {
         let result = sampled();
         let told = sample(&result, Some(&mesh())).unwrap();
-        assert_eq!((told.accepted, told.needed, told.share.as_str()), (3, 3, "75 %"));
+        assert_eq!((told.accepted, told.share.as_str()), (3, "75 %"));
+        let words = "3 of 4 cells with errors keep every limit: 75 % of all cells do, with 26.2 % confidence";
+        assert_eq!(told.words, words);
         assert_eq!(told.cells.len(), 4);
         assert_eq!(told.height_limit, Some(0.5));
         assert_eq!(told.highest.unwrap().node, Some(2));

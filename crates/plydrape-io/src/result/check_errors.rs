@@ -4,6 +4,9 @@ use super::ResultFile;
 use plydrape::errors::Errors;
 use plydrape::outcome::{SampleVerdict, Stands};
 
+/// Confidences of one count by two machines differ by less.
+const ROUNDING: f64 = 1e-9;
+
 /// What is impossible in the sample and in the errors that a result stands.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let summary = &result.summary;
@@ -13,15 +16,28 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
 }
 
 fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
-    let (cells, needed) = (sample.cells.len(), sample.needed);
-    if cells == 0 || cells != sample.errors.samples || result.scene.errors != Some(sample.errors) {
-        return Some(format!("its sample of {cells} cells is none of the scene's errors"));
+    let SampleVerdict { errors, cells, needed, .. } = sample;
+    if !(1..=errors.samples).contains(&cells.len()) || result.scene.errors != Some(*errors) {
+        return Some(format!("its sample of {} cells is none of the scene's errors", cells.len()));
     }
-    if !is_share(&sample.errors) || needed != sample.errors.needed(cells) {
-        return Some(format!("its sample needs {needed} of {cells} cells"));
+    if !is_share(errors) || *needed != errors.needed(errors.samples) {
+        return Some(format!("its sample needs {needed} of {} cells", errors.samples));
     }
-    if sample.ok != (sample.accepted() >= needed) {
-        return Some(format!("{} of {needed} cells of its sample are accepted", sample.accepted()));
+    // each count of cells must leave the verdict open, and the last one decide it
+    let mut kept = 0;
+    let decided = (1..).zip(cells).find_map(|(count, cell)| {
+        kept += usize::from(cell.accepted);
+        Some((count, errors.decided(kept, count)?))
+    });
+    if decided != Some((cells.len(), sample.ok)) {
+        let [kept, count] = [sample.accepted(), cells.len()];
+        return Some(format!(
+            "{kept} of {count} cells of its sample are accepted, {needed} needed"
+        ));
+    }
+    let confidence = errors.confidence(kept, cells.len(), sample.ok);
+    if (sample.confidence - confidence).abs() > ROUNDING {
+        return Some(format!("its sample has a confidence of {}", sample.confidence));
     }
     if ![0, nodes].contains(&sample.spread_mm.len()) {
         return Some(format!(

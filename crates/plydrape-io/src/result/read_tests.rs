@@ -3,8 +3,7 @@ use crate::sample;
 use plydrape::layup::Friction;
 use plydrape::material::TensionLaw;
 use plydrape::measure::{Name, Verdict};
-use plydrape::outcome::CatenaryReport;
-use plydrape::outcome::Stands;
+use plydrape::outcome::{CatenaryReport, CellVerdict, Stands};
 
 fn read(text: &str) -> Result<ResultFile, Error> {
     parse(text.as_bytes(), Path::new("result.json"))
@@ -247,6 +246,17 @@ fn what_others_wrote_is_foreign() {
     assert!(matches!(super::read(Path::new("no/such.json")), Err(Error::Io { .. })));
 }
 
+/// Makes the cells of a sample keep the limits or not, with the confidence of their count.
+fn with_cells(result: &mut ResultFile, kept: &[bool], ok: bool) {
+    let sample = result.summary.sample.as_mut().unwrap();
+    sample.ok = ok;
+    sample.cells = kept
+        .iter()
+        .map(|kept| CellVerdict { accepted: *kept, height_mm: None, ratio: 1.0 })
+        .collect();
+    sample.confidence = sample.errors.confidence(sample.accepted(), kept.len(), ok);
+}
+
 /// What drapes with errors say of a sheet of nine nodes is read as it was written; what contradicts itself, the scene or the
 /// sheet is refused even where the check sum was made anew.
 #[test]
@@ -265,11 +275,23 @@ fn the_sample_of_a_result_fits_its_scene() {
     let found = read(&ResultFile::text(&whole).unwrap()).unwrap().summary;
     assert_eq!((found.sample, found.stands), (whole.summary.sample, whole.summary.stands));
 
-    let spoilt: [fn(&mut ResultFile); 7] = [
+    // three of four cells must keep the limits: it ends where they do, or where two have failed
+    for (kept, ok) in [(&[true, true, true][..], true), (&[true, false, false], false)] {
+        let mut ended = changed(|_| {});
+        with_cells(&mut ended, kept, ok);
+        assert!(read(&ResultFile::text(&ended).unwrap()).is_ok());
+    }
+
+    let spoilt: [fn(&mut ResultFile); 11] = [
         |r| r.scene.errors = None,
         |r| r.summary.sample.as_mut().unwrap().ok = true,
         |r| r.summary.sample.as_mut().unwrap().needed = 2,
-        |r| r.summary.sample.as_mut().unwrap().cells.truncate(3),
+        |r| r.summary.sample.as_mut().unwrap().confidence = 0.9,
+        // not decided by its last cell, decided before it, more cells than the scene has, none
+        |r| with_cells(r, &[true, false, true], false),
+        |r| with_cells(r, &[true, false, false, true], false),
+        |r| with_cells(r, &[true, false, true, true, true], true),
+        |r| with_cells(r, &[], false),
         |r| r.summary.sample.as_mut().unwrap().spread_mm.truncate(8),
         |r| r.summary.stands.as_mut().unwrap().factor = -0.5,
         |r| {

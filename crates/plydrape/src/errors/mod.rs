@@ -30,7 +30,7 @@ pub use term::Term;
 pub struct Errors {
     /// Seed of the draws.
     pub seed: u64,
-    /// Cells that are drawn.
+    /// Cells that are drawn at most.
     pub samples: usize,
     /// Share of the drawn cells that must keep the limits.
     pub share: f64,
@@ -110,7 +110,7 @@ pub struct MoldErrors {
     pub wavelength: f64,
 }
 
-/// 64 cells of seed 0, of which 95 % must keep the limits, and no error.
+/// At most 64 cells of seed 0, of which 95 % must keep the limits, and no error.
 impl Default for Errors {
     fn default() -> Self {
         Errors {

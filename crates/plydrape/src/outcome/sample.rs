@@ -1,4 +1,4 @@
-//! The verdict over a sample of cells: complete drapes, each of a cell with errors of its own.
+//! The verdict over a sample of cells: complete drapes, each of a cell with errors of its own, until they decide.
 
 use super::Judged;
 use super::drape::judge_seen;
@@ -9,7 +9,13 @@ use crate::scene::Scene;
 use crate::sheet;
 use crate::state::Site;
 use rayon::prelude::*;
+use statrs::distribution::{Binomial, DiscreteCDF};
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// A sample is accepted before its last cell if none has failed and the share of all cells keeps every limit with this confidence.
+const CONFIDENCE: f64 = 0.95;
 
 /// Factors of the errors that are tried to each one of twice the size: what is found is known within 9 %.
 const PER_OCTAVE: i32 = 8;
@@ -24,7 +30,7 @@ const LARGEST_RATIO: f64 = 1e6;
 pub struct Watch<'a> {
     /// Asked before each time step whether to end.
     pub stop: &'a (dyn Fn() -> bool + Sync),
-    /// Told how many of so many drapes are done.
+    /// Told how many of at most so many drapes are done.
     pub done: &'a (dyn Fn(usize, usize) + Sync),
 }
 
@@ -35,13 +41,15 @@ pub struct Watch<'a> {
 pub struct SampleVerdict {
     /// The errors of the cells.
     pub errors: Errors,
-    /// How many cells must keep every limit.
+    /// How many cells of the whole sample must keep every limit.
     pub needed: usize,
-    /// Whether so many do.
+    /// Whether it is accepted: so many do, or all of so many first ones that no more were draped ([`Errors::decided`]).
     pub ok: bool,
+    /// Confidence (0 to 1) that the share of all possible cells keeps every limit if `ok`, and that fewer do if not.
+    pub confidence: f64,
     /// Every limit, judged by the value that the share of the cells keeps which must keep it.
     pub limits: Vec<Verdict>,
-    /// Each cell's drape.
+    /// Each cell's drape, up to the one that decides.
     pub cells: Vec<CellVerdict>,
     /// Where the sheet is highest by the height that the share of the cells keeps there; none of catenaries.
     pub highest: Option<Highest>,
@@ -93,6 +101,17 @@ pub struct Stands {
     pub tried: usize,
 }
 
+/// The drapes of a sample so far.
+#[derive(Default)]
+struct Row {
+    /// Those of the first cells, in their order.
+    drapes: Vec<Drape>,
+    /// How many of these keep every limit.
+    kept: usize,
+    /// Those whose cells come after one that is not done.
+    waiting: BTreeMap<usize, Drape>,
+}
+
 /// One drape of a sample.
 struct Drape {
     judged: Judged,
@@ -125,30 +144,69 @@ impl Errors {
         errors
     }
 
+    /// Whether a sample is accepted, if that is decided when `kept` of its first `cells` cells keep every limit.
+    ///
+    /// It is accepted once as many cells as must keep every limit do, or once all of n cells do and `share^n <= 1 - 0.95`. It is
+    /// refused once so many have failed that the rest is too small.
+    #[must_use]
+    pub fn decided(&self, kept: usize, cells: usize) -> Option<bool> {
+        let needed = self.needed(self.samples);
+        let sure = kept == cells && self.share.powf(cells as f64) <= 1.0 - CONFIDENCE;
+        let refused = cells - kept > self.samples - needed;
+        (kept >= needed || sure || refused).then_some(!refused)
+    }
+
+    /// Confidence of the verdict that `kept` of `cells` cells give: that at least the share of all possible cells keeps every limit
+    /// if the sample is accepted (`ok`), and that fewer do if not.
+    ///
+    /// If just the share did, it is the probability that more cells than here would fail, or that more than here would keep every
+    /// limit. The number of cells counts as chosen before, although it is that at which the sample ended.
+    #[must_use]
+    pub fn confidence(&self, kept: usize, cells: usize, ok: bool) -> f64 {
+        let (chance, count) =
+            if ok { (1.0 - self.share, cells - kept) } else { (self.share, kept) };
+        Binomial::new(chance, cells as u64).map_or(0.0, |law| law.sf(count as u64))
+    }
+
     /// The verdict over the sample of a scene along its motion; none if it was stopped.
+    ///
+    /// Cells are begun in their order, one a core, and none any more once those before it decide.
     #[must_use]
     pub fn judge(&self, scene: &Scene, watch: &Watch) -> Option<SampleVerdict> {
+        let (row, verdict) = (Mutex::new(Row::default()), OnceLock::new());
         let done = AtomicUsize::new(0);
-        let one = |sample: usize| {
-            let drape = draped(&self.cell(scene, sample, 1.0), watch.stop);
+        let open = || verdict.get().is_none();
+        let drape = |sample: usize| {
+            let stop = || !open() || (watch.stop)();
+            let Some(drape) = draped(&self.cell(scene, sample, 1.0), &stop) else { return };
             (watch.done)(done.fetch_add(1, Ordering::Relaxed) + 1, self.samples);
-            drape
+            let row = &mut *row.lock().unwrap_or_else(PoisonError::into_inner);
+            row.waiting.insert(sample, drape);
+            while open()
+                && let Some(next) = row.waiting.remove(&row.drapes.len())
+            {
+                row.kept += usize::from(next.judged.accepted());
+                row.drapes.push(next);
+                if let Some(ok) = self.decided(row.kept, row.drapes.len()) {
+                    verdict.get_or_init(|| ok);
+                }
+            }
         };
-        let drapes: Vec<Drape> = (0..self.samples).into_par_iter().filter_map(one).collect();
-        if drapes.len() < self.samples || drapes.is_empty() {
-            return None;
-        }
-        let needed = self.needed(drapes.len());
-        let cells: Vec<CellVerdict> = drapes.iter().map(cell_verdict).collect();
-        let spread = spread(&drapes, needed);
+        (0..self.samples).take_while(|_| open()).par_bridge().for_each(drape);
+
+        let ok = *verdict.get()?;
+        let Row { drapes, kept, .. } = row.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let rank = self.needed(drapes.len());
+        let spread = spread(&drapes, rank);
         Some(SampleVerdict {
             errors: *self,
-            needed,
-            ok: cells.iter().filter(|cell| cell.accepted).count() >= needed,
-            limits: limits(&drapes, needed),
+            needed: self.needed(self.samples),
+            ok,
+            confidence: self.confidence(kept, drapes.len(), ok),
+            limits: limits(&drapes, rank),
+            cells: drapes.iter().map(cell_verdict).collect(),
             highest: highest(scene, &drapes[0].places, &spread),
             spread_mm: spread.iter().map(|height| in_digits(height * 1e3)).collect(),
-            cells,
         })
     }
 
@@ -213,7 +271,7 @@ impl SampleVerdict {
         let mut heights: Vec<f64> = self.cells.iter().filter_map(|cell| cell.height_mm).collect();
         heights.sort_by(f64::total_cmp);
         // a drape without an end has no height: it counts as the highest
-        heights.get(self.needed.max(1) - 1).copied()
+        heights.get(self.errors.needed(self.cells.len()).max(1) - 1).copied()
     }
 }
 

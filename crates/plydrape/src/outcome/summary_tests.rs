@@ -49,7 +49,17 @@ fn sample(ok: bool) -> SampleVerdict {
     let errors = Errors { samples: 1, ..Errors::default() };
     let cell = CellVerdict { accepted: ok, height_mm: Some(0.5), ratio: 0.75 };
     let (limits, cells) = (limits(5, 0.375), vec![cell]);
-    SampleVerdict { errors, needed: 1, ok, limits, cells, highest: None, spread_mm: vec![0.5] }
+    let confidence = errors.confidence(usize::from(ok), 1, ok);
+    SampleVerdict {
+        errors,
+        needed: 1,
+        ok,
+        confidence,
+        limits,
+        cells,
+        highest: None,
+        spread_mm: vec![0.5],
+    }
 }
 
 /// A drape is accepted if it was done to its end, keeps every limit, and so do the cells of its sample; one that is broken is enough.

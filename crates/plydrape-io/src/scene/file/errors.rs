@@ -14,7 +14,7 @@ use std::borrow::Cow;
 pub(in crate::scene) struct ErrorsTable {
     /// Seed of the draws, 0 unless given: the same seed, the same cells.
     pub seed: Option<Located<Seed>>,
-    /// Cells that are drawn, 64 unless given; with 0 nothing is judged with errors.
+    /// Cells that are drawn at most, 64 unless given; with 0 nothing is judged with errors.
     pub samples: Option<Located<CountOrNone>>,
     /// Share of the cells that must keep the limits, 95 % unless given.
     pub share: Option<Quantity<Ratio>>,

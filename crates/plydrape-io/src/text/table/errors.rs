@@ -12,9 +12,7 @@ pub(super) fn errors(result: &ResultFile) -> String {
     let drawn = result.scene.errors.as_ref().filter(|errors| errors.is_drawn());
     let mut lines: Vec<String> = Vec::new();
     match (&summary.sample, drawn) {
-        (Some(sample), _) => {
-            lines.extend(sample_in_words(sample, summary.accepted_without_errors()))
-        }
+        (Some(sample), _) => lines.extend(sample_lines(sample)),
         (None, Some(_)) if summary.accepted() => {
             lines.push("without the errors of the scene, which were left out".into());
         }
@@ -26,27 +24,39 @@ pub(super) fn errors(result: &ResultFile) -> String {
     lines.iter().map(|line| shown::excerpt(line, WIDTH) + "\n").collect()
 }
 
-/// The sample, of a drape that is accepted without errors or not.
-fn sample_in_words(sample: &SampleVerdict, accepted_without: bool) -> Vec<String> {
-    let (accepted, cells, needed) = (sample.accepted(), sample.cells.len(), sample.needed);
+/// The sample, its heights and, of one that is refused, the limit that is exceeded furthest.
+fn sample_lines(sample: &SampleVerdict) -> Vec<String> {
     let share = share(sample);
-    let mut first = match (sample.ok, accepted_without) {
-        (false, true) => {
-            format!("not accepted with errors: in {accepted} of {cells} cells ({needed} needed)")
-        }
-        _ => format!("accepted in {accepted} of {cells} cells with errors ({needed} needed)"),
-    };
+    let mut lines = vec![sample_in_words(sample)];
     if let Some(height) = sample.height_mm() {
-        first += &format!("; {share} end at most {} mm high", significant(height));
+        lines.push(format!("  {share} of the cells end at most {} mm high", significant(height)));
     }
-    let mut lines = vec![first];
     if let Some(worst) = limiting(&sample.limits).filter(|_| !sample.ok) {
-        lines.push(format!("  {share} of them: {}", verdict_text(worst)));
+        lines.push(format!("  {share} of the cells: {}", verdict_text(worst)));
     }
     if let Some(highest) = &sample.highest {
-        lines.push(format!("highest on the line {}, near {}", highest.line, highest.gripper));
+        lines.push(format!("  highest on the line {}, near {}", highest.line, highest.gripper));
     }
     lines
+}
+
+/// What a sample says of all cells, as in `59 of 59 cells with errors keep every limit: 95 % of all cells do, with 95.2 % confidence`.
+pub(crate) fn sample_in_words(sample: &SampleVerdict) -> String {
+    let (cells, share) = (sample.cells.len(), share(sample));
+    let confidence = match 100.0 * sample.confidence {
+        percent if percent > 99.9 => "more than 99.9 %".into(),
+        percent => format!("{} %", significant((10.0 * percent).round() / 10.0)),
+    };
+    match (sample.ok, cells - sample.accepted()) {
+        (true, failed) => format!(
+            "{} of {cells} cells with errors keep every limit: {share} of all cells do, with {confidence} confidence",
+            cells - failed
+        ),
+        (false, failed) => format!(
+            "{failed} of {cells} cells with errors {}, so fewer than {share} keep the limits, with {confidence} confidence",
+            if failed == 1 { "fails" } else { "fail" }
+        ),
+    }
 }
 
 /// The share of the cells that must keep the limits, as in `95 %`.
@@ -156,10 +166,11 @@ mod tests {
         assert!(text.contains("allowed  75 %"), "{text}");
         assert!(text.contains("40   41.5") || text.contains("40  41.5"), "{text}");
         let wanted = "\
-accepted without errors by the catenaries
-not accepted with errors: in 2 of 4 cells (3 needed); 75 % end at most 0.6 mm high
-  75 % of them: tilt 41.5° against 40° in step 3, gripper g0_0
-highest on the line gripper g0_1 to gripper g3_1, near gripper g3_1
+accepted only without errors by the catenaries
+2 of 4 cells with errors fail, so fewer than 75 % keep the limits, with 73.8 % confidence
+  75 % of the cells end at most 0.6 mm high
+  75 % of the cells: tilt 41.5° against 40° in step 3, gripper g0_0
+  highest on the line gripper g0_1 to gripper g3_1, near gripper g3_1
 ";
         assert_eq!(verdict(&result, Ink::Plain), wanted);
 

@@ -84,7 +84,7 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
     let model = model_name(summary.model);
     let (word, tone) = match (summary.accepted_without_errors(), summary.accepted()) {
         (true, true) => ("accepted", Tone::Good),
-        (true, false) => ("accepted without errors", Tone::Bad),
+        (true, false) => ("accepted only without errors", Tone::Bad),
         (false, _) => ("not accepted", Tone::Bad),
     };
     let worst = limiting(&summary.limits).map(|worst| format!(": {}", verdict_text(worst)));
