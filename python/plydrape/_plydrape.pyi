@@ -3105,7 +3105,8 @@ def plan(
     without_errors : bool, default False
         Whether the plan is judged without errors.
     progress : callable, optional
-        Called with (candidates draped, most, what is done), some 50 times a second.
+        Called with (candidates draped, most, what is done), some 50 times a second. While the sheet decides on a plan, the last one
+        says how long that will take in all, as "deciding: 961 nodes, about 4 s".
 
     Returns
     -------

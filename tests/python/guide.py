@@ -41,8 +41,8 @@ TOKEN = re.compile(rf"(?<![\w.]){NUMBER.pattern}|\w+|[^\w\s]")
 # places that symmetry or rounding may exchange: grippers, cells, points of the fabric
 NAME = re.compile(r"\bg\d+_\d+|\[\d+,\d+\]|\(-?[\d.]+, -?[\d.]+\)")
 ROW = re.compile(r" +(\d+) +[\d.]+ ")
-# what is written every minute, and cannot be shown
-PROGRESS = re.compile(r"plydrape: \d+ min, ")
+# how long something takes, which is written before it begins and every minute
+PROGRESS = re.compile(r"plydrape: (\d+ (s|min|h)\b|draping at most )")
 # how long the machine took, and versions
 FREE = re.compile(r"(?<=\bin )[\d.]+ s|\b\d+\.\d+\.\d+\b")
 

@@ -3,22 +3,31 @@
 use crate::search::SharedLines;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
-use plydrape::outcome::{Robustness, Watch};
+use plydrape::outcome::{Effort, Forecast, Robustness, Watch};
 use plydrape_io::ResultFile;
+use plydrape_io::text::forecast;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Judges a result with errors, on all cores, until somebody breaks it off. Someone at a terminal sees a bar, others a plain
-/// line a minute on standard error; nothing is shown if `quiet`. Returns whether it was done to its end.
+/// Judges a result with errors, on all cores, until somebody breaks it off; the drape without errors took a time. Someone at a terminal sees a bar, others a plain
+/// line before it begins and one a minute on standard error; nothing is shown if `quiet`. Returns whether it was done to its end.
 pub fn judge(
     result: &mut ResultFile,
     robustness: &Robustness,
+    drape: Duration,
     interrupt: &Interrupt,
     quiet: bool,
 ) -> bool {
     let samples = robustness.sampled().map_or(0, |errors| errors.samples);
-    let template = "draping {pos} of at most {len} cells with errors {bar:40} at most {eta} left";
+    let template =
+        "draping {pos} of at most {len} cells with errors{msg} {bar:40} at most {eta} left";
     let eyes = Eyes::new(interrupt, bar(samples, template, quiet), samples, quiet);
+    if let Some(report) = result.summary.sheet.as_ref().filter(|_| samples > 0) {
+        let effort = Effort { nodes: report.nodes, solves: report.solves, time: drape };
+        let forecast = Forecast::like(effort);
+        eyes.bar.set_message(format!(", {}", forecast::about(forecast.sample(samples))));
+        eyes.lines.begin(&format!("draping {}", forecast::sample(&forecast, samples)));
+    }
     if !eyes.judge_by(|watch| robustness.judge_sample(&mut result.summary, watch)) {
         return false;
     }

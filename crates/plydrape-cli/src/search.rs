@@ -3,8 +3,8 @@
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::planner::Progress;
-use plydrape::scene::{Plan, PlanMethod};
-use plydrape_io::text::table;
+use plydrape::scene::{PlanMethod, Scene};
+use plydrape_io::text::{forecast, table};
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -28,19 +28,29 @@ pub struct Search<'a> {
     ended: Option<Ended>,
     /// What a search counts.
     unit: &'static str,
+    /// Cells with errors of the sample that follows the search.
+    cells: usize,
     bar: ProgressBar,
     lines: Option<Lines>,
 }
 
 impl<'a> Search<'a> {
     /// A search that begins now, and ends by `interrupt` or after `time`. Someone at a terminal sees a bar, others a plain line
-    /// a minute on standard error; nothing is shown if `quiet`.
-    pub fn new(plan: &Plan, time: Option<Duration>, interrupt: &'a Interrupt, quiet: bool) -> Self {
-        let (most, unit) = match plan.method {
-            PlanMethod::Path => (plan.evaluations, "candidates"),
-            PlanMethod::Stepwise => (plan.steps, "steps"),
+    /// a minute and one before a decision on standard error; nothing is shown if `quiet`.
+    pub fn new(
+        scene: &Scene,
+        without_errors: bool,
+        time: Option<Duration>,
+        interrupt: &'a Interrupt,
+        quiet: bool,
+    ) -> Self {
+        let (most, unit) = match scene.plan.method {
+            PlanMethod::Path => (scene.plan.evaluations, "candidates"),
+            PlanMethod::Stepwise => (scene.plan.steps, "steps"),
         };
-        Self::of(most, unit, time, interrupt, quiet)
+        let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
+        let cells = errors.map_or(0, |errors| errors.samples);
+        Search { cells, ..Self::of(most, unit, time, interrupt, quiet) }
     }
 
     /// The same of at most `most` of what is counted in a `unit`.
@@ -60,7 +70,7 @@ impl<'a> Search<'a> {
         }
         let lines = (!quiet && !io::stderr().is_terminal()).then(Lines::default);
         let began = Instant::now();
-        Search { interrupt, time, began, ended: None, unit, bar, lines }
+        Search { interrupt, time, began, ended: None, unit, cells: 0, bar, lines }
     }
 
     /// Shows how far the search is, and says whether it goes on. A plan that is being finished is let go on after the first
@@ -91,27 +101,35 @@ impl<'a> Search<'a> {
     fn show(&mut self, progress: &Progress, elapsed: Duration) {
         if !self.bar.is_hidden() {
             self.bar.set_position(progress.candidates as u64);
-            self.bar.set_message(state(progress, true));
+            self.bar.set_message(state(progress, self.cells, true));
         }
-        if self.lines.as_mut().is_some_and(|lines| lines.is_due(elapsed)) {
+        let decision = progress.forecast.map(|forecast| forecast.decision());
+        if self.lines.as_mut().is_some_and(|lines| lines.is_due(elapsed, decision)) {
             // where standard error cannot be written, the search is no worse
-            let _ = writeln!(io::stderr(), "{}", line(progress, self.unit, elapsed));
+            let _ = writeln!(io::stderr(), "{}", line(progress, self.unit, self.cells, elapsed));
         }
     }
 }
 
-/// The plain lines of a search: one a minute, none within the first.
+/// The plain lines of a search: one a minute, none within the first; and one before the first decision and each that takes longer
+/// than a minute.
 #[derive(Debug, Default)]
 pub struct Lines {
     minutes: u64,
+    deciding: bool,
+    decided: bool,
 }
 
 impl Lines {
-    /// Whether the next line is due.
-    pub fn is_due(&mut self, elapsed: Duration) -> bool {
+    /// Whether the next line is due; a decision under way takes such a time.
+    pub fn is_due(&mut self, elapsed: Duration, decision: Option<Duration>) -> bool {
         let minutes = elapsed.as_secs() / 60;
-        let due = minutes > self.minutes;
+        let begins = decision.filter(|_| !self.deciding);
+        let due = minutes > self.minutes
+            || begins.is_some_and(|time| !self.decided || time > Duration::from_secs(60));
         self.minutes = minutes;
+        self.deciding = decision.is_some();
+        self.decided |= self.deciding;
         due
     }
 }
@@ -133,26 +151,38 @@ impl SharedLines {
     pub fn say(&self, what: impl FnOnce() -> String) {
         let elapsed = self.began.elapsed();
         let due = self.lines.as_ref().and_then(|lines| lines.try_lock().ok());
-        if due.is_some_and(|mut lines| lines.is_due(elapsed)) {
+        if due.is_some_and(|mut lines| lines.is_due(elapsed, None)) {
             let minutes = time_text(Duration::from_secs(elapsed.as_secs() / 60 * 60));
             // where standard error cannot be written, the work is no worse
             let _ = writeln!(io::stderr(), "plydrape: {minutes}, {}", what());
         }
     }
+
+    /// Prints a line about work that begins.
+    pub fn begin(&self, what: &str) {
+        if self.lines.is_some() {
+            let _ = writeln!(io::stderr(), "plydrape: {what}");
+        }
+    }
 }
 
 /// A plain line about a search.
-fn line(progress: &Progress, unit: &str, elapsed: Duration) -> String {
-    let minutes = Duration::from_secs(elapsed.as_secs() / 60 * 60);
+fn line(progress: &Progress, unit: &str, cells: usize, elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs();
+    let shown = Duration::from_secs(if seconds < 60 { seconds } else { seconds / 60 * 60 });
     let Progress { candidates, most, .. } = progress;
-    let state = state(progress, false);
-    format!("plydrape: {}, {candidates} {unit} of at most {most}, {state}", time_text(minutes))
+    let state = state(progress, cells, false);
+    format!("plydrape: {}, {candidates} {unit} of at most {most}, {state}", time_text(shown))
 }
 
 /// What is being done, and how good the best plan so far is.
-fn state(progress: &Progress, at_terminal: bool) -> String {
+fn state(progress: &Progress, cells: usize, at_terminal: bool) -> String {
     let again = if at_terminal { " (Ctrl-C twice ends that too)" } else { "" };
-    let done = format!("{}{}", progress.stage, if progress.finishing { again } else { "" });
+    let again = if progress.finishing { again } else { "" };
+    let takes = progress
+        .forecast
+        .map_or_else(String::new, |takes| format!(": {}", forecast::decision(&takes, cells)));
+    let done = format!("{}{again}{takes}", progress.stage);
     let decided = match (progress.decided, progress.decisions) {
         (false, _) => ", by its ranking".into(),
         (true, 1) => String::new(),
@@ -189,6 +219,7 @@ pub fn time_text(time: Duration) -> String {
 mod tests {
     use super::*;
     use plydrape::measure::{Name, Verdict, Worst};
+    use plydrape::outcome::Forecast;
 
     fn seconds(seconds: u64) -> Duration {
         Duration::from_secs(seconds)
@@ -205,6 +236,7 @@ mod tests {
             decisions: 3,
             finishing: false,
             stage: "deciding",
+            forecast: None,
             best,
             decided: true,
             accepted,
@@ -215,21 +247,45 @@ mod tests {
     #[test]
     fn a_line_is_due_once_a_minute_and_not_in_the_first() {
         let mut lines = Lines::default();
-        let due = [0, 59, 60, 61, 119, 120, 121, 290, 299, 300].map(|s| lines.is_due(seconds(s)));
+        let due =
+            [0, 59, 60, 61, 119, 120, 121, 290, 299, 300].map(|s| lines.is_due(seconds(s), None));
         assert_eq!(due, [false, false, true, false, false, true, false, true, false, true]);
+    }
+
+    /// Within the first minute too, before what is decided first; later ones only where they take long.
+    #[test]
+    fn a_line_is_due_before_the_first_decision_and_before_long_ones() {
+        let mut lines = Lines::default();
+        let mut due = |decision: Option<u64>| lines.is_due(seconds(30), decision.map(seconds));
+        let decisions = [None, Some(2), Some(2), None, Some(3), None, Some(61), Some(61)];
+        let shown = decisions.map(&mut due);
+        assert_eq!(shown, [false, true, false, false, false, false, true, false]);
+    }
+
+    #[test]
+    fn a_line_says_how_long_the_decision_takes() {
+        let forecast = Forecast { nodes: 961, drape: seconds(30), cells: 0, threads: 2 };
+        let deciding = Progress { forecast: Some(forecast), decisions: 0, ..progress(&[], false) };
+        let shown = line(&deciding, "candidates", 0, seconds(9));
+        assert_eq!(
+            shown,
+            "plydrape: 9 s, 34 candidates of at most 60, deciding: 961 nodes, about 35 s"
+        );
+        let shown = line(&deciding, "candidates", 64, seconds(9));
+        assert!(shown.ends_with(", then at most 64 cells with errors, about 20 min"), "{shown}");
     }
 
     #[test]
     fn a_line_says_what_is_done_and_which_limit_is_exceeded() {
         let best = [height(0.7)];
-        let shown = line(&progress(&best, false), "candidates", seconds(125));
+        let shown = line(&progress(&best, false), "candidates", 0, seconds(125));
         let wanted = "plydrape: 2 min, 34 candidates of at most 60, deciding; \
                       best so far of 3 decided on: height 0.7 mm against 0.5 mm";
         assert_eq!(shown, wanted);
         let ranked = Progress { decided: false, decisions: 0, ..progress(&best, false) };
-        let shown = line(&ranked, "candidates", seconds(125));
+        let shown = line(&ranked, "candidates", 0, seconds(125));
         assert!(shown.ends_with("; best so far, by its ranking: height 0.7 mm against 0.5 mm"));
-        let nothing = line(&progress(&[], false), "steps", seconds(3700));
+        let nothing = line(&progress(&[], false), "steps", 0, seconds(3700));
         assert_eq!(nothing, "plydrape: 1 h 1 min, 34 steps of at most 60, deciding");
     }
 
@@ -237,10 +293,10 @@ mod tests {
     #[test]
     fn a_plan_is_called_accepted_only_once_it_was_decided_on() {
         let best = [height(0.4)];
-        let shown = line(&progress(&best, true), "candidates", seconds(60));
+        let shown = line(&progress(&best, true), "candidates", 0, seconds(60));
         assert!(shown.ends_with(": accepted, height 0.4 mm against 0.5 mm"), "{shown}");
         let ranked = Progress { decided: false, ..progress(&best, false) };
-        let shown = line(&ranked, "candidates", seconds(60));
+        let shown = line(&ranked, "candidates", 0, seconds(60));
         assert!(shown.ends_with(", by its ranking: all limits are kept"), "{shown}");
     }
 

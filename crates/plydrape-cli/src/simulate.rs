@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     // cells with errors, and the files
     if !arguments.without_errors {
         let robustness = Robustness::of_simulated(&scene);
-        interrupted |= !errors::judge(&mut result, &robustness, &interrupt, quiet);
+        interrupted |= !errors::judge(&mut result, &robustness, took, &interrupt, quiet);
     }
     let files = write_into(folder, &result, &[], &scene.files)?;
 

@@ -5,6 +5,7 @@
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -20,15 +21,20 @@ pub struct Watch {
     stopped: AtomicBool,
     done: AtomicUsize,
     most: AtomicUsize,
-    stage: Mutex<&'static str>,
+    stage: Mutex<Cow<'static, str>>,
 }
 
 impl Watch {
     /// Says how far the work is; breaks if it shall end.
-    pub fn tell(&self, done: usize, most: usize, stage: &'static str) -> ControlFlow<()> {
+    pub fn tell(
+        &self,
+        done: usize,
+        most: usize,
+        stage: impl Into<Cow<'static, str>>,
+    ) -> ControlFlow<()> {
         self.done.store(done, Ordering::Relaxed);
         self.most.store(most, Ordering::Relaxed);
-        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage.into();
         self.flow()
     }
 
@@ -36,7 +42,7 @@ impl Watch {
     pub fn count(&self, more: usize, most: usize, stage: &'static str) -> ControlFlow<()> {
         self.done.fetch_add(more, Ordering::Relaxed);
         self.most.store(most, Ordering::Relaxed);
-        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage.into();
         self.flow()
     }
 
@@ -53,8 +59,8 @@ impl Watch {
         || self.flow().is_break()
     }
 
-    fn state(&self) -> (usize, usize, &'static str) {
-        let stage = *self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+    fn state(&self) -> (usize, usize, Cow<'static, str>) {
+        let stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
         (self.done.load(Ordering::Relaxed), self.most.load(Ordering::Relaxed), stage)
     }
 }
@@ -79,14 +85,14 @@ pub fn run<T: Send + 'static>(
         })
         .map_err(|error| PyRuntimeError::new_err(format!("cannot start a thread: {error}")))?;
 
-    let mut told = (0, 0, "");
+    let mut told = (0, 0, Cow::Borrowed(""));
     let receive = Mutex::new(receive);
     loop {
         let found = py
             .detach(|| receive.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(OFTEN));
         let state = watch.state();
         let call = progress.filter(|_| state != told && state.1 > 0);
-        told = state;
+        told = state.clone();
         let heard =
             py.check_signals().and_then(|()| call.map_or(Ok(()), |f| f.call1(state).map(drop)));
         if let Err(error) = heard {

@@ -160,7 +160,7 @@ fn one(
     time: Option<Duration>,
 ) -> Result<Ready, Failure> {
     let scene = &book.plies[index].scene;
-    let mut search = Search::new(&scene.plan, time, eyes.interrupt, true);
+    let mut search = Search::new(scene, arguments.without_errors, time, eyes.interrupt, true);
     let watch = &mut |progress: &Progress| eyes.watch(&mut search, progress);
     let planned = planner::plan_without_errors(scene, None, watch);
     let (_, ended) = search.finish();

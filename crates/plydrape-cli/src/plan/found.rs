@@ -70,7 +70,7 @@ impl Arguments {
         let mut interrupted = model::show_also(&mut result, &along, stage, interrupt, quiet)?;
         if !self.without_errors {
             let robustness = Robustness::of_planned(scene, steps);
-            interrupted |= !errors::judge(&mut result, &robustness, interrupt, quiet);
+            interrupted |= !errors::judge(&mut result, &robustness, solving, interrupt, quiet);
         }
         interrupted |= result.summary.interrupted();
         Ok(Found { result, checkpoint, motion, decisions, solving, interrupted })

@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         out.flush()?;
     }
 
-    let mut search = Search::new(&scene.plan, time, &interrupt, quiet);
+    let mut search = Search::new(&scene, arguments.without_errors, time, &interrupt, quiet);
     let watch = &mut |progress: &Progress| search.watch(progress);
     let planned = planner::plan_without_errors(&scene, earlier.as_ref(), watch);
     let (took, ended) = search.finish();

@@ -1,4 +1,5 @@
-//! Results as tables for people.
+//! Results as tables for people, and times in words.
 
+pub mod forecast;
 pub mod strategy;
 pub mod table;

@@ -1,5 +1,6 @@
 //! One drape by one model: the motion is followed, every step is measured and recorded, and the end is judged.
 
+use super::forecast::Effort;
 use super::recorder::Recorder;
 use super::sensitivity::judge_sensitivity;
 use super::{Status, Step, Summary, check_catenaries};
@@ -48,6 +49,8 @@ pub struct Judged {
     pub unsolved: usize,
     /// Whether it was stopped before it had an end.
     pub interrupted: bool,
+    /// What the sheet took; `None` of catenaries.
+    pub effort: Option<Effort>,
 }
 
 impl Judged {
@@ -60,6 +63,7 @@ impl Judged {
             missing: 1.0,
             unsolved: 1,
             interrupted: false,
+            effort: None,
         }
     }
 
@@ -71,7 +75,8 @@ impl Judged {
 
     /// A recorded drape as a search sees it: without the limits of a motion in time, which gets its least time after the search.
     #[must_use]
-    pub fn of(summary: &Summary, steps: &[Step]) -> Self {
+    pub fn of(drape: &Drape) -> Self {
+        let Drape { steps, summary, sheet, .. } = drape;
         let solved = |status| matches!(status, Status::Converged | Status::Torn);
         let unsolved = steps.iter().filter(|step| !step.is_solved()).count();
         let timeless = |verdict: &&Verdict| verdict.name.measure().scope() != Scope::Time;
@@ -81,6 +86,7 @@ impl Judged {
             missing: 1.0 - summary.steps as f64 / summary.steps_planned.max(1) as f64,
             unsolved: unsolved + usize::from(!solved(summary.status)),
             interrupted: summary.interrupted(),
+            effort: sheet.as_ref().map(|sheet| Effort::of(&sheet.drape)),
         }
     }
 }
@@ -223,6 +229,7 @@ pub(super) fn judge_seen(
                 missing: missing(drape.steps),
                 unsolved: usize::from(!complete),
                 interrupted: drape.status == sheet::Status::Interrupted,
+                effort: Some(Effort::of(&drape)),
             };
             Ok((judged, Some(drape)))
         }
@@ -240,6 +247,7 @@ pub(super) fn judge_seen(
                 missing: missing(followed.steps),
                 unsolved: followed.unsolved,
                 interrupted: stopped,
+                effort: None,
             };
             Ok((judged, None))
         }

@@ -7,10 +7,14 @@
 //! 1. `drape`: one drape by one model; `recorder`, `step`: what is kept of it;
 //! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
 //! 3. `sensitivity`: whether it depends on what is too small to know;
-//! 4. `sample`, `robustness`: the verdict over cells with the errors of the scene.
+//! 4. `forecast`: how long drapes of the sheet will take;
+//! 5. `sample`, `robustness`: the verdict over cells with the errors of the scene.
 
 mod check;
 mod drape;
+pub mod forecast;
+#[cfg(test)]
+mod forecast_tests;
 mod recorder;
 mod retime;
 mod robustness;
@@ -27,6 +31,7 @@ pub(crate) use check::check_catenaries;
 pub use check::check_model;
 pub(crate) use drape::drape_catenaries;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
+pub use forecast::{Effort, Forecast, Pace};
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
 pub use sensitivity::minute_changes;

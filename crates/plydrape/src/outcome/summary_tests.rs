@@ -41,7 +41,7 @@ fn summary(height: f64) -> Summary {
 /// A drape with steps between those of the other one, whose height (mm) is judged.
 fn between(height: f64) -> Judged {
     let limits = limits(9, height);
-    Judged { limits, complete: true, missing: 0.0, unsolved: 0, interrupted: false }
+    Judged { limits, complete: true, missing: 0.0, unsolved: 0, interrupted: false, effort: None }
 }
 
 /// A sample of which enough cells are accepted, or not.

@@ -4,12 +4,15 @@
 use super::evaluation;
 use super::path::Strategy;
 use super::search_state::SearchState;
+use super::tuning::TUNING;
 use crate::Error;
+use crate::errors::Errors;
 use crate::geometry::Point;
 use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
 use crate::measure::Verdict;
 use crate::motion::{Attitudes, Motion, TimedMotion};
-use crate::outcome::{self, Drape, Judged};
+use crate::outcome::forecast::{self, CONSTANTS};
+use crate::outcome::{self, Drape, Effort, Forecast, Judged};
 use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
@@ -45,7 +48,7 @@ pub struct Decided {
 }
 
 impl Decision {
-    /// Drapes along planned positions (m).
+    /// Drapes along planned positions (m), and says before how long that will take; `ranked` is what the drape took that ranked them.
     ///
     /// # Errors
     /// If they cannot become a motion, or the model that decides cannot drape.
@@ -53,9 +56,14 @@ impl Decision {
         scene: &Scene,
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
+        ranked: Option<Effort>,
         state: &SearchState,
     ) -> Result<Self, Error> {
-        let decision = Self::uncounted(scene, strategy, positions, state)?;
+        let planned = Planned::of(scene, strategy, positions)?;
+        state.set_forecast(forecast(scene, &planned.motion, ranked, state));
+        let decision = planned.decide(scene, state);
+        state.set_forecast(None);
+        let decision = decision?;
         state.record(&decision.decided.judged, decision.decided.score, true);
         Ok(decision)
     }
@@ -70,16 +78,7 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, Error> {
-        let (positions, asked) = match &scene.layup.tool {
-            Some(tool) => {
-                let Carried { positions, record, .. } = tool.carry(&positions);
-                (positions, Some(record))
-            }
-            None => (positions, None),
-        };
-        let motion = TimedMotion::new(&positions, &scene.limits.motion_bounds())?;
-        let decided = decide(scene, &motion, state)?;
-        Ok(Decision { strategy, positions, asked, motion, decided })
+        Planned::of(scene, strategy, positions)?.decide(scene, state)
     }
 
     /// Takes another time for the same places.
@@ -98,7 +97,15 @@ impl Decision {
                 release.order == ReleaseOrder::Landed && release.dwell > 0.0
             });
         if scene.layup.settings.sheet.time == SheetTime::Real || dwells_on_the_way {
-            self.decided = decide(scene, &self.motion, state)?;
+            // strategies that are compared decide at once: one forecast would not be that of all
+            if state.is_finishing() {
+                let before = self.decided.drape.sheet.as_ref();
+                let before = before.map(|sheet| Effort::of(&sheet.drape));
+                state.set_forecast(forecast(scene, &self.motion, before, state));
+            }
+            let decided = decide(scene, &self.motion, state);
+            state.set_forecast(None);
+            self.decided = decided?;
             state.record(&self.decided.judged, self.decided.score, true);
             return Ok(());
         }
@@ -119,6 +126,66 @@ impl Decision {
     }
 }
 
+/// A plan before it is decided on: a [`Decision`] without what was decided.
+struct Planned {
+    strategy: Option<Strategy>,
+    positions: Vec<Vec<Point>>,
+    asked: Option<ToolRecord>,
+    motion: TimedMotion,
+}
+
+impl Planned {
+    /// The motion in time along planned positions (m).
+    fn of(
+        scene: &Scene,
+        strategy: Option<Strategy>,
+        positions: Vec<Vec<Point>>,
+    ) -> Result<Self, Error> {
+        let (positions, asked) = match &scene.layup.tool {
+            Some(tool) => {
+                let Carried { positions, record, .. } = tool.carry(&positions);
+                (positions, Some(record))
+            }
+            None => (positions, None),
+        };
+        let motion = TimedMotion::new(&positions, &scene.limits.motion_bounds())?;
+        Ok(Planned { strategy, positions, asked, motion })
+    }
+
+    fn decide(self, scene: &Scene, state: &SearchState) -> Result<Decision, Error> {
+        let decided = decide(scene, &self.motion, state)?;
+        let Planned { strategy, positions, asked, motion } = self;
+        Ok(Decision { strategy, positions, asked, motion, decided })
+    }
+}
+
+/// How long [`decide`] will take; `None` of catenaries, which take no time to speak of.
+fn forecast(
+    scene: &Scene,
+    motion: &TimedMotion,
+    ranked: Option<Effort>,
+    state: &SearchState,
+) -> Option<Forecast> {
+    let Layup { ply, settings, .. } = &scene.layup;
+    if settings.model != Model::Sheet {
+        return None;
+    }
+    let nodes = sheet::Fabric::of(ply, settings).ok()?.places.len();
+    let mut solves = match ranked {
+        Some(ranked) => forecast::solves(nodes, ranked),
+        None => CONSTANTS.solves * motion.times().len() as f64,
+    };
+    if settings.sheet.time == SheetTime::Real {
+        let swing = (sheet::pitch(ply) / settings.gravity).sqrt();
+        let step = sheet::Tuning::default().real_step * swing;
+        solves = solves.max(CONSTANTS.real_solves * motion.duration() / step);
+    }
+    let errors = scene.errors.filter(Errors::is_drawn);
+    let changed = outcome::minute_changes(&scene.layup).samples;
+    let cells = changed + errors.map_or(0, |_| TUNING.cells);
+    Some(Forecast { cells, ..Forecast::new(nodes, solves, state.pace()) })
+}
+
 /// The drape along a motion, its limits and failures, and its score. The drape with a step half-way between all steps counts
 /// where it is the worse.
 fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<Decided, Error> {
@@ -128,7 +195,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let (drape, between) = rayon::join(
         || {
             let drape = draped(scene, &followed, state);
-            let drape = drape.map(|drape| (Judged::of(&drape.summary, &drape.steps), drape));
+            let drape = drape.map(|drape| (Judged::of(&drape), drape));
             let accepted = drape.as_ref().is_ok_and(|(judged, _)| judged.accepted());
             refused.store(!accepted, Ordering::Relaxed);
             drape
@@ -143,7 +210,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let attitudes = outcome::attitudes(&drape.steps)?;
     let clearance = clearance(scene, motion, &attitudes);
     drape.summary.judge_also(clearance.clone());
-    let mut judged = Judged::of(&drape.summary, &drape.steps);
+    let mut judged = Judged::of(&drape);
     let mut score = evaluation::score(&judged);
     if let (true, Some(between)) = (judged.accepted(), between?) {
         drape.summary.judge_between(&between);

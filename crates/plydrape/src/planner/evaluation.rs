@@ -257,6 +257,7 @@ mod tests {
                 missing,
                 unsolved,
                 interrupted: false,
+                effort: None,
             })
         };
         let sound = evaluated(4e-4, 0, 0.0);
@@ -273,7 +274,14 @@ mod tests {
         let height = |value: f64| {
             let worst = Worst { value, at: String::new(), place: None };
             let limits = vec![Verdict::of(Name::Height, worst, 0.5, Some(1))];
-            Judged { limits, complete: true, missing: 0.0, unsolved: 0, interrupted: false }
+            Judged {
+                limits,
+                complete: true,
+                missing: 0.0,
+                unsolved: 0,
+                interrupted: false,
+                effort: None,
+            }
         };
         let mut bias = Bias::default();
         bias.learn(&height(0.10), &height(0.14));

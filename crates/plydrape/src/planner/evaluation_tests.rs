@@ -41,6 +41,7 @@ fn a_candidate_is_ranked_by_the_cells_of_the_search() {
         missing: 0.0,
         unsolved: 0,
         interrupted: false,
+        effort: None,
     };
     let seen: Mutex<Vec<Motion>> = Mutex::new(Vec::new());
     with_errors(&layup, Some(errors), judged(), |cell: Layup| {

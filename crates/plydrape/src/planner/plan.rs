@@ -180,7 +180,7 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, Error> {
     });
     let limits = unreached(scene, &plan);
     state.finish();
-    Ok((Decision::on(scene, None, plan.positions, state)?, limits))
+    Ok((Decision::on(scene, None, plan.positions, None, state)?, limits))
 }
 
 /// The limit that a stepwise plan breaks which does not reach its target.

@@ -2,7 +2,7 @@
 //! shall end.
 
 use crate::measure::Verdict;
-use crate::outcome::Judged;
+use crate::outcome::{Forecast, Judged, Pace};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -20,6 +20,8 @@ pub struct Progress<'a> {
     pub finishing: bool,
     /// Name of the present stage of the search.
     pub stage: &'static str,
+    /// How long the decision under way takes in all, as expected before it began; `None` while none is made.
+    pub forecast: Option<Forecast>,
     /// Limits of the best plan so far; empty before there is one.
     pub best: &'a [Verdict],
     /// Whether on the best plan so far was decided; else these are the limits of its ranking.
@@ -49,6 +51,8 @@ struct Best<'a> {
     accepted: bool,
     decided: bool,
     stage: &'static str,
+    forecast: Option<Forecast>,
+    pace: Pace,
 }
 
 impl<'a> SearchState<'a> {
@@ -68,6 +72,8 @@ impl<'a> SearchState<'a> {
                 accepted: false,
                 decided: false,
                 stage: "",
+                forecast: None,
+                pace: Pace::default(),
             }),
         }
     }
@@ -123,6 +129,17 @@ impl<'a> SearchState<'a> {
         before
     }
 
+    /// Says how long the decision that begins will take, or that it has ended.
+    pub fn set_forecast(&self, forecast: Option<Forecast>) {
+        self.best.lock().unwrap_or_else(PoisonError::into_inner).forecast = forecast;
+        let _ = self.report();
+    }
+
+    /// How fast the sheets of this search were draped.
+    pub fn pace(&self) -> Pace {
+        self.best.lock().unwrap_or_else(PoisonError::into_inner).pace
+    }
+
     /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank, one that is
     /// accepted better than all that are not. One that was broken off because the search shall end does not count.
     pub fn record(&self, drape: &Judged, score: f64, decides: bool) {
@@ -132,6 +149,9 @@ impl<'a> SearchState<'a> {
         let count = if decides { &self.decisions } else { &self.candidates };
         count.fetch_add(1, Ordering::Relaxed);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(effort) = drape.effort {
+            best.pace.add(effort);
+        }
         let key = |decided: bool, accepted: bool, score: f64| (!decided, !accepted, score);
         let accepted = decides && drape.accepted();
         if key(decides, accepted, score) < key(best.decided, best.accepted, best.score) {
@@ -150,13 +170,14 @@ impl<'a> SearchState<'a> {
             return ControlFlow::Break(());
         }
         let Ok(mut best) = self.best.try_lock() else { return ControlFlow::Continue(()) };
-        let Best { watcher, limits, decided, accepted, stage, .. } = &mut *best;
+        let Best { watcher, limits, decided, accepted, stage, forecast, .. } = &mut *best;
         let progress = Progress {
             candidates: self.candidates(),
             most: self.most,
             decisions: self.decisions(),
             finishing: self.is_finishing(),
             stage,
+            forecast: *forecast,
             best: limits,
             decided: *decided,
             accepted: *accepted,

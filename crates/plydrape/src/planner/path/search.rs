@@ -312,7 +312,8 @@ impl Search<'_, '_> {
         let stage = if state.is_finishing() { "finishing the best plan" } else { "deciding" };
         let before = state.begin(stage);
         let positions = candidate.positions.clone();
-        let decision = Decision::on(scene, Some(candidate.strategy), positions, state);
+        let ranked = candidate.drape.as_ref().and_then(|drape| drape.effort);
+        let decision = Decision::on(scene, Some(candidate.strategy), positions, ranked, state);
         state.begin(before);
         match decision {
             // what the end of the search broke off is decided on when it is finished

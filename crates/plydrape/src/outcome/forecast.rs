@@ -1,0 +1,145 @@
+//! How long drapes of the sheet will take, from what those before took on the same machine.
+//!
+//! A linear system of n nodes takes a time c w(n) with w(n) = n + n (n/n₀)^0.8: the energy is linear in the nodes, and the
+//! factorization of a plane mesh takes nodes^1.8 operations (`benches/README.md`). c is measured ([`Pace`]): all time of the drapes before over the sum of
+//! their w. How many systems a motion needs depends on the motion far more than on the mesh, so it is taken from a drape along it
+//! that ranked it with another mesh; a finer one needs a little more, as (n/n′)^g.
+
+use crate::sheet;
+use std::time::Duration;
+
+/// Constants of a forecast; medians of what `cargo bench -p plydrape-io --bench forecast` measures and prints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constants {
+    /// Nodes n₀ of which the factorization takes as long as all else.
+    pub even_nodes: f64,
+    /// Power of the nodes by which the factorization takes longer than all else.
+    pub factorization: f64,
+    /// Power g of the nodes with which the number of linear systems grows.
+    pub growth: f64,
+    /// Linear systems in a step of a motion along which nothing was draped.
+    pub solves: f64,
+    /// Linear systems in a time step of a motion in its own time.
+    pub real_solves: f64,
+    /// Time of a drape with a step half-way between all steps beside that of the drape without (1): less than its median, because it
+    /// is ended where the other refuses the plan.
+    pub between: f64,
+    /// Time of a drape with errors beside that of the drape without (1).
+    pub cell: f64,
+    /// c on a machine that has draped nothing yet (s).
+    pub seconds: f64,
+}
+
+/// The constants in use.
+pub const CONSTANTS: Constants = Constants {
+    even_nodes: 3500.0,
+    factorization: 0.8,
+    growth: 0.1,
+    solves: 5.0,
+    real_solves: 2.0,
+    between: 1.2,
+    cell: 1.25,
+    seconds: 2e-6,
+};
+
+/// w, the time of a linear system of a sheet with so many nodes, in units of c.
+fn work(nodes: usize) -> f64 {
+    let Constants { even_nodes, factorization, .. } = CONSTANTS;
+    let nodes = nodes as f64;
+    nodes + nodes * (nodes / even_nodes).powf(factorization)
+}
+
+/// What a drape of the sheet took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Nodes.
+    pub nodes: usize,
+    /// Linear systems that were solved.
+    pub solves: usize,
+    /// Time.
+    pub time: Duration,
+}
+
+impl Effort {
+    /// That of a finished drape.
+    #[must_use]
+    pub fn of(drape: &sheet::Drape) -> Self {
+        let sheet::Report { nodes, solves, .. } = drape.report;
+        Effort { nodes, solves, time: drape.duration }
+    }
+}
+
+/// How fast a machine drapes sheets: what it took so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pace {
+    seconds: f64,
+    work: f64,
+}
+
+impl Pace {
+    /// Counts a drape.
+    pub fn add(&mut self, effort: Effort) {
+        self.seconds += effort.time.as_secs_f64();
+        self.work += effort.solves as f64 * work(effort.nodes);
+    }
+
+    /// c (s): that of [`CONSTANTS`] before anything was draped.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        if self.work > 0.0 { self.seconds / self.work } else { CONSTANTS.seconds }
+    }
+}
+
+/// How long drapes of the sheet along one motion will take; right within a factor of 1.5 by the benchmark `forecast`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    /// Nodes of the sheet.
+    pub nodes: usize,
+    /// Time of a drape by itself.
+    pub drape: Duration,
+    /// Drapes with minute changes and cells with errors that are draped to decide on a plan.
+    pub cells: usize,
+    /// Drapes that are made at once.
+    pub threads: usize,
+}
+
+impl Forecast {
+    /// Of drapes of a sheet with so many nodes that need so many linear systems, on all threads, at a pace.
+    #[must_use]
+    pub fn new(nodes: usize, solves: f64, pace: Pace) -> Self {
+        let drape = seconds(pace.seconds() * solves * work(nodes));
+        Forecast { nodes, drape, cells: 0, threads: rayon::current_num_threads() }
+    }
+
+    /// Of drapes like one that is finished, on all threads.
+    #[must_use]
+    pub fn like(effort: Effort) -> Self {
+        let Effort { nodes, time, .. } = effort;
+        Forecast { nodes, drape: time, cells: 0, threads: rayon::current_num_threads() }
+    }
+
+    /// Time of the decision on a plan: the drape, at once with it the one with a step half-way between all steps, then
+    /// the cells.
+    #[must_use]
+    pub fn decision(&self) -> Duration {
+        let alone = if self.threads > 1 { 0.0 } else { 1.0 };
+        self.drape.mul_f64(CONSTANTS.between + alone) + self.sample(self.cells)
+    }
+
+    /// Time of a sample of cells with errors.
+    #[must_use]
+    pub fn sample(&self, cells: usize) -> Duration {
+        self.drape.mul_f64(CONSTANTS.cell * cells.div_ceil(self.threads.max(1)) as f64)
+    }
+}
+
+/// The linear systems that a sheet with so many nodes needs, where one along the same motion with another mesh was draped.
+#[must_use]
+pub fn solves(nodes: usize, ranked: Effort) -> f64 {
+    ranked.solves as f64 * (nodes as f64 / ranked.nodes.max(1) as f64).powf(CONSTANTS.growth)
+}
+
+/// A time (s) that may be beyond what a duration holds.
+fn seconds(time: f64) -> Duration {
+    Duration::try_from_secs_f64(time).unwrap_or(Duration::MAX / 1_000_000)
+}
