@@ -2,12 +2,13 @@
 //! to know, [`crate::outcome::minute_changes`].
 //!
 //! Where the ply is about to buckle one way or the other, such a change decides which ridges stay: what one drape says of the motion is
-//! an accident then.
+//! an accident then. It may be as large as what is left from the highest of these drapes to the limit of the height, and a tenth of that
+//! limit where less is left.
 
 use super::{Description, Limits, Measure, Name, Scope, Unit, Worth};
 use crate::layup::Layup;
 
-/// The limit, as a share of that of the height.
+/// The least limit, as a share of that of the height.
 const SHARE: f64 = 0.1;
 
 /// Sensitivity; see the head of this file.

@@ -33,8 +33,9 @@ pub(super) fn judge_sensitivity(
     limits: &Limits,
     stop: &(dyn Fn() -> bool + Sync),
 ) {
-    let limit = Name::Sensitivity.measure().limit(layup, limits);
-    let (Some(limit), Some(own)) = (limit, height(&summary.limits)) else { return };
+    let limit = |name: Name| name.measure().limit(layup, limits);
+    let [Some(least), Some(highest)] = [Name::Sensitivity, Name::Height].map(limit) else { return };
+    let Some(own) = height(&summary.limits) else { return };
     // a motion gets its least time after it was decided on
     let timeless = |verdict: &&Verdict| verdict.name.measure().scope() != Scope::Time;
     let accepted = summary.limits.iter().filter(timeless).all(|verdict| verdict.ok);
@@ -67,7 +68,9 @@ pub(super) fn judge_sensitivity(
     let at =
         format!("{low:.2} to {high:.2} mm high in {} drapes with minute changes", drapes.len());
     let worst = Worst { value: high - low, at, place: None };
-    summary.judge_also([Verdict::of(Name::Sensitivity, worst, limit, None)]);
+    // once more as far up would still be below the limit of the height
+    let most = least.max(highest - high);
+    summary.judge_also([Verdict::of(Name::Sensitivity, worst, most, None)]);
 }
 
 /// The height at the end (mm) among verdicts.
