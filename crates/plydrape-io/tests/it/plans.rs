@@ -5,11 +5,13 @@ use crate::common::drape_sheet;
 use crate::common::{all_cases, examples};
 use crate::scaled::scaled;
 use plydrape::geometry::vector::norm;
+use plydrape::layup::Layup;
 use plydrape::measure::{Name, Verdict};
 use plydrape::motion::Motion;
 use plydrape::outcome::{Status, Summary};
 use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::Scene;
+use plydrape::sheet::{self, Tuning};
 use plydrape_io::plan;
 use plydrape_io::result::read;
 use plydrape_io::result::{ResultFile, Turned};
@@ -403,4 +405,74 @@ fn a_search_goes_on_from_the_plan_of_an_earlier_one() {
     let (next, anew) = (on(Some(&first.checkpoint)), on(None));
     assert_eq!(path(&next), path(&first));
     assert_ne!(path(&anew), path(&first), "the search found nothing: the test shows nothing");
+}
+
+/// What an accepted plan says does not depend on how its drape is solved: along every plan of the examples, with a step half-way between
+/// all steps, so that no time step is longer than half, and with a tenth of the tolerances, the sheet ends within a tenth of the limit of
+/// the height of where it did, and below that limit.
+#[test]
+#[ignore = "long; two plans stand for it; scripts/soak runs it"]
+fn no_accepted_plan_depends_on_its_numerics() {
+    for name in ["04_dome", "05_cylinder", "06_saddle", "08_stl_mold"] {
+        check_numerics(name);
+    }
+}
+
+/// See the test above.
+#[test]
+fn two_accepted_plans_do_not_depend_on_their_numerics() {
+    for name in ["01_flat_sheared_mold", "10_shallow"] {
+        check_numerics(name);
+    }
+}
+
+fn check_numerics(name: &str) {
+    let example = Example::of(name);
+    let Some(made) = example.plan_made_before() else {
+        eprintln!("SKIPPED {name}: PLYDRAPE_EXAMPLES has no plan of it; scripts/examples makes it");
+        return;
+    };
+    let result = read::read(&made.join("result.json")).unwrap();
+    assert!(result.summary.accepted(), "{name}");
+    let place = |gripper: &plydrape::outcome::Gripper| gripper.commanded;
+    let positions = result.steps.iter().map(|step| step.grippers.iter().map(place).collect());
+    let times = result.steps.iter().map(|step| step.time).collect();
+    let motion = Motion { times, positions: positions.collect() };
+    let mut layup = Layup { motion: motion.clone(), ..example.scene().layup };
+    let height = |layup: &Layup, tuning: Tuning| {
+        let ended = sheet::drape(layup, tuning, HEIGHT * 1e-3, &|| false, |_, _, _| {
+            ControlFlow::Continue(())
+        });
+        let ended = ended.unwrap();
+        assert_eq!(ended.status, sheet::Status::Converged, "{name}");
+        ended.last.heights.iter().copied().fold(0.0, f64::max) * 1e3
+    };
+    let usual = Tuning::default();
+    let own = height(&layup, usual);
+    let exact = Tuning {
+        step_tolerance: 0.1 * usual.step_tolerance,
+        rest_tolerance: 0.1 * usual.rest_tolerance,
+        ..usual
+    };
+    let exact = height(&layup, exact);
+    layup.motion = halved(&motion);
+    let half = height(&layup, usual);
+    for other in [exact, half] {
+        let near = (other - own).abs() <= 0.1 * HEIGHT;
+        assert!(near && other <= HEIGHT, "{name}: {own} mm, {exact} and {half} mm");
+    }
+}
+
+/// A motion with a step half-way between all steps.
+fn halved(motion: &Motion) -> Motion {
+    let mut halved = Motion { times: Vec::new(), positions: Vec::new() };
+    for (times, steps) in motion.times.windows(2).zip(motion.positions.windows(2)) {
+        let middle = steps[0].iter().zip(&steps[1]);
+        let middle = middle.map(|(a, b)| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c]))).collect();
+        halved.times.extend([times[0], 0.5 * (times[0] + times[1])]);
+        halved.positions.extend([steps[0].clone(), middle]);
+    }
+    halved.times.extend(motion.times.last());
+    halved.positions.extend(motion.positions.last().cloned());
+    halved
 }

@@ -3,8 +3,8 @@
 use super::*;
 use crate::errors::tests::layup;
 use crate::errors::{Draw, Errors, Term};
-use crate::layup::Layup;
-use crate::measure::{Name, Verdict};
+use crate::layup::{Layup, Target};
+use crate::measure::{Limits, Name, Verdict};
 use crate::mold::{Mold, Plane};
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -332,4 +332,46 @@ fn nothing_is_accepted_that_was_not_draped() {
     let mut refused = simulate(&scene, go).expect("catenaries").drape.summary;
     assert!(planned.judge_stands(&mut refused, &stop));
     assert_eq!(refused.stands.map(|stands| (stands.factor, stands.tried)), Some((0.0, 0)));
+}
+
+/// The sensitivity of an accepted drape is the range of its height and of those of the four draws, found here one by one; it may be as
+/// large as what is left to the limit of the height. Of a refused drape nothing is asked.
+#[test]
+fn sensitivity_is_the_range_of_heights_by_minute_changes() {
+    let mut scene = sheet();
+    let last = scene.layup.motion.positions.last().expect("steps").clone();
+    scene.layup.target = Some(Target { grippers: last, drape: None });
+    scene.limits = Limits::of(&scene.layup);
+    for name in Name::ALL {
+        scene.limits.set(*name, None);
+    }
+    let sensitivity = |bound: f64| {
+        let limited =
+            Scene { limits: scene.limits.clone().with(Name::Height, bound), ..scene.clone() };
+        let summary = simulate(&limited, |_| ControlFlow::Continue(())).unwrap().drape.summary;
+        let of = |name: Name| summary.limits.iter().find(|v| v.name == name).cloned();
+        (of(Name::Sensitivity), of(Name::Height).expect("a target").value)
+    };
+    let (found, own) = sensitivity(1.0);
+    let found = found.expect("an accepted sheet");
+
+    let changes = minute_changes(&scene.layup);
+    assert_eq!(
+        changes.gripper.position,
+        Term::Deviation(1e-5 * crate::sheet::pitch(&scene.layup.ply))
+    );
+    let height = |n: usize| {
+        let changed = cell(&scene, changes.draw(n, scene.layup.ply.grippers()));
+        let limits = scene.limits.clone().with(Name::Height, 1.0);
+        let judged = judge(&changed.layup, &limits, usize::MAX, &|| false).expect("a sheet");
+        judged.limits.iter().find(|v| v.name == Name::Height).expect("a target").value
+    };
+    let heights: Vec<f64> = (0..4).map(height).chain([own]).collect();
+    let highest = heights.iter().copied().fold(0.0, f64::max);
+    let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(highest > lowest && (found.value - (highest - lowest)).abs() < 1e-12, "{found:?}");
+    assert!((found.limit - (1e3 - highest)).abs() < 1e-9, "{found:?}");
+
+    let (refused, _) = sensitivity(0.5e-3 * own);
+    assert_eq!(refused, None);
 }
