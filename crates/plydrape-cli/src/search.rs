@@ -269,7 +269,7 @@ mod tests {
         let shown = line(&deciding, "candidates", 0, seconds(9));
         assert_eq!(
             shown,
-            "plydrape: 9 s, 34 candidates of at most 60, deciding: 961 nodes, about 35 s"
+            "plydrape: 9 s, 34 candidates of at most 60, deciding: 961 nodes, about 40 s"
         );
         let shown = line(&deciding, "candidates", 64, seconds(9));
         assert!(shown.ends_with(", then at most 64 cells with errors, about 20 min"), "{shown}");

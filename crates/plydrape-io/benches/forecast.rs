@@ -100,9 +100,9 @@ fn row(name: &str, scene: &Scene, measured: &mut Measured) -> Vec<Compared> {
             (None, Some((forecast, began))) => {
                 let taken = began.elapsed().as_secs_f64();
                 let whole = forecast.decision().as_secs_f64();
-                // one that refuses its plan may end before the cells
-                let drapes = Forecast { cells: 0, ..forecast }.decision().as_secs_f64();
-                let forecast = if progress.accepted { whole } else { taken.clamp(drapes, whole) };
+                // one that refuses its plan may end with its first drape
+                let first = forecast.drape.as_secs_f64();
+                let forecast = if progress.accepted { whole } else { taken.clamp(first, whole) };
                 decisions.push(Compared { forecast, taken });
                 begun = None;
             }

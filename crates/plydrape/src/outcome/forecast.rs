@@ -21,8 +21,7 @@ pub struct Constants {
     pub solves: f64,
     /// Linear systems in a time step of a motion in its own time.
     pub real_solves: f64,
-    /// Time of a drape with a step half-way between all steps beside that of the drape without (1): less than its median, because it
-    /// is ended where the other refuses the plan.
+    /// Time of a drape with a step half-way between all steps beside that of the drape without (1).
     pub between: f64,
     /// Time of a drape with errors beside that of the drape without (1).
     pub cell: f64,
@@ -37,7 +36,7 @@ pub const CONSTANTS: Constants = Constants {
     growth: 0.1,
     solves: 5.0,
     real_solves: 2.0,
-    between: 1.2,
+    between: 1.3,
     cell: 1.25,
     seconds: 2e-6,
 };
@@ -118,8 +117,8 @@ impl Forecast {
         Forecast { nodes, drape: time, cells: 0, threads: rayon::current_num_threads() }
     }
 
-    /// Time of the decision on a plan: the drape, at once with it the one with a step half-way between all steps, then
-    /// the cells.
+    /// Time of the decision on a plan, which ends earlier if it is refused: the drape, at once with it the one with a step half-way between
+    /// all steps, then the cells.
     #[must_use]
     pub fn decision(&self) -> Duration {
         let alone = if self.threads > 1 { 0.0 } else { 1.0 };

@@ -62,10 +62,11 @@ impl Decision {
         let planned = Planned::of(scene, strategy, positions)?;
         state.set_forecast(forecast(scene, &planned.motion, ranked, state));
         let decision = planned.decide(scene, state);
+        if let Ok(Decision { decided, .. }) = &decision {
+            state.record(&decided.judged, decided.score, true);
+        }
         state.set_forecast(None);
-        let decision = decision?;
-        state.record(&decision.decided.judged, decision.decided.score, true);
-        Ok(decision)
+        decision
     }
 
     /// Drapes along planned positions (m) without counting that among the decisions of a search.
