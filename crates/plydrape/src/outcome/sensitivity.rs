@@ -65,8 +65,7 @@ pub(super) fn judge_sensitivity(
             |verdict| verdict.name.measure().worth() == Worth::Less,
         );
     }
-    let at =
-        format!("{low:.2} to {high:.2} mm high in {} drapes with minute changes", drapes.len());
+    let at = format!("{low:.2} to {high:.2} mm high without and with minute changes");
     let worst = Worst { value: high - low, at, place: None };
     // once more as far up would still be below the limit of the height
     let most = least.max(highest - high);

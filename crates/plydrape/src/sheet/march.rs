@@ -155,8 +155,9 @@ impl<'a> March<'a> {
                     }
                 }
                 Err(failure) => {
+                    let Tuning { turn: most, turn_margin, turn_retry, .. } = self.tuning;
                     let shorter = match failure {
-                        Failure::Turn(turn) => (0.8 * self.tuning.turn / turn).clamp(0.05, 0.5),
+                        Failure::Turn(turn) => (turn_margin * most / turn).clamp(turn_retry, 0.5),
                         _ => 0.5,
                     };
                     self.share = shorter * share;

@@ -176,6 +176,7 @@ impl System {
     /// Adds the second derivative `k` of an energy to two different nodes (N/m); the block of the second and the first
     /// is its transpose.
     pub fn couple(&mut self, pair: Pair, k: &Matrix3) {
+        debug_assert!(self.wants_matrix(), "terms that couple nodes ask first");
         if let Some(slot) = pair.slot {
             self.matrix.add(slot, k);
             return;
@@ -209,6 +210,7 @@ impl System {
 
     /// Adds to two different nodes, as [`System::couple`], `s` times the identity.
     pub fn couple_scalar(&mut self, pair: Pair, s: f64) {
+        debug_assert!(self.wants_matrix(), "terms that couple nodes ask first");
         match pair.slot {
             Some(slot) => self.matrix.add_scalar(slot, s),
             None => self.couple(pair, &scaled(s, &IDENTITY)),

@@ -30,6 +30,10 @@ pub struct Tuning {
     /// Largest turn of a segment in one step of the iteration (rad): a linear step of an inextensible line is wrong by the
     /// square of it.
     pub turn: f64,
+    /// Turn (of the largest one) to which a time step is shortened whose first step of the iteration turns a segment farther.
+    pub turn_margin: f64,
+    /// Least share of such a time step that is tried next.
+    pub turn_retry: f64,
     /// Most iterations of a time step before it is halved.
     pub iterations: usize,
     /// Iterations of full steps; in those that follow, half of each step in which contact or slip switched is taken, which
@@ -78,6 +82,8 @@ impl Default for Tuning {
             creep_iterations: 8,
             creep: 10.0,
             turn: 0.3,
+            turn_margin: 0.8,
+            turn_retry: 0.05,
             iterations: 20,
             full_iterations: 8,
             easy_iterations: 6,
