@@ -442,18 +442,19 @@ class Material:
         Its name for reports.
         """
     @property
-    def scatter(self, /) -> dict[str, float]:
+    def scatter(self, /) -> dict[str, float | dict[str, float]]:
         """
         How much its properties scatter between specimens: standard deviations as shares of their values, by the keys of a
-        material file. Empty where nothing is said.
+        material file. That of the shear curve may be a factor f, a dict {"factor": f}: from 1/f to f times the value. Empty where
+        nothing is said.
 
         Examples
         --------
-        >>> scatter = {"mass": 0.02, "bending_rigidity_warp": 0.08}
+        >>> scatter = {"mass": 0.02, "shear_curve": {"factor": 2}}
         >>> material = {"mass": 0.3, "bending_rigidity_warp": 1e-3, "bending_rigidity_weft": 1e-3}
         >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material={**material, "scatter": scatter})
         >>> ply.material.scatter
-        {'bending_rigidity_warp': 0.08, 'mass': 0.02}
+        {'mass': 0.02, 'shear_curve': {'factor': 2.0}}
         """
     def shear_force(self, /, angles: ArrayLike) -> NDArray[float64] | None:
         """
@@ -3008,7 +3009,7 @@ def materials() -> list[str]:
     Examples
     --------
     >>> plydrape.materials()[:4]
-    ['krogh2018', 'cao2008_plain', 'broberg2023_binder', 'broberg2022_strip']
+    ['krogh2018', 'dry_carbon', 'prepreg_cold', 'prepreg_warm']
     """
 
 def measures() -> list[Measure]:

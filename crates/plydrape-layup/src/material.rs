@@ -4,7 +4,7 @@ mod moment;
 mod scatter;
 
 pub use moment::MomentCurve;
-pub use scatter::Scatter;
+pub use scatter::{Scatter, Spread};
 
 /// A woven ply: what the sheet and the catenaries need to know of it.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,15 +2,34 @@
 
 use crate::arrays::{Array, Numbers};
 use crate::{error, table};
-use plydrape::material::{self, Section};
+use plydrape::material::{self, Section, Spread};
 use plydrape::ply::{self, Direction};
 use plydrape_io::scene;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::Value;
 use toml::map::Map;
+
+/// A share, or a factor by its key.
+#[derive(IntoPyObject)]
+enum ScatterValue {
+    /// Standard deviation as a share of the value.
+    Share(f64),
+    /// `{"factor": f}`.
+    Factor(BTreeMap<&'static str, f64>),
+}
+
+impl From<Spread> for ScatterValue {
+    fn from(spread: Spread) -> Self {
+        match spread {
+            Spread::Share(share) => ScatterValue::Share(share),
+            Spread::Factor { factor } => ScatterValue::Factor([("factor", factor)].into()),
+        }
+    }
+}
 
 /// A woven ply held by grippers: a rectangle held by an array of them, or, from a scene, as it is cut.
 ///
@@ -322,28 +341,29 @@ impl Material {
     }
 
     /// How much its properties scatter between specimens: standard deviations as shares of their values, by the keys of a
-    /// material file. Empty where nothing is said.
+    /// material file. That of the shear curve may be a factor f, a dict {"factor": f}: from 1/f to f times the value. Empty where
+    /// nothing is said.
     ///
     /// Examples
     /// --------
-    /// >>> scatter = {"mass": 0.02, "bending_rigidity_warp": 0.08}
+    /// >>> scatter = {"mass": 0.02, "shear_curve": {"factor": 2}}
     /// >>> material = {"mass": 0.3, "bending_rigidity_warp": 1e-3, "bending_rigidity_weft": 1e-3}
     /// >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material={**material, "scatter": scatter})
     /// >>> ply.material.scatter
-    /// {'bending_rigidity_warp': 0.08, 'mass': 0.02}
+    /// {'mass': 0.02, 'shear_curve': {'factor': 2.0}}
     #[getter]
-    fn scatter(&self) -> std::collections::BTreeMap<&'static str, f64> {
+    fn scatter(&self) -> BTreeMap<&'static str, ScatterValue> {
         let scatter = &self.0.scatter;
         let warp = if self.areal() { "bending_rigidity_warp" } else { "flexural_rigidity" };
         [
-            ("mass", scatter.mass),
-            (warp, scatter.warp_rigidity),
-            ("bending_rigidity_weft", scatter.weft_rigidity),
-            ("tension", scatter.tension),
+            ("mass", scatter.mass.map(Spread::Share)),
+            (warp, scatter.warp_rigidity.map(Spread::Share)),
+            ("bending_rigidity_weft", scatter.weft_rigidity.map(Spread::Share)),
+            ("tension", scatter.tension.map(Spread::Share)),
             ("shear_curve", scatter.shear_curve),
         ]
         .into_iter()
-        .filter_map(|(key, share)| Some((key, share?)))
+        .filter_map(|(key, spread)| Some((key, spread?.into())))
         .collect()
     }
 

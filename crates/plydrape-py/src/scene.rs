@@ -722,7 +722,7 @@ pub fn blocks(steps: &[Vec<[f64; 3]>], count: usize) -> Array<f64> {
 /// Examples
 /// --------
 /// >>> plydrape.materials()[:4]
-/// ['krogh2018', 'cao2008_plain', 'broberg2023_binder', 'broberg2022_strip']
+/// ['krogh2018', 'dry_carbon', 'prepreg_cold', 'prepreg_warm']
 #[pyfunction]
 pub fn materials() -> Vec<&'static str> {
     scene::shipped_materials().collect()

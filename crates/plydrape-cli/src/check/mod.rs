@@ -10,8 +10,9 @@ mod warnings;
 mod way;
 
 use crate::failure::Done;
-use crate::numbers::{degrees, short};
-use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
+use crate::numbers::{degrees, millimetres, short};
+use plydrape::material::{Material, Scatter, Section, ShearCurve, Spread, TensionLaw};
+use plydrape::ply::Ply;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::store::shown;
 use std::io::{self, Write};
@@ -20,6 +21,9 @@ use std::process::ExitCode;
 
 /// A noun of the scene and what it is; without a noun it goes on with the one before.
 type Line = (&'static str, String);
+
+/// Mass of one ply of prepreg (kg/m²), that of `prepreg_cold`.
+const PREPREG: f64 = 0.3143;
 
 /// Read a scene or a plybook, and say what was understood or what is wrong.
 #[derive(Debug, clap::Args)]
@@ -60,6 +64,8 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
         ("material", material(&ply.material)),
         ("", ply.material.source.clone()),
     ];
+    lines.extend(weight(ply).map(|text| ("", text)));
+    lines.extend(scatter(&ply.material).map(|text| ("", format!("scatter: {text}"))));
     lines.extend(mold::mold(scene));
     lines.extend(way::way(scene));
     lines.extend(rules::tool(scene));
@@ -70,6 +76,43 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(limits::limits(scene));
     lines.extend(rules::plan(scene));
     lines
+}
+
+/// What a mass per line makes per area, in this scene's cells, beside that of one ply.
+fn weight(ply: &Ply) -> Option<String> {
+    let Section::Line { mass, .. } = ply.material.section else { return None };
+    let [a, b] = ply.cell.map(millimetres);
+    let areal_mass = ply.areal_mass();
+    let plies = areal_mass / PREPREG;
+    let plies = if plies >= 1.5 {
+        format!(", the weight of {plies:.0} plies of prepreg of {PREPREG} kg/m²")
+    } else {
+        String::new()
+    };
+    let areal_mass = format!("{areal_mass:.2}");
+    Some(format!("{} kg/m over cells of {a} × {b} mm are {areal_mass} kg/m²{plies}", short(mass)))
+}
+
+/// How far the properties of a material scatter; `None` where nobody says.
+fn scatter(material: &Material) -> Option<String> {
+    let Scatter { mass, warp_rigidity, weft_rigidity, tension, shear_curve } = material.scatter;
+    let share = |share: f64| format!("{} %", short(100.0 * share));
+    let mut parts = vec![("mass", mass.map(share))];
+    if warp_rigidity == weft_rigidity || matches!(material.section, Section::Line { .. }) {
+        parts.push(("bending", warp_rigidity.map(share)));
+    } else {
+        parts.push(("bending in warp", warp_rigidity.map(share)));
+        parts.push(("bending in weft", weft_rigidity.map(share)));
+    }
+    parts.push(("tension", tension.map(share)));
+    let shear = |spread| match spread {
+        Spread::Share(value) => share(value),
+        Spread::Factor { factor } => format!("a factor of {}", short(factor)),
+    };
+    parts.push(("shear", shear_curve.map(shear)));
+    let known: Vec<String> =
+        parts.into_iter().filter_map(|(of, value)| Some(format!("{of} {}", value?))).collect();
+    (!known.is_empty()).then(|| known.join(", "))
 }
 
 fn material(material: &Material) -> String {

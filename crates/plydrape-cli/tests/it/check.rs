@@ -66,6 +66,60 @@ fn the_line_of_a_release_says_which_pads_let_go_when() {
     }
 }
 
+/// 0.3143 kg/m each 100 mm are 3.14 kg/m², ten plies of prepreg of 0.3143 kg/m²; cells of another size make it another number, and a
+/// mass per area says itself what it weighs.
+#[test]
+fn a_mass_per_line_is_shown_per_area_in_the_cells_of_the_scene() {
+    let shown = |cell: &str, material: &str| {
+        let scene = format!(
+            "[ply]\ngrippers = [4, 2]\ncell = [{cell}]\nmaterial = \"{material}\"\n\
+             [mold]\nkind = \"plane\"\n[target]\n"
+        );
+        let output = check(&scene, &[]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        one_line(&output.stdout)
+    };
+    for (cell, expected) in [
+        (
+            "0.1, 0.1",
+            "0.3143 kg/m over cells of 100 × 100 mm are 3.14 kg/m², the weight of 10 plies of prepreg of 0.3143 kg/m²",
+        ),
+        (
+            "0.15, 0.25",
+            "0.3143 kg/m over cells of 150 × 250 mm are 1.57 kg/m², the weight of 5 plies of prepreg of 0.3143 kg/m²",
+        ),
+        ("1.0, 1.0", "0.3143 kg/m over cells of 1000 × 1000 mm are 0.31 kg/m² scatter"),
+    ] {
+        let shown = shown(cell, "krogh2018");
+        assert!(shown.contains(expected), "{expected}\n{shown}");
+        assert!(shown.contains("ASSUMED, not measured: a shear slope of 5 N/m per rad"), "{shown}");
+    }
+    assert!(!shown("0.1, 0.1", "prepreg_cold").contains("over cells"));
+}
+
+/// Shares and factors stand in one line; what nobody says is not in it.
+#[test]
+fn the_scatter_of_a_material_is_shown() {
+    let line = |scatter: &str| {
+        let scene = in_unit("mm")
+            .replace("bending_rigidity_weft = 0", &format!("bending_rigidity_weft = 0{scatter}"));
+        let output = check(&scene, &[]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let shown = text(&output.stdout);
+        shown.lines().find_map(|line| line.trim().strip_prefix("scatter: ")).map(str::to_string)
+    };
+    assert_eq!(line(""), None);
+    for (scatter, expected) in [
+        (
+            "mass = \"5 %\", bending_rigidity_warp = 0.3, bending_rigidity_weft = 0.3, shear_curve = { factor = 2 }",
+            "mass 5 %, bending 30 %, shear a factor of 2",
+        ),
+        ("bending_rigidity_weft = 0.2, shear_curve = \"8 %\"", "bending in weft 20 %, shear 8 %"),
+    ] {
+        assert_eq!(line(&format!(", scatter = {{ {scatter} }}")).as_deref(), Some(expected));
+    }
+}
+
 /// The warnings about a scene that passes.
 fn warnings(scene: &str) -> Vec<String> {
     let output = check(scene, &[]);

@@ -52,7 +52,7 @@ impl JsonSchema for MaterialChoice {
     }
 }
 
-/// A curve of force: its slope alone, or a table that says more.
+/// A curve of force by its slope alone, a scatter by its share alone; or a table that says more.
 #[derive(Debug)]
 pub(super) enum Curve<M, T> {
     Slope(Unchecked<M>),

@@ -11,14 +11,18 @@ use super::usual::{self, Usual};
 use super::{curve, read};
 use crate::Error;
 use crate::store::shown;
-use plydrape::material::{Material, MomentCurve, Scatter, Section};
+use plydrape::material::{Material, MomentCurve, Scatter, Section, Spread};
 use std::ops::Range;
 use std::path::Path;
 
 /// The materials that come with the program: name and file.
-const SHIPPED: [(&str, &str); 10] = [
+const SHIPPED: [(&str, &str); 14] = [
     ("krogh2018", include_str!("../../materials/krogh2018.toml")),
+    ("dry_carbon", include_str!("../../materials/dry_carbon.toml")),
+    ("prepreg_cold", include_str!("../../materials/prepreg_cold.toml")),
+    ("prepreg_warm", include_str!("../../materials/prepreg_warm.toml")),
     ("cao2008_plain", include_str!("../../materials/cao2008_plain.toml")),
+    ("cao2008_plain_frame", include_str!("../../materials/cao2008_plain_frame.toml")),
     ("broberg2023_binder", include_str!("../../materials/broberg2023_binder.toml")),
     ("broberg2022_strip", include_str!("../../materials/broberg2022_strip.toml")),
     ("petrak2025_polyester_twill", include_str!("../../materials/petrak2025_polyester_twill.toml")),
@@ -33,6 +37,8 @@ const SHIPPED: [(&str, &str); 10] = [
 const MASSES: [f64; 2] = [1e-6, 1e3];
 /// Largest flexural rigidity (N·m²) or rigidity per width (N·m).
 const RIGIDITY: f64 = 1e6;
+/// Largest factor of a scatter: who knows less does not know the force.
+const LARGEST_FACTOR: f64 = 100.0;
 
 /// Names of the materials that come with the program.
 pub fn shipped_materials() -> impl Iterator<Item = &'static str> {
@@ -172,16 +178,18 @@ fn from_table(
 fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, Error> {
     let Some(given) = &table.scatter else { return Ok(Scatter::default()) };
     let share = |share: &Option<Quantity<Ratio>>| {
-        let Some(share) = share else { return Ok(None) };
-        let value = share.not_negative(document)?;
-        if value <= 1.0 {
-            return Ok(Some(value));
+        share.as_ref().map(|share| scatter_share(share, "", document)).transpose()
+    };
+    let shear_curve = match &given.shear_curve {
+        None => None,
+        Some(Located { value: Curve::Slope(value), span }) => {
+            let value = Located { value: value.clone(), span: span.clone() };
+            let help = "; { factor = 2 } is a shear force from half to twice the value";
+            Some(Spread::Share(scatter_share(&value, help, document)?))
         }
-        Err(document.error(
-            share.span.clone(),
-            format!("{} scatters by more than the value itself", document.quoted(&share.span)),
-            "give the standard deviation as a share of the value, as in \"8 %\" or 0.08",
-        ))
+        Some(Located { value: Curve::Table(table), .. }) => {
+            Some(Spread::Factor { factor: scatter_factor(&table.factor, document)? })
+        }
     };
     let warp = given.bending_rigidity_warp.as_ref().or(given.flexural_rigidity.as_ref());
     Ok(Scatter {
@@ -189,8 +197,38 @@ fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, Error>
         warp_rigidity: share(&warp.cloned())?,
         weft_rigidity: share(&given.bending_rigidity_weft)?,
         tension: share(&given.tension)?,
-        shear_curve: share(&given.shear_curve)?,
+        shear_curve,
     })
+}
+
+/// A standard deviation as a share of the value, of which it is not more; `other` ends the remedy.
+fn scatter_share(share: &Quantity<Ratio>, other: &str, document: &Document) -> Result<f64, Error> {
+    let value = share.not_negative(document)?;
+    if value <= 1.0 {
+        return Ok(value);
+    }
+    Err(document.error(
+        share.span.clone(),
+        format!("{} scatters by more than the value itself", document.quoted(&share.span)),
+        format!(
+            "give the standard deviation as a share of the value, as in \"8 %\" or 0.08{other}"
+        ),
+    ))
+}
+
+/// A factor from 1 to [`LARGEST_FACTOR`].
+fn scatter_factor(factor: &Quantity<Ratio>, document: &Document) -> Result<f64, Error> {
+    let value = factor.positive(document)?;
+    if (1.0..=LARGEST_FACTOR).contains(&value) {
+        return Ok(value);
+    }
+    Err(document.error(
+        factor.span.clone(),
+        format!("{} is no factor of a scatter", document.quoted(&factor.span)),
+        format!(
+            "a factor from 1 to {LARGEST_FACTOR} is wanted: with 2 the force is from half to twice the value"
+        ),
+    ))
 }
 
 /// Mass and rigidity, both by line or both by area, and the moments that are no straight lines.

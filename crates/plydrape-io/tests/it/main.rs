@@ -17,6 +17,7 @@ mod infeasible_limits;
 mod interrupted;
 mod laid;
 mod lines;
+mod materials;
 mod mesh;
 mod mesh_files;
 mod molds_in_scenes;

@@ -124,6 +124,19 @@ impl Ply {
         if self.is_turned() { [0.5 * a.hypot(b); 2] } else { [b, a] }
     }
 
+    /// Mass per area (kg/m²). That of a material by line is spread over strips one cell wide, on average over both directions; a
+    /// single line stands for a strip as wide as its cell is along it.
+    #[must_use]
+    pub fn areal_mass(&self) -> f64 {
+        match self.material.section {
+            Section::Line { mass, .. } => {
+                let [a, b] = self.cell;
+                mass * 2.0 / (a + if b > 0.0 { b } else { a })
+            }
+            Section::Areal { mass, .. } => mass,
+        }
+    }
+
     /// Mass per length and flexural rigidity of a catenary.
     ///
     /// With areal properties each fiber line stands for a strip as wide as it is to the next one: `b` for the lines along

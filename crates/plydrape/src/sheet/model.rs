@@ -110,14 +110,15 @@ impl Sheet {
         let width = if b > 0.0 { b } else { a };
         let fabric = Fabric::of(ply, settings)?;
 
-        let (areal_mass, rigidity) = match material.section {
+        let areal_mass = ply.areal_mass();
+        let rigidity = match material.section {
             // a line is a strip one cell wide
-            Section::Line { mass, flexural_rigidity } => {
-                (mass * 2.0 / (a + width), [flexural_rigidity / width, flexural_rigidity / a])
+            Section::Line { flexural_rigidity, .. } => {
+                [flexural_rigidity / width, flexural_rigidity / a]
             }
-            Section::Areal { mass, warp_rigidity, weft_rigidity } => match ply.warp {
-                Direction::U => (mass, [warp_rigidity, weft_rigidity]),
-                Direction::V => (mass, [weft_rigidity, warp_rigidity]),
+            Section::Areal { warp_rigidity, weft_rigidity, .. } => match ply.warp {
+                Direction::U => [warp_rigidity, weft_rigidity],
+                Direction::V => [weft_rigidity, warp_rigidity],
             },
         };
         let [warp, weft] = material.moment.clone();

@@ -251,8 +251,17 @@ pub(super) struct ScatterTable {
     pub bending_rigidity_weft: Option<Quantity<Ratio>>,
     /// Of the tension.
     pub tension: Option<Quantity<Ratio>>,
-    /// Of the shear force.
-    pub shear_curve: Option<Quantity<Ratio>>,
+    /// Of the shear force: a share, or a table with a factor.
+    pub shear_curve: Option<Located<Curve<Ratio, FactorTable>>>,
+}
+
+/// A value that is known within a factor.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Factor")]
+pub(super) struct FactorTable {
+    /// The factor f, 1 or more: from 1/f to f times the value, every logarithm in between as likely.
+    pub factor: Quantity<Ratio>,
 }
 
 /// Measured points (`angle` and `force`), or a `polynomial`.
