@@ -130,7 +130,7 @@ def tables(schema: Json, path: str, key: Json, used: Json) -> Iterator[str]:
     for table in alternatives(schema, key["items"] if many else key):
         properties = table.get("properties")
         # a term of an error is a table of one key, which the text above all of them explains
-        if properties is None or set(properties) == {"bound", "deviation"}:
+        if properties is None or is_term(properties):
             continue
         here = f"{path}[]" if many else path
         yield section(schema, here, table, used)
@@ -251,11 +251,18 @@ def kind(schema: Json, option: Json) -> tuple[str, str]:
             many = "list of " if count is None else f"{count} × "
             return ", ".join(units), many + " or ".join(inner)
         case "object":
-            if set(option.get("properties", {})) == {"bound", "deviation"}:
-                bound = option["properties"]["bound"]
-                return kinds(schema, bound)[0][0], "`deviation` or `bound`"
+            if is_term(properties := option.get("properties", {})):
+                words = ("deviation", "bound", "factor")[: len(properties)]
+                return kinds(schema, properties["bound"])[0][0], " or ".join(
+                    f"`{w}`" for w in words
+                )
             return "", "table"
     return "", ""
+
+
+def is_term(properties: Json) -> bool:
+    """Whether these are the keys of an error."""
+    return {"bound", "deviation"} <= set(properties) <= {"bound", "deviation", "factor"}
 
 
 def bounds(key: Json) -> str:
@@ -317,7 +324,7 @@ def invented(schema: Json, key: Json) -> str:
         if option.get("type") == "array":
             inner = invented(schema, option["items"])
             return "[" + ", ".join([inner] * option.get("minItems", 2)) + "]" if inner else ""
-        if set(option.get("properties", {})) == {"bound", "deviation"}:
+        if is_term(option.get("properties", {})):
             return f"{{ bound = {invented(schema, option['properties']['bound'])} }}"
     return ""
 

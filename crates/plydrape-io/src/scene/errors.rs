@@ -1,6 +1,6 @@
 //! How far a real cell may be from the scene.
 
-use super::file::{ErrorsTable, MoldErrorsTable, Term};
+use super::file::{ErrorsTable, MoldErrorsTable, ShareTable, Term};
 use super::located::{CountOrNone, Located, Whole};
 use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
 use super::source::Document;
@@ -22,24 +22,26 @@ const LARGEST_TURN: f64 = std::f64::consts::PI / 18.0;
 const LARGEST_STROKE: f64 = 0.1;
 /// Largest standard deviation and bound of mass, bending and shear: three deviations, or the bound, leave a tenth.
 const LARGEST_SHARE: [f64; 2] = [0.3, 0.9];
+/// Largest factor of mass, bending and shear: a tenth to ten times.
+const LARGEST_FACTOR: f64 = 10.0;
 /// Largest error of a length: a woven ply does not stretch by more.
 const LARGEST_LENGTH: f64 = 0.05;
 /// Largest waviness, as a share of the wavelength: the waves' slope stays small.
 const STEEPEST_WAVES: f64 = 0.02;
 
-/// Checks the table `[errors]`; `on_mold` says whether the scene has a mold.
+/// Checks the table `[errors]`; what it does not say is that of the cell, if there is one. `on_mold` says whether the scene has a mold.
 pub(super) fn errors(
     table: &ErrorsTable,
+    cell: Option<Errors>,
     ply: &Ply,
     on_mold: bool,
     document: &Document,
 ) -> Result<Errors, Error> {
-    let default = Errors::default();
+    let default = cell.unwrap_or_default();
     let [a, b] = ply.cell;
     let reader = Reader { document, shift: LARGEST_SHIFT * a.min(b) };
-    let turn = |term: &Option<Term<Angle>>| reader.term(term, [LARGEST_TURN; 2], "10 deg");
-    let share = |term: &Option<Term<Ratio>>| {
-        reader.term(term, LARGEST_SHARE, "a deviation of 30 %, a bound of 90 %")
+    let turn = |term: &Option<Term<Angle>>, other: errors::Term| {
+        reader.term(term, other, [LARGEST_TURN; 2], "10 deg")
     };
     Ok(Errors {
         seed: match &table.seed {
@@ -55,26 +57,40 @@ pub(super) fn errors(
             None => default.share,
         },
         frame: FrameErrors {
-            position: reader.shift(&table.frame.position)?,
-            angle: turn(&table.frame.angle)?,
+            position: reader.shift(&table.frame.position, default.frame.position)?,
+            angle: turn(&table.frame.angle, default.frame.angle)?,
         },
         gripper: GripperErrors {
-            position: reader.shift(&table.gripper.position)?,
-            stroke: reader.term(&table.gripper.stroke, [LARGEST_STROKE; 2], "10 %")?,
+            position: reader.shift(&table.gripper.position, default.gripper.position)?,
+            stroke: reader.term(
+                &table.gripper.stroke,
+                default.gripper.stroke,
+                [LARGEST_STROKE; 2],
+                "10 %",
+            )?,
         },
         pick_up: PickUpErrors {
-            offset: reader.shift(&table.pick_up.offset)?,
-            yaw: turn(&table.pick_up.yaw)?,
+            offset: reader.shift(&table.pick_up.offset, default.pick_up.offset)?,
+            yaw: turn(&table.pick_up.yaw, default.pick_up.yaw)?,
         },
         material: MaterialErrors {
-            areal_mass: share(&table.material.areal_mass)?,
-            bending: share(&table.material.bending)?,
-            shear: share(&table.material.shear)?,
-            length: reader.term(&table.material.length, [LARGEST_LENGTH; 2], "5 %")?,
+            areal_mass: reader.share(&table.material.areal_mass, default.material.areal_mass)?,
+            bending: reader.share(&table.material.bending, default.material.bending)?,
+            shear: reader.share(&table.material.shear, default.material.shear)?,
+            length: reader.term(
+                &table.material.length,
+                default.material.length,
+                [LARGEST_LENGTH; 2],
+                "5 %",
+            )?,
         },
         mold: match &table.mold {
             Some(_) if !on_mold => return Err(reader.no_mold(table)),
-            Some(mold) => MoldErrors { tilt: turn(&mold.value.tilt)?, ..reader.mold(&mold.value)? },
+            Some(mold) => MoldErrors {
+                tilt: turn(&mold.value.tilt, default.mold.tilt)?,
+                ..reader.mold(&mold.value, default.mold)?
+            },
+            None if !on_mold => MoldErrors::default(),
             None => default.mold,
         },
     })
@@ -88,14 +104,15 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// A term up to a standard deviation and a bound (SI); `most` is how both are written.
+    /// A term up to a standard deviation and a bound (SI), or `other` where it is not written; `most` is how both are written.
     fn term<M: Measure>(
         &self,
         written: &Option<Term<M>>,
+        other: errors::Term,
         [deviation, bound]: [f64; 2],
         most: &str,
     ) -> Result<errors::Term, Error> {
-        let Some(term) = written else { return Ok(errors::Term::NONE) };
+        let Some(term) = written else { return Ok(other) };
         match (&term.value.deviation, &term.value.bound) {
             (Some(value), None) => self.size(value, deviation, most).map(errors::Term::Deviation),
             (None, Some(value)) => self.size(value, bound, most).map(errors::Term::Bound),
@@ -107,6 +124,46 @@ impl Reader<'_> {
                 let help = "write one of both: `deviation`, the standard deviation of a normal law, or `bound`, which no error exceeds";
                 Err(self.document.error(term.span.clone(), fault, help))
             }
+        }
+    }
+
+    /// A term of a value of the ply: a share, or a factor.
+    fn share(
+        &self,
+        written: &Option<Located<ShareTable>>,
+        other: errors::Term,
+    ) -> Result<errors::Term, Error> {
+        let Some(Located { value: ShareTable { deviation, bound, factor }, span }) = written else {
+            return Ok(other);
+        };
+        let most = "a deviation of 30 %, a bound of 90 %";
+        let [normal, even] = LARGEST_SHARE;
+        match (deviation, bound, factor) {
+            (Some(value), None, None) => {
+                self.size(value, normal, most).map(errors::Term::Deviation)
+            }
+            (None, Some(value), None) => self.size(value, even, most).map(errors::Term::Bound),
+            (None, None, Some(value)) => {
+                let factor = value.si(self.document)?;
+                if (1.0..=LARGEST_FACTOR).contains(&factor) {
+                    return Ok(errors::Term::Factor(factor));
+                }
+                Err(self.document.error(
+                    value.span.clone(),
+                    format!("{} is no factor of an error", self.document.quoted(&value.span)),
+                    "a factor from 1 to 10 is wanted: 2 is half to double, both as likely",
+                ))
+            }
+            (None, None, None) => Err(self.document.error(
+                span.clone(),
+                "the error has neither a deviation nor a bound nor a factor",
+                "write one of them: `deviation`, the standard deviation of a normal law, `bound`, which no error exceeds, or `factor`",
+            )),
+            _ => Err(self.document.error(
+                span.clone(),
+                "the error has more than one of deviation, bound and factor",
+                "keep one of them: `deviation`, the standard deviation of a normal law, `bound`, which no error exceeds, or `factor`",
+            )),
         }
     }
 
@@ -128,9 +185,13 @@ impl Reader<'_> {
         ))
     }
 
-    fn shift(&self, written: &Option<Term<Length>>) -> Result<errors::Term, Error> {
+    fn shift(
+        &self,
+        written: &Option<Term<Length>>,
+        other: errors::Term,
+    ) -> Result<errors::Term, Error> {
         let most = format!("{} mm, half of the shorter side of a cell", millimetres(self.shift));
-        self.term(written, [self.shift; 2], &most)
+        self.term(written, other, [self.shift; 2], &most)
     }
 
     fn samples(&self, written: &Located<CountOrNone>) -> Result<usize, Error> {
@@ -161,16 +222,17 @@ impl Reader<'_> {
     }
 
     /// All of a mold's errors but the tilt.
-    fn mold(&self, table: &MoldErrorsTable) -> Result<MoldErrors, Error> {
-        let offset = self.shift(&table.offset)?;
+    fn mold(&self, table: &MoldErrorsTable, other: MoldErrors) -> Result<MoldErrors, Error> {
+        let offset = self.shift(&table.offset, other.offset)?;
         let wavelength = match &table.wavelength {
             Some(length) => length.size(self.document, &usual::WAVES)?,
-            None => 0.0,
+            None => other.wavelength,
         };
         let largest = STEEPEST_WAVES * wavelength;
         let waviness = match (&table.waviness, &table.wavelength) {
-            (Some(term), None) => {
-                let waviness = self.term(&table.waviness, [f64::INFINITY; 2], "")?;
+            (Some(term), None) if wavelength == 0.0 => {
+                let waviness =
+                    self.term(&table.waviness, other.waviness, [f64::INFINITY; 2], "")?;
                 if !waviness.is_zero() {
                     return Err(self.document.error(
                         term.span.clone(),
@@ -182,7 +244,7 @@ impl Reader<'_> {
             }
             _ => {
                 let most = format!("{} mm, 2 % of the wavelength", millimetres(largest));
-                self.term(&table.waviness, [largest; 2], &most)?
+                self.term(&table.waviness, other.waviness, [largest; 2], &most)?
             }
         };
         Ok(MoldErrors { offset, waviness, wavelength, ..MoldErrors::default() })

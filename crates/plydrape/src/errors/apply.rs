@@ -13,7 +13,7 @@
 //! changes the weight across the ply by the square of the tilt and puts a share of the weight along it that is as
 //! small as the tilt. Limits stay as they are, those of the workspace too.
 
-use super::draw::{Draw, MaterialError, PickUpError, RigidError};
+use super::draw::{Draw, MaterialError, PickUpError, RelativeError, RigidError};
 use crate::geometry::vector::{along, sub, turned};
 use crate::layup::Layup;
 use crate::material::{Material, Section, ShearCurve};
@@ -47,7 +47,7 @@ impl Draw {
 
     fn ply(&self, ply: &Ply) -> Ply {
         let material = self.material.apply(&ply.material);
-        let length_factor = ply.length_factor * share(self.material.length);
+        let length_factor = ply.length_factor * (1.0 + self.material.length).max(LEAST_SHARE);
         Ply { material, length_factor, ..ply.clone() }
     }
 
@@ -84,8 +84,8 @@ impl Draw {
 }
 
 /// What is left of a nominal value, as a share, by a relative error.
-fn share(error: f64) -> f64 {
-    (1.0 + error).max(LEAST_SHARE)
+fn share(error: RelativeError) -> f64 {
+    error.ratio().max(LEAST_SHARE)
 }
 
 /// The mean of points (m).

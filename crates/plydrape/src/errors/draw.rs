@@ -57,18 +57,29 @@ pub struct PickUpError {
     pub yaw: f64,
 }
 
-/// The error of the ply, shares of the nominal values.
+/// The error of the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MaterialError {
     /// Of the mass.
-    pub areal_mass: f64,
+    pub areal_mass: RelativeError,
     /// Of the bending rigidities.
-    pub bending: f64,
+    pub bending: RelativeError,
     /// Of the shear force.
-    pub shear: f64,
-    /// Of the length.
+    pub shear: RelativeError,
+    /// Of the length, as a share.
     pub length: f64,
+}
+
+/// The error of one value of the ply; written as the share of the nominal value that the true one has more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(into = "f64"))]
+pub enum RelativeError {
+    /// A share e: the true value is 1 + e times the nominal one.
+    Share(f64),
+    /// A logarithm x: the true value is eˣ times the nominal one.
+    Logarithm(f64),
 }
 
 /// The error of the mold.
@@ -134,7 +145,7 @@ impl Stream {
         Standard.sample(&mut self.at(quantity, item, n))
     }
 
-    /// Numbers of the law of a term.
+    /// Numbers of the law of a term; of a factor their logarithms.
     fn draw<const N: usize>(&self, term: Term, quantity: Quantity, item: usize) -> [f64; N] {
         std::array::from_fn(|n| match term {
             _ if term.is_zero() => 0.0,
@@ -143,6 +154,7 @@ impl Stream {
                 deviation * normal
             }
             Term::Bound(bound) => bound * (2.0 * self.even(quantity, item, n) - 1.0),
+            Term::Factor(most) => most.ln() * (2.0 * self.even(quantity, item, n) - 1.0),
         })
     }
 
@@ -155,7 +167,7 @@ impl Stream {
         let (headings, phases) = (angles(Quantity::WaveDirection), angles(Quantity::WavePhase));
         let amplitude = match waviness {
             Term::Deviation(deviation) => Waves::amplitude_of_deviation(deviation),
-            Term::Bound(bound) => Waves::amplitude_of_bound(bound),
+            Term::Bound(bound) | Term::Factor(bound) => Waves::amplitude_of_bound(bound),
         };
         Some(Waves { amplitude, wavelength, headings, phases })
     }
@@ -167,6 +179,10 @@ impl Errors {
     pub fn draw(&self, sample: usize, grippers: usize) -> Draw {
         let stream = Stream::new(self.seed, sample);
         let one = |term: Term, quantity: Quantity| stream.draw::<1>(term, quantity, 0)[0];
+        let relative = |term: Term, quantity: Quantity| match term {
+            Term::Factor(_) => RelativeError::Logarithm(one(term, quantity)),
+            Term::Deviation(_) | Term::Bound(_) => RelativeError::Share(one(term, quantity)),
+        };
         let gripper = |n: usize| GripperError {
             position: stream.draw(self.gripper.position, Quantity::GripperPosition, n),
             stroke: stream.draw(self.gripper.stroke, Quantity::GripperStroke, n),
@@ -183,9 +199,9 @@ impl Errors {
                 yaw: one(self.pick_up.yaw, Quantity::PickUpYaw),
             },
             material: MaterialError {
-                areal_mass: one(self.material.areal_mass, Quantity::ArealMass),
-                bending: one(self.material.bending, Quantity::Bending),
-                shear: one(self.material.shear, Quantity::Shear),
+                areal_mass: relative(self.material.areal_mass, Quantity::ArealMass),
+                bending: relative(self.material.bending, Quantity::Bending),
+                shear: relative(self.material.shear, Quantity::Shear),
                 length: one(self.material.length, Quantity::Length),
             },
             mold: MoldError {
@@ -195,6 +211,43 @@ impl Errors {
                 },
                 waves: stream.waves(self.mold.waviness, self.mold.wavelength),
             },
+        }
+    }
+}
+
+impl RelativeError {
+    /// Larger by a factor: twice the error of a half is that of a quarter if it is a logarithm.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        match self {
+            RelativeError::Share(share) => RelativeError::Share(factor * share),
+            RelativeError::Logarithm(log) => RelativeError::Logarithm(factor * log),
+        }
+    }
+
+    /// The true value over the nominal one.
+    #[must_use]
+    pub fn ratio(self) -> f64 {
+        match self {
+            RelativeError::Share(share) => 1.0 + share,
+            RelativeError::Logarithm(log) => log.exp(),
+        }
+    }
+}
+
+/// No error.
+impl Default for RelativeError {
+    fn default() -> Self {
+        RelativeError::Share(0.0)
+    }
+}
+
+/// As a share of the nominal value.
+impl From<RelativeError> for f64 {
+    fn from(error: RelativeError) -> f64 {
+        match error {
+            RelativeError::Share(share) => share,
+            RelativeError::Logarithm(log) => log.exp_m1(),
         }
     }
 }
@@ -227,9 +280,9 @@ impl Draw {
                 yaw: factor * self.pick_up.yaw,
             },
             material: MaterialError {
-                areal_mass: factor * areal_mass,
-                bending: factor * bending,
-                shear: factor * shear,
+                areal_mass: areal_mass.scaled(factor),
+                bending: bending.scaled(factor),
+                shear: shear.scaled(factor),
                 length: factor * length,
             },
             mold: MoldError {

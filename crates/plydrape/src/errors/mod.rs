@@ -2,17 +2,17 @@
 //!
 //! A planned motion is right for the cell of the scene. A real one differs: the tool frame is measured, the grippers are
 //! mounted and driven, the ply is picked up, cut from a roll and laid on a mold, each with an error of its own. A budget
-//! [`Errors`] has a term for each of them, a standard deviation or a bound ([`Term`]). A [`Draw`] is one cell out of all
+//! [`Errors`] has a term for each of them, a standard deviation, a bound or a factor ([`Term`]). A [`Draw`] is one cell out of all
 //! that are possible: one value for every error. [`Draw::apply`] makes the scene in which that cell runs the same commands.
 //!
-//! 1. `term`: a standard deviation or a bound;
+//! 1. `term`: a standard deviation, a bound or a factor;
 //! 2. `draw`: the values of one sample, each from its own place in a stream of random numbers;
 //! 3. `apply`: the layup with these values.
 //!
 //! The verdict over complete drapes of many cells is in [`crate::outcome`].
 //!
-//! Errors are constant over one drape. All values of a sample are linear in the terms, so that [`Draw::scaled`] is the same
-//! cell with all errors larger by a factor.
+//! Errors are constant over one drape. All values of a sample are linear in the terms, or their logarithms are, so that
+//! [`Draw::scaled`] is the same cell with all errors larger by a factor.
 
 mod apply;
 mod draw;
@@ -20,7 +20,9 @@ mod term;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use draw::{Draw, GripperError, MaterialError, MoldError, PickUpError, RigidError};
+pub use draw::{
+    Draw, GripperError, MaterialError, MoldError, PickUpError, RelativeError, RigidError,
+};
 pub use term::Term;
 
 /// How far a real cell may be from its scene.
@@ -79,7 +81,7 @@ pub struct PickUpErrors {
     pub yaw: Term,
 }
 
-/// Errors of the ply, each a share of the nominal value.
+/// Errors of the ply, each a share of the nominal value; but for the length, also a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -120,7 +120,7 @@ fn no_number_is_drawn_twice() {
             }
             numbers.extend(draw.pick_up.offset.into_iter().chain([draw.pick_up.yaw]));
             let MaterialError { areal_mass, bending, shear, length } = draw.material;
-            numbers.extend([areal_mass, bending, shear, length]);
+            numbers.extend([areal_mass, bending, shear].map(f64::from).into_iter().chain([length]));
             numbers.extend(draw.mold.motion.shift);
             numbers.extend(&draw.mold.motion.turn[..2]);
         }
@@ -190,6 +190,7 @@ fn errors_are_as_large_as_their_terms_say() {
                 assert!(most <= bound && most > 0.999 * bound, "{most} {bound}");
                 bound / 3_f64.sqrt()
             }
+            Term::Factor(_) => unreachable!("the budget has none"),
         };
         // of a normal law the root of n squares is off by 1/√2n of itself, of an even one by less
         assert!((root / expected - 1.0).abs() < 4.0 / (2.0 * count).sqrt(), "{root} {expected}");
@@ -201,15 +202,63 @@ fn errors_are_as_large_as_their_terms_say() {
     check(errors.gripper.stroke, &|draw| draw.grippers[0].stroke[2]);
     check(errors.pick_up.offset, &|draw| draw.pick_up.offset[0]);
     check(errors.pick_up.yaw, &|draw| draw.pick_up.yaw);
-    check(errors.material.areal_mass, &|draw| draw.material.areal_mass);
-    check(errors.material.bending, &|draw| draw.material.bending);
-    check(errors.material.shear, &|draw| draw.material.shear);
+    check(errors.material.areal_mass, &|draw| draw.material.areal_mass.into());
+    check(errors.material.bending, &|draw| draw.material.bending.into());
+    check(errors.material.shear, &|draw| draw.material.shear.into());
     check(errors.material.length, &|draw| draw.material.length);
     check(errors.mold.offset, &|draw| draw.mold.motion.shift[0]);
     check(errors.mold.tilt, &|draw| draw.mold.motion.turn[1]);
     let height =
         |draw: &Draw| draw.mold.waves.map_or(0.0, |waves| waves.at([0.3, 0.1, 0.0]).height);
     check(errors.mold.waviness, &height);
+}
+
+/// Of a factor of 2 the ratios of true to nominal values lie between a half and double, and nearly reach both; their logarithms are even,
+/// so that half of the ratios are below 1, which is their median, and a quarter below √½. Of n cells a share p is off by √(p (1 − p)/n).
+#[test]
+fn half_and_double_are_as_likely_of_a_factor_of_two() {
+    let shear = Term::Factor(2.0);
+    let material = MaterialErrors { shear, ..MaterialErrors::default() };
+    let errors = Errors { material, ..Errors::default() };
+    let mut ratios: Vec<f64> =
+        (0..20_000).map(|n| errors.draw(n, 1).material.shear.ratio()).collect();
+    ratios.sort_by(f64::total_cmp);
+    let below = |most: f64| ratios.partition_point(|ratio| *ratio < most) as f64 / 20_000.0;
+    assert!((below(1.0) - 0.5).abs() < 4.0 * (0.25 / 2e4_f64).sqrt(), "{}", below(1.0));
+    assert!((below(0.5_f64.sqrt()) - 0.25).abs() < 4.0 * (0.1875 / 2e4_f64).sqrt());
+    let [least, most] = [ratios[0], ratios[19_999]];
+    assert!((0.5..0.501).contains(&least) && (1.998..=2.0).contains(&most), "{least} {most}");
+    // the deviation of an even logarithm from −ln 2 to ln 2
+    assert!((shear.deviation() - 2_f64.ln() / 3_f64.sqrt()).abs() < 1e-15);
+    assert!(Term::Factor(1.0).is_zero() && !shear.is_zero());
+}
+
+/// Twice a factor of 2 is a factor of 4, of the term and of each cell, and none of it leaves the ply as it is, to the last bit.
+#[test]
+fn a_scaled_factor_is_its_power() {
+    let layup = layup(2, 2);
+    let of = |shear: Term| {
+        let material = MaterialErrors { shear, ..MaterialErrors::default() };
+        Errors { material, ..Errors::default() }
+    };
+    assert_eq!(Term::Factor(2.0).scaled(2.0), Term::Factor(4.0));
+    let (two, four) = (of(Term::Factor(2.0)), of(Term::Factor(4.0)));
+    let force = |draw: &Draw| {
+        let ply = draw.apply(&layup).ply;
+        ply.material.shear_curve.expect("a curve").force(0.4).0
+    };
+    let nominal = force(&none(4));
+    for sample in 0..20 {
+        let draw = two.draw(sample, 4);
+        let ratio = force(&draw) / nominal;
+        let [doubled, squared] =
+            [draw.scaled(2.0), four.draw(sample, 4)].map(|d| force(&d) / nominal);
+        assert!(
+            (doubled / squared - 1.0).abs() < 1e-14
+                && (doubled / (ratio * ratio) - 1.0).abs() < 1e-14
+        );
+        assert_eq!(draw.scaled(0.0).apply(&layup).ply, layup.ply);
+    }
 }
 
 /// Where all numbers of a term are the same size, their mean square is: the waves of one mold have the deviation over all of it.
@@ -384,6 +433,7 @@ fn a_stroke_error_grows_with_the_way() {
 fn material_errors_scale_what_they_are_of() {
     let layup = layup(2, 2);
     let errors = |areal_mass, bending, shear| {
+        let [areal_mass, bending, shear] = [areal_mass, bending, shear].map(RelativeError::Share);
         let material = MaterialError { areal_mass, bending, shear, length: 0.0 };
         Draw { material, ..none(4) }.apply(&layup).ply.material
     };

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use std::borrow::Cow;
 
 /// How far a real cell may be from this scene. Every term is a table of one key: `deviation` is the standard deviation of a
-/// normal law, `bound` the largest size, every value below it being as likely. A term that is left out has no error.
+/// normal law, `bound` the largest size, every value below it being as likely. A term that is left out is that of the cell, or zero.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Errors")]
@@ -27,7 +27,7 @@ pub(in crate::scene) struct ErrorsTable {
     /// Of where the grippers hold the ply.
     #[serde(default)]
     pub pick_up: PickUpErrorsTable,
-    /// Of the ply, shares of its nominal values.
+    /// Of the ply, shares of its nominal values or factors.
     #[serde(default)]
     pub material: MaterialErrorsTable,
     /// Of the mold.
@@ -67,17 +67,17 @@ pub(in crate::scene) struct PickUpErrorsTable {
     pub yaw: Option<Term<Angle>>,
 }
 
-/// Errors of the ply, each a share of the nominal value.
+/// Errors of the ply, each a share of the nominal value or a factor.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Errors of the material")]
 pub(in crate::scene) struct MaterialErrorsTable {
     /// Of the mass per area, or per length.
-    pub areal_mass: Option<Term<Ratio>>,
+    pub areal_mass: Option<Located<ShareTable>>,
     /// Of the bending rigidities, warp and weft alike.
-    pub bending: Option<Term<Ratio>>,
+    pub bending: Option<Located<ShareTable>>,
     /// Of the shear force at every shear angle.
-    pub shear: Option<Term<Ratio>>,
+    pub shear: Option<Located<ShareTable>>,
     /// Of the length of fabric between the grippers.
     pub length: Option<Term<Ratio>>,
 }
@@ -112,6 +112,19 @@ pub(in crate::scene) struct TermTable<M> {
     pub deviation: Option<Quantity<M>>,
     /// Largest size.
     pub bound: Option<Quantity<M>>,
+}
+
+/// How far a value of the ply may be off: one of three keys.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of one key, `deviation`, `bound` or `factor`")]
+#[schemars(inline, extend("minProperties" = 1, "maxProperties" = 1))]
+pub(in crate::scene) struct ShareTable {
+    /// Standard deviation of a normal law, as a share.
+    pub deviation: Option<Quantity<Ratio>>,
+    /// Largest size, as a share; every value below it is as likely.
+    pub bound: Option<Quantity<Ratio>>,
+    /// Largest factor f from 1 to 10: the value is the nominal one times f^u, u being even from -1 to 1.
+    pub factor: Option<Quantity<Ratio>>,
 }
 
 impl<M: Measure> JsonSchema for TermTable<M> {

@@ -14,7 +14,7 @@ pub(super) fn errors(result: &ResultFile) -> String {
     match (&summary.sample, drawn) {
         (Some(sample), _) => lines.extend(sample_lines(sample)),
         (None, Some(_)) if summary.accepted() => {
-            lines.push("without the errors of the scene, which were left out".into());
+            lines.push("the errors of the scene were left out".into());
         }
         (None, _) => {}
     }
@@ -83,7 +83,7 @@ pub(crate) fn stands_in_words(result: &ResultFile, stands: &Stands) -> String {
     }
     let (sign, law) = match errors.gripper.position {
         Term::Deviation(_) => ("", "standard deviation of each gripper's position along each axis"),
-        Term::Bound(_) => ("± ", "of each gripper's position along each axis"),
+        Term::Bound(_) | Term::Factor(_) => ("± ", "of each gripper's position along each axis"),
     };
     let millimetres = rounded(1e3 * errors.gripper.position.scaled(times).value());
     let mut alone = errors;
@@ -180,8 +180,7 @@ accepted only without errors by the catenaries
         let ended = "interrupted before all cells with the errors of the scene were draped\n";
         assert!(verdict(&result, Ink::Plain).ends_with(ended));
         result.summary.status = Status::Converged;
-        let left_out =
-            "accepted by the catenaries\nwithout the errors of the scene, which were left out\n";
+        let left_out = "accepted by the catenaries in an ideal cell, without errors\nthe errors of the scene were left out\n";
         assert_eq!(verdict(&result, Ink::Plain), left_out);
     }
 }
