@@ -71,10 +71,10 @@ def pairs(values: dict[str, str]) -> str:
     )
 
 
-def verdict(accepted: bool) -> str:
-    """In a word, with a sign for those who do not see its color."""
-    ink, sign, word = (GREEN, "✓", "accepted") if accepted else (RED, "✗", "not accepted")
-    return f'<div style="color:{ink};font-weight:600">{sign} {word}</div>'
+def verdict(result: Result) -> str:
+    """In words, with a sign for those who do not see its color."""
+    ink, sign = (GREEN, "✓") if result.accepted else (RED, "✗")
+    return f'<div style="color:{ink};font-weight:600">{sign} {result.verdict}</div>'
 
 
 def limits(found: Limits) -> str:
@@ -210,7 +210,7 @@ def result(result: Result, kind: str = "result", more: dict[str, str] | None = N
         kind,
         result.title,
         picture,
-        verdict(result.accepted),
+        verdict(result),
         pairs(rows),
         limits(result.limits),
     )

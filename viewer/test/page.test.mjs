@@ -602,7 +602,7 @@ async function limitsLead(report, page) {
   const failed = data.limits.filter(({ ok }) => !ok).length;
   const by = `by the ${result.model}`;
   const refused = new RegExp(`Not accepted ${by}: ${failed} of ${data.limits.length}`);
-  assert.match(verdict, failed === 0 ? new RegExp(`ccepted ${by}`) : refused);
+  assert.match(verdict, failed === 0 ? new RegExp(`ccepted ${by}${data.world}: `) : refused);
 
   const row = Math.max(
     0,

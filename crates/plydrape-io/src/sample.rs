@@ -17,7 +17,7 @@ use plydrape::outcome::{
     CatenaryReport, CellVerdict, Gripper, Highest, SampleVerdict, Status as Ended, Step, Summary,
 };
 use plydrape::ply::{Catenary, Grid, Kind, Lines, Ply};
-use plydrape::scene::Scene;
+use plydrape::scene::{Scene, World};
 use plydrape::sheet;
 use std::sync::OnceLock;
 
@@ -285,6 +285,7 @@ fn frame(grid: Grid) -> ResultFile {
         motion: OnceLock::new(),
         summary: Summary {
             model: Model::Catenaries,
+            world: World::Ideal,
             status: Ended::Converged,
             steps: 0,
             steps_planned: 0,

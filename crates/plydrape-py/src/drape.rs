@@ -469,7 +469,7 @@ impl Plan {
     }
 
     fn __repr__(&self) -> String {
-        let verdict = if self.accepted() { "accepted" } else { "not accepted" };
+        let verdict = self.result.summary.verdict();
         format!(
             "<plydrape.Plan of {:?}, {verdict}, {:.1} s>",
             self.result.scene.title,

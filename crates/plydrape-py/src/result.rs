@@ -217,6 +217,13 @@ impl Result {
         self.0.summary.accepted()
     }
 
+    /// The verdict in words, with the world in which it was reached: "accepted", by a sample of cells with errors; "accepted without
+    /// errors"; "accepted in an ideal cell, without errors", where mounts are rigid too; or "not accepted".
+    #[getter]
+    fn verdict(&self) -> String {
+        self.0.summary.verdict()
+    }
+
     /// Whether every step was solved and the ply is at rest at the end, by the model that decides.
     #[getter]
     fn converged(&self) -> bool {
@@ -978,7 +985,7 @@ impl Result {
     }
 
     fn __repr__(&self) -> String {
-        let verdict = if self.accepted() { "accepted" } else { "not accepted" };
+        let verdict = self.0.summary.verdict();
         format!("<plydrape.Result of {:?}, {} steps, {verdict}>", self.title(), self.0.steps.len())
     }
 }

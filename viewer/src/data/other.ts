@@ -9,6 +9,8 @@ export type OtherLimit = Pick<Limit, "name" | "value" | "limit" | "unit" | "ok">
 export interface Other {
   title: string;
   accepted: boolean;
+  /** In which world, as it follows the word accepted. */
+  world: string;
   /** The limits of the model that decides. */
   limits: OtherLimit[];
   /** Steps and time of the motion (s). */
@@ -31,10 +33,11 @@ export async function readOther(text: string, version: number): Promise<Other> {
   if (start === null) return ofResult(text, version);
   const from = start.index + start[0].length;
   const data = readPageData(text.slice(from, text.indexOf(END, from)));
-  const { title, accepted, steps, times } = data;
+  const { title, accepted, world, steps, times } = data;
   return {
     title,
     accepted,
+    world,
     limits: data.limits,
     steps: steps.length,
     duration: times[times.length - 1]! - times[0]!,
@@ -42,12 +45,18 @@ export async function readOther(text: string, version: number): Promise<Other> {
   };
 }
 
+/** What follows the word accepted, by the world that result.json names. */
+const WORLDS: Record<string, string> = {
+  ideal: " in an ideal cell, without errors",
+  "without errors": " without errors",
+};
+
 /** As much of result.json as is compared. */
 interface ResultText {
   format?: string;
   version?: number;
   scene?: { title?: string };
-  summary?: { accepted?: boolean; limits?: OtherLimit[] };
+  summary?: { accepted?: boolean; world?: string; limits?: OtherLimit[] };
   steps?: { time: number }[];
 }
 
@@ -74,6 +83,7 @@ function ofResult(text: string, version: number): Other {
   return {
     title: given.scene?.title ?? "without a title",
     accepted: given.summary?.accepted ?? false,
+    world: WORLDS[given.summary?.world ?? ""] ?? "",
     // names are those of files: gripper_load
     limits: limits.map((limit) => ({
       ...limit,

@@ -224,6 +224,8 @@ export interface PageData {
   facts: { label: string; value: string }[];
   /** The verdict of the model that decides. */
   accepted: boolean;
+  /** In which world, as it follows the word accepted: " without errors"; empty where it was judged with errors. */
+  world: string;
   /** Why its end does not count. */
   ended: string | null;
   steps: number[];
@@ -254,7 +256,7 @@ export class BrokenData extends Error {}
 const LISTS = ["facts", "steps", "times", "ids", "limits", "events", "left_out"] as const;
 
 /** The version of the data that this page reads. */
-const VERSION = 3;
+const VERSION = 4;
 
 /** The page's data from its text, checked as far as a wrong file would show. */
 export function readPageData(text: string): PageData {

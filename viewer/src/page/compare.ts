@@ -221,8 +221,9 @@ export class Comparison {
       });
       body.append(tr);
     };
-    const word = (accepted: boolean) => (accepted ? "accepted" : "not accepted");
-    add(["Verdict", word(data.accepted), word(other.accepted), ""]);
+    const words = (of: { accepted: boolean; world: string }) =>
+      of.accepted ? `accepted${of.world}` : "not accepted";
+    add(["Verdict", words(data), words(other), ""]);
     const duration = data.times[data.times.length - 1]! - data.times[0]!;
     add([
       "Duration",

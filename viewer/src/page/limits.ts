@@ -7,7 +7,7 @@ import { colourOf, pointerOf } from "./opening";
 import type { State } from "./state";
 import { chooseModel } from "./toolbar";
 
-/** One line: accepted or not, by the model that decides. */
+/** One line: accepted and in which world, or not, by the model that decides. */
 function verdict(data: PageData): string {
   const { limits, sample } = data;
   const failed = limits.filter((limit) => !limit.ok).length;
@@ -16,7 +16,7 @@ function verdict(data: PageData): string {
   const cells = sample === null ? "" : `${String(sample.accepted)} of ${String(sample.cells.length)} cells`;
   if (data.accepted) {
     const kept = count === 0 ? "no limit is set" : `${all(count)} kept`;
-    return `Accepted ${by}: ${kept}${cells === "" ? "" : `, in ${cells}`}`;
+    return `Accepted ${by}${data.world}: ${kept}${cells === "" ? "" : `, in ${cells}`}`;
   }
   if (failed === 0 && sample?.ok === false) {
     return `Not accepted ${by}: ${sample.words}`;

@@ -72,7 +72,8 @@ fn exit_code_is_the_verdict() {
     let output = plan(&scene, &[]);
     let shown = text(&output.stdout);
     let code = output.status.code();
-    let accepted = shown.contains("\naccepted by the catenaries\n");
+    let accepted =
+        shown.contains("\naccepted by the catenaries in an ideal cell, without errors\n");
     assert_ne!(accepted, shown.contains("\nnot accepted by the catenaries: "), "{shown}");
     assert_eq!(accepted, !shown.contains("FAIL"), "{shown}");
     assert_eq!(code, Some(if accepted { 0 } else { 1 }));

@@ -77,7 +77,10 @@ fn the_option_chooses_the_model_that_decides() {
     let by_sheet = run("simulate", &scene, &out, &[]);
     let shown = text(&by_sheet.stdout);
     assert_eq!(by_sheet.status.code(), Some(0), "{shown}");
-    assert!(shown.contains("\naccepted by the sheet\n"), "{shown}");
+    assert!(
+        shown.contains("\naccepted by the sheet in an ideal cell, without errors\n"),
+        "{shown}"
+    );
     assert!(!shown.contains("catenaries") && !shown.contains("FAIL"), "{shown}");
     assert_eq!(result(&out)["summary"]["accepted"], true);
 

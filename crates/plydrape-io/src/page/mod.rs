@@ -66,6 +66,8 @@ struct Page<'a> {
     facts: Vec<Fact>,
     /// The verdict of the model that decides.
     accepted: bool,
+    /// In which world, as it follows the word accepted; empty where it was judged with errors.
+    world: &'static str,
     /// Why its end does not count.
     ended: Option<String>,
     steps: Vec<usize>,
@@ -161,13 +163,14 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
 
     Ok(Page {
         format: "plydrape-page",
-        version: 3,
+        version: 4,
         result_version: VERSION,
         program: &result.program,
         title: &scene.title,
         input: scene.input.as_deref(),
         facts: facts(result),
         accepted: summary.accepted(),
+        world: summary.world.words(),
         ended: ended(summary),
         times,
         first_contact: summary.first_contact_step(),
@@ -248,7 +251,7 @@ mod tests {
         let summary = result.summary.clone();
         result.also = Some(crate::result::Also { summary, steps: result.steps.clone() });
         let both = serde_json::to_value(page(&result, Form::FILE).unwrap()).unwrap();
-        for key in ["accepted", "ended", "limits", "steps", "drape"] {
+        for key in ["accepted", "world", "ended", "limits", "steps", "drape"] {
             assert_eq!(alone[key], both[key], "{key}");
         }
         let also = &both["also"];

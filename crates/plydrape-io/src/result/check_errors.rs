@@ -3,13 +3,17 @@
 use super::ResultFile;
 use plydrape::errors::Errors;
 use plydrape::outcome::{SampleVerdict, Stands};
+use plydrape::scene::World;
 
 /// Confidences of one count by two machines differ by less.
 const ROUNDING: f64 = 1e-9;
 
-/// What is impossible in the sample and in the errors that a result stands.
+/// What is impossible in the world, in the sample and in the errors that a result stands.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let summary = &result.summary;
+    if summary.world != World::of(&result.scene.settings.pad, summary.sample.is_some()) {
+        return Some(format!("its world is {:?}, and not that of its scene", summary.world));
+    }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);
     let sample = summary.sample.as_ref().and_then(|sample| of_sample(sample, nodes, result));
     sample.or_else(|| summary.stands.as_ref().and_then(of_stands))

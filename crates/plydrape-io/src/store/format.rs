@@ -6,4 +6,4 @@ pub(crate) const FILE: &str = "result.json";
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 9;
+pub const VERSION: u32 = 10;

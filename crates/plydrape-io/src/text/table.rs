@@ -59,13 +59,13 @@ fn fixed(value: Option<f64>, digits: usize) -> String {
     }
 }
 
-/// The verdict alone, in one line: accepted, or what is exceeded furthest, by the model that decides.
+/// The verdict alone, in one line: accepted and in which world, or what is exceeded furthest, by the model that decides.
 #[must_use]
 pub fn verdict_in_a_line(result: &ResultFile) -> String {
     let summary = &result.summary;
     let model = model_name(summary.model);
     if summary.accepted() {
-        return format!("accepted by {model}");
+        return format!("accepted by {model}{}", summary.world.words());
     }
     match (limiting(&summary.limits), ended(summary)) {
         (Some(worst), _) => format!("not accepted by {model}: {}", verdict_text(worst)),
@@ -165,6 +165,7 @@ mod tests {
     use crate::sample;
     use plydrape::measure::{Name, Worst};
     use plydrape::outcome::Status;
+    use plydrape::scene::World;
 
     fn limit(name: Name, value: f64, limit: f64, ok: bool) -> Verdict {
         let (unit, at) = ("mm".into(), "gripper g0_0".into());
@@ -183,6 +184,11 @@ mod tests {
         let line = "not accepted by the catenaries: contact share 10 mm against 90 mm in step 30, gripper g0_0";
         assert_eq!(verdict_in_a_line(&result), line);
         result.summary.limits.truncate(1);
+        let line = "accepted by the catenaries in an ideal cell, without errors";
+        assert_eq!(verdict_in_a_line(&result), line);
+        result.summary.world = World::WithoutErrors;
+        assert_eq!(verdict_in_a_line(&result), "accepted by the catenaries without errors");
+        result.summary.world = World::Errors;
         assert_eq!(verdict_in_a_line(&result), "accepted by the catenaries");
         result.summary.status = Status::NotAtRest;
         let line = "not accepted by the catenaries: the ply is not at rest at the end";

@@ -6,6 +6,7 @@ use crate::draping::Followed;
 use crate::draping::record::{CatenaryId, CatenaryStep};
 use crate::layup::{Layup, Model};
 use crate::measure::{Judge, Limits, Name, last_numbers, worst_numbers};
+use crate::scene::World;
 use crate::sheet;
 use crate::state::PlyState;
 
@@ -90,6 +91,7 @@ impl<'a> Recorder<'a> {
         let Whole { height_rms_mm, height_share, position_rms_mm } = self.whole;
         Summary {
             model,
+            world: World::of(&self.layup.settings.pad, false),
             status,
             steps: self.steps.last().map_or(0, |step| step.step),
             steps_planned: self.layup.motion.positions.len(),

@@ -7,7 +7,7 @@ use super::{Stands, Status, Summary, Watch};
 use crate::errors::Errors;
 use crate::layup::Stepping;
 use crate::motion::Motion;
-use crate::scene::Scene;
+use crate::scene::{Scene, World};
 use crate::sheet::event::at_these_times;
 
 /// With which errors a finished drape is judged.
@@ -53,8 +53,9 @@ impl Robustness {
     pub fn judge_sample(&self, summary: &mut Summary, watch: &Watch) -> bool {
         let Some(errors) = &self.sample else { return true };
         summary.sample = errors.judge(&self.scene_of(summary), watch);
-        if summary.sample.is_none() {
-            summary.status = Status::Interrupted;
+        match summary.sample {
+            Some(_) => summary.world = World::Errors,
+            None => summary.status = Status::Interrupted,
         }
         summary.sample.is_some()
     }

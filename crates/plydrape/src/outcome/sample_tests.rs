@@ -308,11 +308,13 @@ fn nothing_is_accepted_that_was_not_draped() {
     let plain = Robustness::of_simulated(&scene);
     assert!(plain.judge_sample(&mut summary, &NEVER) && plain.judge_stands(&mut summary, &NEVER));
     assert!(summary.accepted() && summary.sample.is_none() && summary.stands.is_none());
+    assert_eq!(summary.verdict(), "accepted in an ideal cell, without errors");
 
     scene.errors = Some(of_grippers(4, 1e-5));
     let with_errors = Robustness::of_simulated(&scene);
     assert!(with_errors.judge_sample(&mut summary, &NEVER));
     assert!(summary.accepted() && summary.sample.as_ref().is_some_and(|sample| sample.ok));
+    assert_eq!(summary.verdict(), "accepted");
     let stop = Watch { stop: &|| true, done: &|_, _| {} };
     assert!(!with_errors.judge_stands(&mut summary, &stop) && summary.accepted());
     let mut broken_off = summary.clone();

@@ -4,7 +4,7 @@ use super::{SampleVerdict, Stands};
 use crate::draping::record::CatenaryId;
 use crate::layup::Model;
 use crate::measure::{Name, Numbers, Verdict};
-use crate::scene::Scene;
+use crate::scene::{Scene, World};
 use crate::sheet::{self, Event};
 use crate::state::Site;
 use crate::tool::ToolRecord;
@@ -33,6 +33,9 @@ pub enum Status {
 pub struct Summary {
     /// The model that draped.
     pub model: Model,
+    /// In which world it is judged; written beside `accepted`.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub world: World,
     /// How the drape ended.
     pub status: Status,
     /// Steps done.
@@ -108,10 +111,20 @@ impl Summary {
         self.status == Status::Converged && self.limits.iter().all(|verdict| verdict.ok)
     }
 
+    /// The verdict in words, with its world: `accepted in an ideal cell, without errors`, or `not accepted`.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        match self.accepted() {
+            true => format!("accepted{}", self.world.words()),
+            false => "not accepted".into(),
+        }
+    }
+
     /// Without what judges the drape: that of the model that does not decide.
     #[must_use]
     pub fn unjudged(self) -> Self {
-        Summary { limits: Vec::new(), sample: None, stands: None, tool: None, ..self }
+        let world = World::default();
+        Summary { world, limits: Vec::new(), sample: None, stands: None, tool: None, ..self }
     }
 
     /// Whether somebody broke the drape off.
@@ -193,7 +206,7 @@ pub struct Unjudged<'a>(#[serde(with = "serial::unjudged")] pub std::borrow::Cow
 
 #[cfg(feature = "serde")]
 mod serial {
-    use super::Summary;
+    use super::{Summary, World};
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
     /// Without `accepted`.
@@ -217,16 +230,17 @@ mod serial {
         }
     }
 
-    /// With `accepted` in front, which follows from the rest.
+    /// With `accepted` in front, which follows from the rest, and the world of that verdict.
     impl Serialize for Summary {
         fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
             #[derive(Serialize)]
             struct Written<'a> {
                 accepted: bool,
+                world: World,
                 #[serde(flatten, serialize_with = "Summary::serialize")]
                 summary: &'a Summary,
             }
-            Written { accepted: self.accepted(), summary: self }.serialize(to)
+            Written { accepted: self.accepted(), world: self.world, summary: self }.serialize(to)
         }
     }
 
@@ -235,10 +249,12 @@ mod serial {
             #[derive(Deserialize)]
             struct Written {
                 accepted: bool,
+                world: World,
                 #[serde(flatten, deserialize_with = "Summary::deserialize")]
                 summary: Summary,
             }
-            let Written { accepted, summary } = Written::deserialize(from)?;
+            let Written { accepted, world, summary } = Written::deserialize(from)?;
+            let summary = Summary { world, ..summary };
             if accepted != summary.accepted() {
                 return Err(D::Error::custom(format!(
                     "`accepted` is {accepted}, and by its limits the drape is {}",

@@ -4,6 +4,7 @@ use super::*;
 use crate::errors::Errors;
 use crate::layup::Model;
 use crate::measure::{Name, Numbers, Verdict, Worst};
+use crate::scene::World;
 
 /// The height and the error of position (mm) of a drape of so many steps, judged at the end by 0.5 mm and 2 mm.
 fn limits(steps: usize, height: f64) -> Vec<Verdict> {
@@ -19,6 +20,7 @@ fn summary(height: f64) -> Summary {
     let numbers: Numbers = [(Name::Height, Some(height))].into_iter().collect();
     Summary {
         model: Model::Sheet,
+        world: World::Ideal,
         status: Status::Converged,
         steps: 5,
         steps_planned: 5,
@@ -119,12 +121,13 @@ fn a_summary_survives_json_with_its_verdict_in_front() {
         model: Model::Catenaries,
         catenaries: Some(report),
         sample: Some(sample(true)),
+        world: World::Errors,
         stopped: Some("it tore".into()),
         ..summary(0.4)
     };
     for summary in [summary(0.4), summary(0.6), full] {
         let text = serde_json::to_string(&summary).unwrap();
-        let front = format!("{{\"accepted\":{},\"model\":", summary.accepted());
+        let front = format!("{{\"accepted\":{},\"world\":", summary.accepted());
         assert!(text.starts_with(&front), "{text}");
         assert_eq!(serde_json::from_str::<Summary>(&text).unwrap(), summary);
     }

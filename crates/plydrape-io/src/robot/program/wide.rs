@@ -54,9 +54,17 @@ pub fn text(program: &Program) -> Result<String, Error> {
     Ok(head(program) + &text_of(table)?)
 }
 
-/// A comment that says that the motion is not accepted, if it is not.
+/// A comment that says that the motion is not accepted, if it is not: readers of tables expect the header first.
 pub(crate) fn head(program: &Program) -> String {
     if program.accepted { String::new() } else { format!("# {}\n", rejected(program)) }
+}
+
+/// The verdict as a comment.
+pub(crate) fn verdict(program: &Program) -> String {
+    match program.accepted {
+        true => format!("# Verdict: {}\n", program.verdict),
+        false => head(program),
+    }
 }
 
 /// Whether the vacuum of each gripper is on at each time, from the sample nearest to each event on.

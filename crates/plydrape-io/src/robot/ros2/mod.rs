@@ -84,7 +84,7 @@ pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Error>
         let loads = loads::loads(&program, known)?;
         finite::check(&loads)?;
         bag.latched(LOADS, schema::JOINTS, &loads)?;
-        let mut text = wide::head(&program);
+        let mut text = wide::verdict(&program);
         if let Some(mounts) = known.mounts {
             text += &loads::head(mounts);
             bag.note(MOUNTS, loads::stiffness(mounts))?;
@@ -130,7 +130,7 @@ fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), Erro
     tolerance.check()?;
     let mut bag = Bag::new()?;
     let mut files: Files = Vec::new();
-    let head = wide::head(program);
+    let head = wide::verdict(program);
 
     if !program.axes.is_empty() {
         let trajectory = trajectory::trajectory(program)?;

@@ -76,19 +76,19 @@ pub fn draped(result: &ResultFile, took: Duration) -> String {
     format!("draped by {model} in {seconds:.1} s\nmotion of {duration:.1} s")
 }
 
-/// The verdict in a line, why, and its margins: the errors that the motion tolerates, the largest load and pull of grippers with their limits; last
+/// The verdict and its world in a line, why, and its margins: the errors that the motion tolerates, the largest load and pull of grippers with their limits; last
 /// a line of the model that does not decide, if it was asked.
 #[must_use]
 pub fn verdict(result: &ResultFile, ink: Ink) -> String {
     let summary = &result.summary;
     let model = model_name(summary.model);
-    let (word, tone) = match (summary.accepted_without_errors(), summary.accepted()) {
-        (true, true) => ("accepted", Tone::Good),
-        (true, false) => ("accepted only without errors", Tone::Bad),
-        (false, _) => ("not accepted", Tone::Bad),
+    let (word, world, tone) = match (summary.accepted_without_errors(), summary.accepted()) {
+        (true, true) => ("accepted", summary.world.words(), Tone::Good),
+        (true, false) => ("accepted only without errors", "", Tone::Bad),
+        (false, _) => ("not accepted", "", Tone::Bad),
     };
     let worst = limiting(&summary.limits).map(|worst| format!(": {}", verdict_text(worst)));
-    let line = format!("{word} by {model}{}", worst.unwrap_or_default());
+    let line = format!("{word} by {model}{world}{}", worst.unwrap_or_default());
     let mut text = ink.tinted(&shown::excerpt(&line, WIDTH), tone) + "\n";
     let why = ended(summary).into_iter().chain(overstrained(summary).into_iter().flatten());
     for line in why.chain([forces(summary)]).filter(|line| !line.is_empty()) {
@@ -155,7 +155,7 @@ mod tests {
         let mut result = sample::sheet(4, 2, 3);
         result.summary.limits = vec![verdict_of(Name::GripperLoad, 0.5, 10.0)];
         let text = verdict(&result, Ink::Plain);
-        let wanted = "accepted by the sheet\n\
+        let wanted = "accepted by the sheet in an ideal cell, without errors\n\
             largest load of a gripper 0.5 N (limit 10 N), largest pull 0.4 N (no limit)\n";
         assert_eq!(text, wanted);
     }

@@ -14,6 +14,7 @@ use crate::store::json;
 use crate::text::table::{closest, limiting, measure_text};
 use crate::{Content, Error, Folder, PROGRAM, ResultFile, Staged};
 use plydrape::measure::Verdict;
+use plydrape::scene::World;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -36,6 +37,8 @@ pub struct PlyRecord {
     pub thickness: Option<f64>,
     /// Whether its plan keeps all limits.
     pub accepted: bool,
+    /// In which world that was judged.
+    pub world: World,
     /// The limit that is exceeded most; of an accepted plan the one that is nearest to not holding.
     pub worst: Option<Verdict>,
     /// How long its motion takes (s).
@@ -61,6 +64,7 @@ impl PlyRecord {
             lies_on: ply.lies_on.iter().map(|n| n + 1).collect(),
             thickness: ply.scene.thickness,
             accepted: result.summary.accepted(),
+            world: result.summary.world,
             worst,
             motion_s: result.steps.last().map_or(0.0, |step| step.time),
             evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),

@@ -53,8 +53,8 @@ exceeded most; of an accepted plan, the one nearest to not holding.</p>\n<h2>The
 
 fn row(n: usize, ply: &PlyRecord) -> String {
     let (class, verdict) = match ply.accepted {
-        true => ("good", "accepted"),
-        false => ("bad", "not accepted"),
+        true => ("good", format!("accepted{}", ply.world.words())),
+        false => ("bad", "not accepted".into()),
     };
     format!(
         "<tr><td class=\"n\">{}</td><td><a href=\"{}/report.html\">{}</a></td><td>{}</td><td class=\"n\">{}</td><td class=\"{class}\">{verdict}</td><td>{}</td><td class=\"n\">{:.1}</td><td class=\"n\">{}</td></tr>\n",

@@ -2,8 +2,9 @@
 
 use super::PlyRecord;
 use crate::text::table::aligned;
+use plydrape::scene::World;
 
-/// One row a ply, in the order in which they are laid.
+/// One row a ply, in the order in which they are laid; below them the worlds in which plies are accepted, where those have no errors.
 #[must_use]
 pub fn table(plies: &[PlyRecord]) -> String {
     let titles = ["order", "ply", "lies on", "verdict", "motion s", "drapes", "worst limit"];
@@ -19,5 +20,11 @@ pub fn table(plies: &[PlyRecord]) -> String {
             ply.worst_text(),
         ]
     }));
-    aligned(&rows, &[1, 2, 3, 6])
+    let mut text = aligned(&rows, &[1, 2, 3, 6]);
+    for world in [World::Ideal, World::WithoutErrors] {
+        if plies.iter().any(|ply| ply.accepted && ply.world == world) {
+            text += &format!("accepted is{}\n", world.words());
+        }
+    }
+    text
 }

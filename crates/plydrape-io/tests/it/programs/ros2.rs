@@ -272,10 +272,11 @@ fn a_bag_played_without_ros_is_the_program() {
     assert_eq!(vacuum, [(0.0, 4, 1.0), (4.8, 1, 0.0), (7.0, 1, 0.0), (DURATION, 2, 0.0)]);
 }
 
-/// The path in YAML has the poses of the bag; its head states the error; of a motion that is not accepted every head says so.
+/// The path in YAML has the poses of the bag; its head states the error, and every head the verdict.
 #[test]
 fn yaml_files_say_what_they_are_in_their_heads() {
     let program = rejected(cell(6, 1001));
+    let accepted: Vec<(String, Vec<u8>)> = files(&cell(6, 1001), 1e-4).into_iter().collect();
     let files: Vec<(String, Vec<u8>)> = files(&program, 1e-4).into_iter().collect();
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["flange.yaml", "trajectory.mcap", "trajectory.yaml", "vacuum.yaml"]);
@@ -283,6 +284,7 @@ fn yaml_files_say_what_they_are_in_their_heads() {
         let text = text(&files, n);
         assert!(text.starts_with("# NOT ACCEPTED: tilt 57.1° against 40°\n"), "{}", names[n]);
     }
+    assert!(text(&accepted, 0).starts_with("# Verdict: accepted: tilt 12° against 40°\n"));
     assert!(text(&files, 0).contains("stay within"));
     assert_eq!(text(&files, 3).matches("---\n").count(), 3);
     let bag = &files[1].1;
