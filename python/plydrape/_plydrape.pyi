@@ -1858,6 +1858,12 @@ class Result:
         >>> data["positions"].dims, data["positions"].attrs["units"]
         (('step', 'u', 'v', 'xyz'), 'm')
         """
+    @property
+    def verdict(self, /) -> str:
+        """
+        The verdict in words, with the world in which it was reached: "accepted", by a sample of cells with errors; "accepted without
+        errors"; "accepted in an ideal cell, without errors", where mounts are rigid too; or "not accepted".
+        """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
         Writes result.json, steps.csv, trajectory.csv, report.html, of a plan motion.csv, and of a sheet
@@ -1997,6 +2003,8 @@ class Scene:
         What an accepted drape keeps to.
     plan : dict, optional
         How a motion is planned.
+    cell : dict, optional
+        What holds the ply and how far it may be off, where `grippers` and `errors` do not say so.
     errors : dict, optional
         How far a real cell may be from the scene.
     release : dict, optional
@@ -2042,6 +2050,7 @@ class Scene:
         contact: dict[str, typing.Any] | None = None,
         limits: dict[str, typing.Any] | None = None,
         plan: dict[str, typing.Any] | None = None,
+        cell: dict[str, typing.Any] | None = None,
         errors: dict[str, typing.Any] | None = None,
         release: dict[str, typing.Any] | None = None,
         tool: dict[str, typing.Any] | None = None,
@@ -2092,8 +2101,8 @@ class Scene:
     @property
     def errors(self, /) -> dict[str, Any] | None:
         """
-        How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term either
-        `{"deviation": …}` or `{"bound": …}`.
+        How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term one of
+        `{"deviation": …}`, `{"bound": …}` and, of the ply, `{"factor": …}`.
 
         Examples
         --------

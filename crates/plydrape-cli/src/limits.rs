@@ -1,15 +1,16 @@
-//! `plydrape limits`: the presets of limits, each figure with its source.
+//! `plydrape limits`: the presets of limits and of the cell, each figure with its source.
 
 use crate::failure::Done;
 use crate::numbers::written;
 use plydrape::measure::Preset;
+use plydrape::scene::CellPreset;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// List the presets of `[limits]`, each figure with its source.
+/// List the presets of `[limits]` and of `[cell]`, each figure with its source.
 ///
-/// `preset = "NAME"` in the table `[limits]` of a scene sets them; other keys there stand over it.
+/// `preset = "NAME"` in the table `[limits]` or `[cell]` of a scene sets them; other keys of the scene stand over it.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {}
 
@@ -32,6 +33,15 @@ fn text() -> String {
             let measure = figure.name.measure();
             let value = written(figure.value, measure.unit());
             let _ = writeln!(text, "  {} = \"{value}\"", measure.name());
+            text += &wrapped(figure.source, "    ");
+        }
+        text.push('\n');
+    }
+    for preset in CellPreset::ALL {
+        let _ = writeln!(text, "cell {}: {}", preset.name(), preset.about());
+        for figure in preset.figures() {
+            let quote = if figure.written.contains(' ') { "\"" } else { "" };
+            let _ = writeln!(text, "  {} = {quote}{}{quote}", figure.key, figure.written);
             text += &wrapped(figure.source, "    ");
         }
         text.push('\n');

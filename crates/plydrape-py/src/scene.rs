@@ -46,6 +46,8 @@ use toml::map::Map;
 ///     What an accepted drape keeps to.
 /// plan : dict, optional
 ///     How a motion is planned.
+/// cell : dict, optional
+///     What holds the ply and how far it may be off, where `grippers` and `errors` do not say so.
 /// errors : dict, optional
 ///     How far a real cell may be from the scene.
 /// release : dict, optional
@@ -111,7 +113,7 @@ impl Scene {
         motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
         sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
         limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
-        errors: "dict[str, typing.Any] | None" = None, release: "dict[str, typing.Any] | None" = None,
+        cell: "dict[str, typing.Any] | None" = None, errors: "dict[str, typing.Any] | None" = None, release: "dict[str, typing.Any] | None" = None,
         tool: "dict[str, typing.Any] | None" = None,
         bodies: "typing.Sequence[dict[str, typing.Any]] | None" = None,
         obstacles: "typing.Sequence[dict[str, typing.Any]] | None" = None,
@@ -130,6 +132,7 @@ impl Scene {
         contact: Table<'_, '_>,
         limits: Table<'_, '_>,
         plan: Table<'_, '_>,
+        cell: Table<'_, '_>,
         errors: Table<'_, '_>,
         release: Table<'_, '_>,
         tool: Table<'_, '_>,
@@ -171,6 +174,7 @@ impl Scene {
             ("contact", contact),
             ("limits", limits),
             ("plan", plan),
+            ("cell", cell),
             ("errors", errors),
             ("release", release),
             ("tool", tool),
@@ -539,8 +543,8 @@ impl Scene {
         Ok(Scene(Arc::new(scene), Origin { motion: true, ..self.1.clone() }))
     }
 
-    /// How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term either
-    /// `{"deviation": …}` or `{"bound": …}`.
+    /// How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term one of
+    /// `{"deviation": …}`, `{"bound": …}` and, of the ply, `{"factor": …}`.
     ///
     /// Examples
     /// --------

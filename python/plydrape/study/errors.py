@@ -48,6 +48,30 @@ def terms(tables: Mapping[str, Any], varied: Iterable[str]) -> tuple[str, ...]:
     return tuple(filter(there, TERMS))
 
 
+def with_cell(tables: Mapping[str, Any], errors: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """The tables of a scene with the terms that its cell gives written out.
+
+    Parameters
+    ----------
+    tables
+        The tables of the scene.
+    errors
+        `plydrape.Scene.errors` of these tables; None of a cell without errors.
+
+    """
+    if errors is None:
+        return tables
+    table: dict[str, Any] = {key: errors[key] for key in ("seed", "samples", "share")}
+    for term in (*TERMS, "mold.waviness"):
+        part, name = term.split(".")
+        ((law, value),) = errors[part][name].items()
+        if value != (1.0 if law == "factor" else 0.0):
+            table.setdefault(part, {})[name] = {law: value}
+    if "waviness" in table.get("mold", {}):
+        table["mold"]["wavelength"] = errors["mold"]["wavelength"]
+    return {**tables, "errors": table}
+
+
 def names(of: Iterable[str]) -> list[str]:
     """Columns of terms.
 

@@ -29,6 +29,7 @@ SCENE = (
     "contact",
     "limits",
     "plan",
+    "cell",
     "errors",
 )
 # The numbers of a scene that are whole.

@@ -52,7 +52,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Line> {
 }
 
 /// Texts behind a head, separated by commas, in lines.
-fn packed(head: &str, texts: &[String]) -> Vec<String> {
+pub(super) fn packed(head: &str, texts: &[String]) -> Vec<String> {
     let (mut lines, mut line) = (Vec::new(), head.to_string());
     for (n, text) in texts.iter().enumerate() {
         let comma = if n + 1 < texts.len() { ", " } else { "" };

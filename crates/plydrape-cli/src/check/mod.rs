@@ -2,6 +2,7 @@
 
 mod bodies;
 mod book;
+mod cell;
 mod limits;
 mod mold;
 mod rules;
@@ -73,6 +74,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(rules::release(scene));
     lines.extend(rules::rules(scene));
     lines.extend(sheet::sheet(scene));
+    lines.extend(cell::cell(scene));
     lines.extend(limits::limits(scene));
     lines.extend(rules::plan(scene));
     lines

@@ -7,7 +7,7 @@ use plydrape::scene::Scene;
 use plydrape_io::error;
 use plydrape_io::result::sheet::SheetSize;
 
-/// Mesh, pads and friction of the sheet; nothing where catenaries decide.
+/// Mesh, size of pads and friction of the sheet; nothing where catenaries decide.
 pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
     let settings = &scene.layup.settings;
     if settings.model != Model::Sheet {
@@ -47,18 +47,10 @@ fn size(scene: &Scene) -> String {
 
 fn pads(settings: &Settings) -> String {
     let pad = &settings.pad;
-    let radius = match pad.radius {
+    match pad.radius {
         0.0 => "grippers hold a point".into(),
         radius => format!("pads of radius {} mm", millimetres(radius)),
-    };
-    let mount = |stiffness: Option<f64>| {
-        stiffness.map_or("rigid".into(), |stiffness| format!("{} N/m", short(stiffness)))
-    };
-    format!(
-        "{radius}; mounts {} along the ply, {} across",
-        mount(pad.lateral_stiffness),
-        mount(pad.axial_stiffness)
-    )
+    }
 }
 
 fn friction(settings: &Settings) -> String {

@@ -1,10 +1,11 @@
 //! From the keys of a file to a scene that makes sense.
 
 use super::bodies::bodies;
+use super::cell::cell;
 use super::diagnostic::hint;
 use super::drawing::WarpChoice;
 use super::errors::errors;
-use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
+use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, SceneKeys};
 use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
 use super::model::Models;
@@ -22,7 +23,7 @@ use plydrape::layup::{Layup, Target};
 use plydrape::mold::Mold;
 use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
-use plydrape::scene::Scene;
+use plydrape::scene::{Cell, Scene};
 use std::ops::Range;
 use std::path::Path;
 
@@ -45,10 +46,13 @@ pub(super) fn scene(
         }
         None => (made, None),
     };
-    let settings = settings(file, &ply, document)?;
+    let named_cell =
+        file.cell.as_ref().map(|table| cell(table, &ply, document, base)).transpose()?;
+    let cell = named_cell.as_ref().map_or_else(Cell::default, |named| named.cell);
+    let settings = settings(file, &cell, &ply, document)?;
     let models = Models::named(file, settings.model, document)?;
     models.check_lines(&ply)?;
-    models.check_mounts()?;
+    models.check_mounts(named_cell.as_ref())?;
     let places = Surroundings {
         ply: &ply,
         mold: mold.as_ref(),
@@ -67,9 +71,13 @@ pub(super) fn scene(
     let sheets = models.check_sheets(&ply, &settings, motion.positions.len())?;
     let plan = plan(&file.plan, ply.grippers(), document)?;
     let bodies = bodies(file, document, base)?;
-    let errors = match &file.errors {
-        Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
-        None => None,
+    let errors = match (&file.errors, cell.errors) {
+        (None, None) => None,
+        (table, of_cell) => {
+            let nothing = ErrorsTable::default();
+            let table = table.as_ref().unwrap_or(&nothing);
+            Some(errors(table, of_cell, &ply, mold.is_some(), document)?)
+        }
     };
     let release = match &file.release {
         Some(table) => Some(release(table, settings.model, mold.is_some(), document)?),
@@ -95,6 +103,7 @@ pub(super) fn scene(
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
+        cell: named_cell.map(|named| named.name),
         thickness,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })

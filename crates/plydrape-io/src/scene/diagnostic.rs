@@ -181,6 +181,7 @@ pub(super) fn hint(key: &str) -> String {
         "mass" => "give the mass per length or per area: mass = \"314 g/m^2\"".into(),
         "kind" => "say which: kind = \"plane\", \"sphere\", \"mesh\" or another for a mold; kind = \"straight\", \"hold\" or \"file\" for a motion".into(),
         "name" => "give it a name that reports can call it by: name = \"clamp\"".into(),
+        "preset" => "name a cell: preset = \"usual\" or \"ideal\", or a file of your own".into(),
         "on" => "say what it moves with: on = \"pad\", \"stem\" or \"flange\"".into(),
         "radius" => "give the radius of the cylinder: radius = \"15 mm\"".into(),
         "to" => "say where along z the cylinder ends: to = \"40 mm\"".into(),

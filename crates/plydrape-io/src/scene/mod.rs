@@ -5,7 +5,7 @@
 //!
 //! 1. `read`, `tree`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
-//! 3. `check` with `bodies`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
+//! 3. `check` with `bodies`, `cell`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
 //!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
@@ -14,6 +14,7 @@ mod argument;
 mod bodies;
 mod book;
 mod bound;
+mod cell;
 mod check;
 mod choice;
 mod csv;
@@ -272,6 +273,8 @@ pub struct SceneFile {
     pub files: Vec<PathBuf>,
     /// What was found and repaired while the mold was read, if it is a mesh.
     pub mesh: Option<MeshReport>,
+    /// The name of its cell, or that cell's file, if it has one.
+    pub cell: Option<String>,
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.
     pub thickness: Option<f64>,
     /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.

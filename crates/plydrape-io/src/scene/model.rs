@@ -1,5 +1,6 @@
 //! Which models drape a scene, and whether each of them can.
 
+use super::cell::NamedCell;
 use super::file::{MethodKey, MountTable, SceneKeys};
 use super::located::Located;
 use super::sheet;
@@ -69,14 +70,17 @@ impl<'a> Models<'a> {
         }
     }
 
-    /// Refuses mounts that give where catenaries hold the grippers: as a model, or in the stepwise planner.
-    pub fn check_mounts(&self) -> Result<(), Error> {
+    /// Refuses mounts that give where catenaries hold the grippers: as a model, or in the stepwise planner. They are those of the scene, or of
+    /// its cell.
+    pub fn check_mounts(&self, cell: Option<&NamedCell>) -> Result<(), Error> {
         let grippers = self.file.grippers.as_ref();
         let mounts = grippers.and_then(|table| table.value.stiffness.as_ref());
         let gives = |mount: &&Located<MountTable>| {
             mount.value.lateral.is_some() || mount.value.axial.is_some()
         };
-        let Some(Located { span, .. }) = mounts.filter(gives) else { return Ok(()) };
+        let cell = cell.filter(|named| mounts.is_none() && named.cell.pad.gives());
+        let own = mounts.filter(gives).map(|mounts| &mounts.span);
+        let Some(span) = own.or(cell.map(|named| &named.span)) else { return Ok(()) };
         let stepwise = matches!(self.file.plan.method, Some(MethodKey::Stepwise));
         let (what, help) = match (self.decides, self.also) {
             (Model::Catenaries, _) => (
@@ -93,7 +97,17 @@ impl<'a> Models<'a> {
             ),
             _ => return Ok(()),
         };
-        Err(self.document.error(span.clone(), what, help))
+        match cell {
+            None => Err(self.document.error(span.clone(), what, help)),
+            Some(named) => Err(self.document.error(
+                span.clone(),
+                what.replace("these mounts", &format!("the mounts of the cell \"{}\"", named.name)),
+                format!(
+                    "take preset = \"ideal\" in [cell]; or {}",
+                    help.replace("`stiffness`", "[cell]")
+                ),
+            )),
+        }
     }
 
     /// Refuses a sheet that material, pads, mesh or memory do not allow. Returns the sheets of a plan; none where catenaries decide.

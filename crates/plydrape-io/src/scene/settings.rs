@@ -14,6 +14,7 @@ use plydrape::layup::{
     SlopeRule, Stepping,
 };
 use plydrape::ply::Ply;
+use plydrape::scene::Cell;
 
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
@@ -26,9 +27,11 @@ const PAD_FORCES: [f64; 2] = [1e-6, 1e9];
 /// Fewest and most states that a sheet keeps.
 const KEPT: [usize; 2] = [2, 100_000];
 
-/// Checks `[model]`, `[contact]`, `[sheet]`, and what `[ply]` and `[grippers]` say of sheet and pads.
+/// Checks `[model]`, `[contact]`, `[sheet]`, and what `[ply]` and `[grippers]` say of sheet and pads; what these do not say is that of a
+/// cell.
 pub(super) fn settings(
     file: &SceneKeys,
+    cell: &Cell,
     ply: &Ply,
     document: &Document,
 ) -> Result<Settings, Error> {
@@ -49,7 +52,10 @@ pub(super) fn settings(
             "leave `theory` out; `plydrape span --theory exact` solves one span, and the sheet (kind = \"sheet\") bends by the curvature that it has, also with a measured moment",
         ));
     }
-    let grippers = file.grippers.as_ref().map(|table| &table.value);
+    let held = match &file.grippers {
+        Some(table) => held(&table.value, cell, document)?,
+        None => *cell,
+    };
     let overhang = match &file.ply.value.overhang {
         Some(overhang) => overhang.size_or_zero(document, &usual::OVERHANG)?,
         None => usual.sheet.overhang,
@@ -61,17 +67,11 @@ pub(super) fn settings(
         },
         axial_stiffness,
         gravity,
-        max_tilt: match grippers.and_then(|table| table.max_tilt.as_ref()) {
-            Some(tilt) => tilt.acute(document)?,
-            None => usual.max_tilt,
-        },
+        max_tilt: held.max_tilt,
         contact: contact(file, ply, document)?,
         model: model.kind.as_ref().map_or(usual.model, |kind| kind.value.into()),
         sheet: sheet(&file.sheet, overhang, document)?,
-        pad: match grippers {
-            Some(table) => pad(table, document)?,
-            None => usual.pad,
-        },
+        pad: held.pad,
     })
 }
 
@@ -150,8 +150,9 @@ fn sheet(table: &SheetTable, overhang: f64, document: &Document) -> Result<Sheet
     })
 }
 
-fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, Error> {
-    let usual = PadSettings::default();
+/// A cell as the table `[grippers]` changes it.
+pub(super) fn held(table: &GrippersTable, cell: &Cell, document: &Document) -> Result<Cell, Error> {
+    let usual = &cell.pad;
     let mount = |key: Option<&Quantity<Stiffness>>| {
         key.map(|key| {
             key.believed(document, &usual::MOUNT)?;
@@ -159,18 +160,27 @@ fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, Error>
         })
         .transpose()
     };
-    let force = |key: &Option<Quantity<Force>>| {
-        key.as_ref().map(|key| key.within_for(document, PAD_FORCES, "a pad")).transpose()
+    let force = |key: &Option<Quantity<Force>>, other: Option<f64>| match key {
+        Some(key) => key.within_for(document, PAD_FORCES, "a pad").map(Some),
+        None => Ok(other),
     };
-    let stiffness = table.stiffness.as_ref().map(|keys| &keys.value);
-    Ok(PadSettings {
+    let [lateral_stiffness, axial_stiffness] = match &table.stiffness {
+        Some(keys) => [mount(keys.value.lateral.as_ref())?, mount(keys.value.axial.as_ref())?],
+        None => [usual.lateral_stiffness, usual.axial_stiffness],
+    };
+    let pad = PadSettings {
         radius: match &table.pad_radius {
             Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => usual.radius,
         },
-        lateral_stiffness: mount(stiffness.and_then(|keys| keys.lateral.as_ref()))?,
-        axial_stiffness: mount(stiffness.and_then(|keys| keys.axial.as_ref()))?,
-        slip_force: force(&table.slip_force)?,
-        holding_force: force(&table.holding_force)?,
-    })
+        lateral_stiffness,
+        axial_stiffness,
+        slip_force: force(&table.slip_force, usual.slip_force)?,
+        holding_force: force(&table.holding_force, usual.holding_force)?,
+    };
+    let max_tilt = match &table.max_tilt {
+        Some(tilt) => tilt.acute(document)?,
+        None => cell.max_tilt,
+    };
+    Ok(Cell { pad, max_tilt, ..*cell })
 }

@@ -103,13 +103,16 @@ fn a_motion_file_defines_start_and_steps() {
 /// Every term has the unit and the law of its key; what is left out has no error, and a scene without the table none at all.
 #[test]
 fn errors_are_read_term_by_term() {
-    let text = format!("{}\n{ERRORS}", scene::TEMPLATE);
+    let template = scene::TEMPLATE.replace("\"usual\"", "\"ideal\"");
+    let text = format!("{template}\n{ERRORS}");
     let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
     let errors = scene.errors.expect("errors");
     let near = |term: Term, expected: Term| {
         let same = matches!(
             (term, expected),
-            (Term::Deviation(_), Term::Deviation(_)) | (Term::Bound(_), Term::Bound(_))
+            (Term::Deviation(_), Term::Deviation(_))
+                | (Term::Bound(_), Term::Bound(_))
+                | (Term::Factor(_), Term::Factor(_))
         );
         assert!(same && (term.value() - expected.value()).abs() < 1e-15, "{term:?} {expected:?}");
     };
@@ -122,20 +125,19 @@ fn errors_are_read_term_by_term() {
     near(errors.pick_up.yaw, Term::Deviation(0.2_f64.to_radians()));
     near(errors.material.areal_mass, Term::Deviation(0.05));
     near(errors.material.bending, Term::Bound(0.2));
-    near(errors.material.shear, Term::Bound(0.3));
+    near(errors.material.shear, Term::Factor(3.0));
     near(errors.material.length, Term::Deviation(1e-3));
     near(errors.mold.offset, Term::Deviation(6e-4));
     near(errors.mold.tilt, Term::Bound(0.05_f64.to_radians()));
     near(errors.mold.waviness, Term::Deviation(2e-4));
     assert_eq!(errors.mold.wavelength, 0.15);
 
-    let few =
-        format!("{}\n[errors]\ngripper = {{ position = {{ bound = 0.001 }} }}\n", scene::TEMPLATE);
+    let few = format!("{template}\n[errors]\ngripper = {{ position = {{ bound = 0.001 }} }}\n");
     let errors = parse(&few).unwrap_or_else(|e| panic!("{e}")).errors.expect("errors");
     let gripper = GripperErrors { position: Term::Bound(1e-3), ..GripperErrors::default() };
     assert_eq!(errors, Errors { gripper, ..Errors::default() });
     assert_eq!((errors.samples, errors.share), (64, 0.95));
-    assert!(parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}")).errors.is_none());
+    assert!(parse(&template).unwrap_or_else(|e| panic!("{e}")).errors.is_none());
 }
 
 const ERRORS: &str = r#"
@@ -146,7 +148,7 @@ share = "90 %"
 frame = { position = { deviation = "0.5 mm" }, angle = { bound = "0.1 deg" } }
 gripper = { position = { deviation = 1e-4 }, stroke = { deviation = "0.01 %" } }
 pick_up = { offset = { bound = "1 mm" }, yaw = { deviation = "0.2 deg" } }
-material = { areal_mass = { deviation = "5 %" }, bending = { bound = 0.2 }, shear = { bound = "30 %" }, length = { deviation = "0.1 %" } }
+material = { areal_mass = { deviation = "5 %" }, bending = { bound = 0.2 }, shear = { factor = 3 }, length = { deviation = "0.1 %" } }
 
 [errors.mold]
 offset = { deviation = "0.6 mm" }

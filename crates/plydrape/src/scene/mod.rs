@@ -3,10 +3,14 @@
 //! What reads a scene from a file, and refuses it with the place of a fault, is the crate `plydrape-io`.
 
 mod above;
+mod cell;
 mod plan;
+mod world;
 
 pub use above::start_above;
+pub use cell::{Cell, CellFigure, CellPreset};
 pub use plan::{Plan, PlanMethod};
+pub use world::World;
 
 use crate::errors::Errors;
 use crate::layup::{Layup, Settings};

@@ -4,6 +4,7 @@
 //! comments are the descriptions of the JSON Schema.
 
 mod bodies;
+mod cell;
 mod errors;
 mod limits;
 mod mold;
@@ -14,7 +15,8 @@ mod target;
 mod tool;
 
 pub(super) use bodies::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable};
-pub(super) use errors::{ErrorsTable, MoldErrorsTable, Term};
+pub(super) use cell::{CellFile, CellTable};
+pub(super) use errors::{ErrorsTable, MoldErrorsTable, ShareTable, Term};
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use plan::{MethodKey, PlanTable};
@@ -74,6 +76,8 @@ pub(super) struct SceneKeys {
     /// How `plydrape plan` looks for the motion.
     #[serde(default)]
     pub plan: PlanTable,
+    /// Which cell holds the ply and how far it may be off, where [grippers] and [errors] do not say so.
+    pub cell: Option<Located<CellTable>>,
     /// How far a real cell may be from this scene.
     pub errors: Option<ErrorsTable>,
     /// How a robot carries the grippers; each moves by itself unless given.
@@ -300,15 +304,15 @@ pub(super) struct GrippersTable {
     pub parallel_to_mold: Option<Located<bool>>,
     /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
     pub positions: Option<Located<Positions>>,
-    /// Limit of the ball joints: largest gripper tilt (rad), 40 deg unless given.
+    /// Limit of the ball joints: largest gripper tilt (rad), that of the cell or 40 deg unless given.
     pub max_tilt: Option<Quantity<Angle>>,
     /// Radius of the pads that hold the sheet flat (m); 0 unless given, which holds one point.
     pub pad_radius: Option<Quantity<Length>>,
-    /// How far the mounts of the pads yield; rigid unless given.
+    /// How far the mounts of the pads yield; that of the cell or rigid unless given.
     pub stiffness: Option<Located<MountTable>>,
-    /// Largest load along the ply that a pad holds before the fabric slides under it (N); never unless given.
+    /// Largest load along the ply that a pad holds before the fabric slides under it (N); that of the cell or any unless given.
     pub slip_force: Option<Quantity<Force>>,
-    /// Largest load across the ply that a pad holds (N); any unless given.
+    /// Largest load across the ply that a pad holds (N); that of the cell or any unless given.
     pub holding_force: Option<Quantity<Force>>,
 }
 

@@ -1,0 +1,149 @@
+//! The cell of a scene: how grippers hold the ply and how far all may be off, where the scene does not say so itself.
+
+use super::errors::errors;
+use super::file::{CellFile, CellTable};
+use super::located::Located;
+use super::source::Document;
+use super::{check, read, settings, start};
+use crate::Error;
+use crate::store::shown;
+use plydrape::ply::Ply;
+use plydrape::scene::{Cell, CellPreset};
+use std::ops::Range;
+use std::path::Path;
+
+/// The cell that a scene names.
+pub(super) struct NamedCell {
+    /// Its name, or that of its file.
+    pub name: String,
+    /// Where the scene names it.
+    pub span: Range<usize>,
+    pub cell: Cell,
+}
+
+/// Reads the cell of the table `[cell]`, which is one of the program or a file beside the scene.
+pub(super) fn cell(
+    table: &Located<CellTable>,
+    ply: &Ply,
+    document: &Document,
+    base: &Path,
+) -> Result<NamedCell, Error> {
+    let Located { value: name, span } = &table.value.preset;
+    let found = CellPreset::ALL.iter().find(|preset| preset.name() == name);
+    let cell = match found {
+        Some(preset) => preset.cell(),
+        None if !name.ends_with(".toml") => {
+            return Err(document.error(
+                span.clone(),
+                format!("there is no cell {}", document.quoted(span)),
+                "plydrape comes with \"usual\" and \"ideal\"; a file of your own is named with its ending, e.g. \"our_cell.toml\"",
+            ));
+        }
+        None => {
+            let file = read::text(&base.join(name), name, read::LARGEST_TOML)
+                .map_err(|error| document.error_of_named(span, error, "scene"))?;
+            from_file(&file, ply)?
+        }
+    };
+    Ok(NamedCell { name: shown::name(name), span: span.clone(), cell })
+}
+
+fn from_file(document: &Document, ply: &Ply) -> Result<Cell, Error> {
+    let file: CellFile = read::keys(document)?;
+    match &file.source {
+        Some(source) => check::line(source, document)?,
+        None => {
+            let first_line = document.text.find('\n').unwrap_or(document.text.len());
+            return Err(document.error(
+                0..first_line,
+                format!("the cell file `{}` has no `source`", document.file),
+                "say where its numbers come from, as in source = \"measured on our robot, 2026\"",
+            ));
+        }
+    };
+    let mut cell = Cell::default();
+    if let Some(Located { value: table, span }) = &file.grippers {
+        if !start::is_open(table) || table.pad_radius.is_some() {
+            return Err(document.error(
+                span.clone(),
+                "[grippers] of a cell says more than how grippers hold the ply",
+                "keep `stiffness`, `slip_force`, `holding_force` and `max_tilt`; the rest belongs into [grippers] of the scene",
+            ));
+        }
+        cell = settings::held(table, &cell, document)?;
+    }
+    if let Some(table) = &file.errors {
+        cell.errors = Some(errors(table, None, ply, true, document)?);
+    }
+    Ok(cell)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{SceneFile, parse};
+    use super::*;
+    use plydrape::errors::{Errors, Term};
+
+    const SCENE: &str = "ply.grippers = [2, 2]\nply.cell = [0.1, 0.1]\nply.material = \"krogh2018\"\n\
+        grippers.spacing = [0.098, 0.098]\ngrippers.height = 0.1\n";
+
+    fn scene(keys: &str, base: &Path) -> SceneFile {
+        parse(&format!("{SCENE}{keys}\n"), base, "scene.toml").unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    /// A preset as keys, which a file of a cell may have too.
+    fn keys(preset: CellPreset) -> String {
+        let line = |figure: &plydrape::scene::CellFigure| match figure.written.parse::<f64>() {
+            Ok(_) => format!("{} = {}\n", figure.key, figure.written),
+            Err(_) => format!("{} = \"{}\"\n", figure.key, figure.written),
+        };
+        preset.figures().iter().map(line).collect()
+    }
+
+    fn assert_same(a: &SceneFile, b: &SceneFile) {
+        assert_eq!((a.layup.settings, a.errors), (b.layup.settings, b.errors));
+        assert_eq!((&a.layup.ply, &a.layup.motion), (&b.layup.ply, &b.layup.motion));
+    }
+
+    /// Each figure is what its key says, in a scene and in a file of a cell; the ideal cell is none.
+    #[test]
+    fn a_preset_equals_its_keys_written_out() {
+        let folder = tempfile::tempdir().unwrap();
+        for preset in CellPreset::ALL {
+            let named = scene(&format!("cell.preset = \"{}\"", preset.name()), Path::new(""));
+            assert_eq!(named.cell.as_deref(), Some(preset.name()));
+            let keys = keys(*preset);
+            assert_same(&named, &scene(&keys, Path::new("")));
+            std::fs::write(folder.path().join("ours.toml"), format!("source = \"us\"\n{keys}"))
+                .unwrap();
+            assert_same(&named, &scene("cell.preset = \"ours.toml\"", folder.path()));
+        }
+        let usual = scene("cell.preset = \"usual\"", Path::new(""));
+        let errors = usual.errors.expect("errors");
+        assert_eq!(errors.material.shear, Term::Factor(2.0));
+        assert!(usual.layup.settings.pad.gives() && usual.layup.settings.pad.radius == 0.0);
+        assert_eq!((errors.seed, errors.samples, errors.share), (0, 64, 0.95));
+    }
+
+    /// A key of the scene changes what it says and nothing else: a stiffness as a whole, an error term by term.
+    #[test]
+    fn keys_of_the_scene_stand_over_its_cell_one_by_one() {
+        let with = |keys: &str| scene(&format!("cell.preset = \"usual\"\n{keys}"), Path::new(""));
+        let cell = CellPreset::Usual.cell();
+        let errors = cell.errors.expect("errors");
+        let slip = with("grippers.slip_force = \"5 N\"").layup.settings;
+        assert_eq!((slip.pad.slip_force, slip.pad.holding_force), (Some(5.0), Some(20.0)));
+        assert_eq!(slip.max_tilt, cell.max_tilt);
+        let tilt = with("grippers.max_tilt = 0.5").layup.settings;
+        assert_eq!((tilt.max_tilt, tilt.pad), (0.5, cell.pad));
+        let mount = with("grippers.stiffness = { lateral = 1000 }").layup.settings.pad;
+        assert_eq!((mount.lateral_stiffness, mount.axial_stiffness), (Some(1000.0), None));
+        assert!(!with("grippers.stiffness = {}").layup.settings.pad.gives());
+
+        let few = with("errors.samples = 8").errors;
+        assert_eq!(few, Some(Errors { samples: 8, ..errors }));
+        let shear = with("errors.material.shear = { bound = 0 }").errors.expect("errors");
+        assert_eq!(shear.material.shear, Term::Bound(0.0));
+        assert_eq!(shear.material.bending, errors.material.bending);
+    }
+}
