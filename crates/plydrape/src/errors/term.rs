@@ -46,6 +46,16 @@ impl Term {
         }
     }
 
+    /// An error that hardly one of twenty exceeds to either side, upwards with a `sign` of 1 and downwards with −1: two standard
+    /// deviations, or the bound.
+    #[must_use]
+    pub fn extreme(self, sign: f64) -> f64 {
+        match self {
+            Term::Deviation(deviation) => 2.0 * sign * deviation,
+            Term::Bound(bound) => sign * bound,
+        }
+    }
+
     /// Whether there is no error.
     #[must_use]
     pub fn is_zero(self) -> bool {

@@ -45,6 +45,8 @@ pub struct Decided {
     pub judged: Judged,
     /// [`evaluation::score`] of that.
     pub score: f64,
+    /// The cell with errors that breaks a limit, if one of those does that prove a plan.
+    pub refused_by: Option<usize>,
 }
 
 impl Decision {
@@ -183,7 +185,7 @@ fn forecast(
     }
     let errors = scene.errors.filter(Errors::is_drawn);
     let changed = outcome::minute_changes(&scene.layup).samples;
-    let cells = changed + errors.map_or(0, |_| TUNING.cells);
+    let cells = changed + errors.map_or(0, |_| TUNING.proving);
     Some(Forecast { cells, ..Forecast::new(nodes, solves, state.pace()) })
 }
 
@@ -221,9 +223,13 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
             (judged, score) = (between, worse);
         }
     }
+    let mut refused_by = None;
     if judged.accepted() {
         let layup = sheet::event::at_these_times(&followed, &drape.summary.events);
-        judged = evaluation::with_errors(&layup, scene.errors, judged, |cell| {
+        let mut cells = state.cells();
+        let others: Vec<usize> = (0..TUNING.proving).filter(|n| !cells.contains(n)).collect();
+        cells.extend(others);
+        (judged, refused_by) = evaluation::with_errors(&layup, scene.errors, judged, &cells, |cell| {
             let stop = || state.report().is_break();
             let judged = outcome::judge(&cell, &scene.limits, usize::MAX, &stop);
             // the errors may have left nothing that could be draped
@@ -232,7 +238,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
         });
         score = evaluation::score(&judged);
     }
-    Ok(Decided { drape, attitudes, judged, score })
+    Ok(Decided { drape, attitudes, judged, score, refused_by })
 }
 
 /// The verdict on the nearest pair of bodies along the whole motion, with pads turned as the motion file will say; `None` if the scene has

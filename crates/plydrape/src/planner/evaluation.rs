@@ -55,54 +55,69 @@ pub fn drape(
         }
         Model::Sheet => {
             let nominal = ranked_sheet(layup.clone(), limits, mesh, state)?;
-            Ok(with_errors(&layup, scene.errors, nominal, |cell| {
+            let (judged, _) = with_errors(&layup, scene.errors, nominal, &state.cells(), |cell| {
                 // the errors may have left no sheet that could be draped
                 let judged = ranked_sheet(cell, limits, mesh, state);
                 Some(judged.unwrap_or_else(|_| Judged::nothing()))
-            }))
+            });
+            Ok(judged)
         }
     }
 }
 
-/// The drape of a layup and those of a few cells with errors as one: of each limit the worst. `drape` drapes a cell; it gives `None`
-/// if it was stopped. A drape that is far from a plan is as it is.
+/// The drape of a layup and those of some cells with errors as one: of each limit the worst. `drape` drapes a cell; it gives `None`
+/// if it was stopped. A drape that is far from a plan is as it is. Returns the first cell that breaks a limit, too, if one does; only a
+/// few of those behind it are draped.
 ///
 /// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
 pub fn with_errors(
     layup: &Layup,
     errors: Option<Errors>,
     mut worst: Judged,
+    cells: &[usize],
     drape: impl Fn(Layup) -> Option<Judged> + Sync,
-) -> Judged {
-    let Some(errors) = errors.filter(|errors| !errors.is_zero() && errors.samples > 0) else {
-        return worst;
-    };
+) -> (Judged, Option<usize>) {
+    let Some(errors) = errors.filter(Errors::is_drawn) else { return (worst, None) };
     if score(&worst) > TUNING.far {
-        return worst;
+        return (worst, None);
     }
-    let planned = planned_errors(errors);
-    let grippers = layup.ply.grippers();
-    let cell = |sample: usize| drape(planned.draw(sample, grippers).apply(layup));
-    let cells: Vec<Judged> = (0..TUNING.cells).into_par_iter().filter_map(cell).collect();
-    for cell in cells {
-        for verdict in cell.limits {
-            match worst.limits.iter_mut().find(|other| other.name == verdict.name) {
-                Some(other) if verdict.ratio() > other.ratio() => *other = verdict,
-                Some(_) => {}
-                None => worst.limits.push(verdict),
-            }
+    let cell = |sample: &usize| Some((*sample, drape(planned_cell(errors, *sample, layup))?));
+    for batch in cells.chunks(TUNING.batch) {
+        let judged: Vec<(usize, Judged)> = batch.par_iter().filter_map(cell).collect();
+        let refused = judged.iter().find(|(_, judged)| !judged.accepted()).map(|(n, _)| *n);
+        judged.into_iter().for_each(|(_, judged)| worsen(&mut worst, judged));
+        if refused.is_some() {
+            return (worst, refused);
         }
-        worst.complete &= cell.complete;
-        worst.missing = worst.missing.max(cell.missing);
-        worst.unsolved += cell.unsolved;
     }
-    worst
+    (worst, None)
 }
 
-/// The errors of the cells that a plan is made with: of another seed than the sample by which it is judged in the end.
+/// Makes of a drape the worse of it and another, limit by limit.
+fn worsen(worst: &mut Judged, other: Judged) {
+    for verdict in other.limits {
+        match worst.limits.iter_mut().find(|limit| limit.name == verdict.name) {
+            Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
+            Some(_) => {}
+            None => worst.limits.push(verdict),
+        }
+    }
+    worst.complete &= other.complete;
+    worst.missing = worst.missing.max(other.missing);
+    worst.unsolved += other.unsolved;
+}
+
+/// The layup of a cell that a plan is made with: of another seed than the sample by which it is judged in the end. In the first the ply is as
+/// stiff in shear and as light as hardly one of twenty, and in the second as limp and as heavy.
 #[must_use]
-pub fn planned_errors(errors: Errors) -> Errors {
-    Errors { seed: !errors.seed, ..errors }
+pub fn planned_cell(errors: Errors, sample: usize, layup: &Layup) -> Layup {
+    let planned = Errors { seed: !errors.seed, ..errors };
+    let mut draw = planned.draw(sample, layup.ply.grippers());
+    if let Some(sign) = [1.0, -1.0].get(sample) {
+        draw.material.shear = errors.material.shear.extreme(*sign);
+        draw.material.areal_mass = errors.material.areal_mass.extreme(-sign);
+    }
+    draw.apply(layup)
 }
 
 /// The drape of a sheet with one of its meshes.

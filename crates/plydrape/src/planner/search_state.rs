@@ -3,6 +3,7 @@
 
 use crate::measure::Verdict;
 use crate::outcome::{Forecast, Judged, Pace};
+use crate::planner::tuning::TUNING;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -41,6 +42,8 @@ pub struct SearchState<'a> {
     candidates: AtomicUsize,
     decisions: AtomicUsize,
     most: usize,
+    /// Cells with errors by which candidates are ranked.
+    cells: Mutex<Vec<usize>>,
     best: Mutex<Best<'a>>,
 }
 
@@ -65,6 +68,7 @@ impl<'a> SearchState<'a> {
             candidates: AtomicUsize::new(0),
             decisions: AtomicUsize::new(0),
             most,
+            cells: Mutex::new((0..TUNING.cells).collect()),
             best: Mutex::new(Best {
                 watcher,
                 score: f64::INFINITY,
@@ -86,6 +90,19 @@ impl<'a> SearchState<'a> {
     /// Drapes by which was decided.
     pub fn decisions(&self) -> usize {
         self.decisions.load(Ordering::Relaxed)
+    }
+
+    /// Cells with errors by which candidates are ranked.
+    pub fn cells(&self) -> Vec<usize> {
+        self.cells.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// One more of them: a cell that refused a plan that was decided on.
+    pub fn add_cell(&self, cell: usize) {
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        if cells.len() < TUNING.most_cells && !cells.contains(&cell) {
+            cells.push(cell);
+        }
     }
 
     /// Sets the number of steps of the stepwise planner.

@@ -19,9 +19,15 @@ pub struct Tuning {
     pub compared_share: f64,
     /// Least and largest factor between both that is believed.
     pub bias: [f64; 2],
-    /// Cells with errors that are draped beside the one without, where the scene has errors: few, since a whole sample judges in
-    /// the end.
+    /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few, since more of them
+    /// prove what is decided on, and a whole sample judges in the end.
     pub cells: usize,
+    /// Cells with errors that prove a plan that is decided on.
+    pub proving: usize,
+    /// Cells by which candidates are ranked once those are among them that refused a plan.
+    pub most_cells: usize,
+    /// Cells that are draped at once: whole pairs, for two cores.
+    pub batch: usize,
     /// Score without errors from which on those are not draped.
     pub far: f64,
     /// Equilibria a step on the average from which on a drape is broken off; good drapes take two or three.
@@ -44,6 +50,9 @@ pub const TUNING: Tuning = Tuning {
     compared_share: 0.3,
     bias: [0.5, 2.0],
     cells: 3,
+    proving: 16,
+    most_cells: 6,
+    batch: 4,
     far: 3.0,
     most_equilibria: 12,
     missing_weight: 1e3,

@@ -10,6 +10,7 @@ use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::friction::{Anchor, Hold, penalty};
+use super::pads::Pads;
 use super::system::{System, add};
 use super::tuning::Tuning;
 use super::unknowns::Carrier;
@@ -31,6 +32,8 @@ struct Press {
 struct Point {
     node: usize,
     area: f64,
+    /// Force per depth (N/m).
+    stiffness: f64,
     /// Whether friction holds it; a gripper on a rigid mount is stronger.
     rubs: bool,
     /// Where the mold was last looked for (m), and how far it was (m): nearer than that no contact can be.
@@ -46,6 +49,11 @@ struct Point {
 }
 
 impl Point {
+    /// Pressure of the mold (Pa) at a depth (m).
+    fn pressure(&self, depth: f64) -> f64 {
+        self.stiffness * depth.max(0.0) / self.area
+    }
+
     /// Whether nothing of the mold can be at the node in a place (m), by where it was last looked for.
     fn is_clear(&self, x: [f64; 3]) -> bool {
         self.clear > 0.0 && distance(x, self.seen) < self.clear
@@ -67,8 +75,6 @@ impl Point {
 #[derive(Debug, Clone)]
 pub struct Contact<'a> {
     mold: &'a Mold,
-    /// Pressure per depth k (Pa/m).
-    stiffness: f64,
     /// What holds nodes along the mold.
     hold: Hold,
     /// Distance (m) at which an anchor is lost.
@@ -79,11 +85,28 @@ pub struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    /// The contact of a sheet with its mold: of all nodes but those that a gripper holds at a point.
-    pub fn new(sheet: &Sheet, mold: &'a Mold, tuning: &Tuning, system: &System) -> Self {
+    /// The contact of a sheet with its mold: of all nodes but those that a rigid gripper holds at a point. A mount presses its
+    /// node far harder than the ply's weight, so the mold is stiff against it there, too.
+    pub fn new(
+        sheet: &Sheet,
+        mold: &'a Mold,
+        tuning: &Tuning,
+        pads: &Pads,
+        system: &System,
+    ) -> Self {
+        let pressure = penalty(sheet, tuning.contact_depth);
+        let mut stiffness: Vec<f64> = sheet.fabric.areas.iter().map(|a| pressure * a).collect();
+        for (gripper, nodes) in sheet.grippers.iter().zip(pads.held()) {
+            let [_, _, axial] = gripper.mount.unwrap_or_default();
+            for (node, _) in nodes {
+                let share = tuning.mount_contact * axial / nodes.len() as f64;
+                stiffness[*node] = stiffness[*node].max(share);
+            }
+        }
         let point = |node: usize, rubs: bool| Point {
             node,
             area: sheet.fabric.areas[node],
+            stiffness: stiffness[node],
             rubs,
             seen: [0.0; 3],
             clear: f64::NEG_INFINITY,
@@ -99,7 +122,6 @@ impl<'a> Contact<'a> {
         });
         Contact {
             mold,
-            stiffness: penalty(sheet, tuning.contact_depth),
             hold: Hold::new(sheet, tuning),
             release: tuning.release * sheet.pitch,
             points: points.collect(),
@@ -120,7 +142,7 @@ impl<'a> Contact<'a> {
             }
             let closest = self.mold.closest_point(x[point.node]);
             if point.rubs && !closest.beyond && closest.distance <= self.release {
-                let pressure = self.stiffness * (-closest.distance).max(0.0);
+                let pressure = point.pressure(-closest.distance);
                 point.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
                 point.bound = self.hold.bound(pressure, point.area);
             }
@@ -157,7 +179,7 @@ impl<'a> Contact<'a> {
             }
             let closest = self.mold.closest_point(x);
             let depth = if closest.beyond { f64::NEG_INFINITY } else { -closest.distance };
-            point.bound = self.hold.bound(self.stiffness * depth.max(0.0), point.area);
+            point.bound = self.hold.bound(point.pressure(depth), point.area);
             point.anchor = match point.anchor {
                 Some(anchor) if self.hold.lasts() => Some(anchor),
                 Some(_) if depth < -self.release => None,
@@ -215,7 +237,7 @@ impl<'a> Contact<'a> {
         let lies = move |point: &&Point| {
             let Some(anchor) = point.anchor else { return false };
             let (off, total) = (sub(x[point.node], anchor.point), gradient[point.node]);
-            let k = self.stiffness * point.area;
+            let k = point.stiffness;
             // what the mold has to carry: the pressure of now, and what is out of balance
             let normal = (-k * dot(off, anchor.normal)).max(0.0) + dot(total, anchor.normal);
             let pressed = point.press.is_some() && normal > 0.0 || self.hold.lasts();
@@ -240,7 +262,7 @@ impl Energy for Contact<'_> {
                 return spring;
             }
             let depth = self.mold.closest_point(x).distance.min(0.0);
-            spring + 0.5 * (self.stiffness * point.area) * depth * depth
+            spring + 0.5 * point.stiffness * depth * depth
         };
         self.points.iter().map(energy).sum()
     }
@@ -259,7 +281,7 @@ impl Energy for Contact<'_> {
                 }
             }
             if let Some(Press { distance, normal }) = point.press {
-                let k = self.stiffness * point.area;
+                let k = point.stiffness;
                 add(&mut system.gradient[node], k * distance, normal);
                 system.stiffen(node, &scaled(k, &outer(normal, normal)));
             }

@@ -6,6 +6,9 @@ pub struct Tuning {
     /// Depth (of the pitch of the grippers) that the ply's own weight sinks into the contact's penalty: small enough that
     /// the pressure of taut yarns on a mold, some hundred times the weight, stays below 0.02 mm of 100 mm.
     pub contact_depth: f64,
+    /// Stiffness of contact under a pad whose mount gives along its axis, as a multiple of that of the mount: so a pad sinks in by
+    /// a hundredth of what its mount yields.
+    pub mount_contact: f64,
     /// Way (of the pitch) along the mold in which Coulomb's friction under the ply's own weight builds up: as long as a step
     /// tolerance, because Newton's iteration cannot see shorter ways; 0.01 mm of 100 mm. Stick has no such bound and is as
     /// stiff as contact.
@@ -73,6 +76,7 @@ impl Default for Tuning {
     fn default() -> Self {
         Tuning {
             contact_depth: 1e-7,
+            mount_contact: 100.0,
             slip: 1e-4,
             release: 5e-4,
             lift: 5e-4,

@@ -48,6 +48,14 @@ pub(super) fn against_errors(scene: &Scene) -> [f64; 2] {
     [lateral * FRAC_1_SQRT_2, axial]
 }
 
+/// Largest load (N) along and across the ply that a gripper may carry.
+pub(super) fn loads(scene: &Scene) -> [f64; 2] {
+    let most = |name| scene.limits.most(name);
+    let any = most(Name::GripperLoad).min(most(Name::GripperForce));
+    let slip = scene.layup.settings.pad.slip_force.unwrap_or(f64::INFINITY);
+    [any.min(most(Name::GripperPull)).min(slip / scene.limits.grip_safety), any]
+}
+
 impl<'a> Preload<'a> {
     /// The preload of a strategy.
     #[must_use]
@@ -56,11 +64,11 @@ impl<'a> Preload<'a> {
         let pad = &scene.layup.settings.pad;
         let gives = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| 1.0 / k);
         let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness].map(gives);
-        let load = scene.limits.most(Name::GripperLoad);
-        let pull = strategy.pull * TUNING.preload.pull * load;
+        let [lateral_load, axial_load] = loads(scene);
+        let pull = strategy.pull * TUNING.preload.pull * lateral_load;
         // a corner bears two lines of the border, and what its error adds to them
         let [needed, _] = against_errors(scene);
-        let spare = load / SQRT_2 - needed;
+        let spare = lateral_load / SQRT_2 - needed;
         let border =
             if pull > 0.0 { (spare / pull).clamp(1.0, TUNING.preload.border) } else { 1.0 };
         let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
@@ -72,7 +80,7 @@ impl<'a> Preload<'a> {
             pull,
             border,
             kept,
-            press: strategy.press * TUNING.preload.press * load,
+            press: strategy.press * TUNING.preload.press * axial_load,
         })
     }
 

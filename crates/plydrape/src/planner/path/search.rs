@@ -79,7 +79,11 @@ pub fn search(
     state: &SearchState,
 ) -> Result<Option<Decision>, Error> {
     let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
-    let ranking = Mutex::new(Ranking { mesh: Mesh::Coarse, bias: Bias::default() });
+    // what mounts make of errors a coarse mesh does not know
+    let layup = &scene.layup;
+    let own = layup.settings.model == Model::Sheet && layup.settings.pad.gives();
+    let mesh = if own { Mesh::Own } else { Mesh::Coarse };
+    let ranking = Mutex::new(Ranking { mesh, bias: Bias::default() });
     let shared = Shared { scene, fronts, state, ranking, fault: Mutex::new(None) };
     let mut search = Search {
         shared: &shared,
@@ -163,10 +167,11 @@ impl Search<'_, '_> {
 
     /// Evolution about the best of the first candidates.
     fn improve(&mut self, checkpoint: Option<&Checkpoint>) {
-        if self.shared.scene.layup.settings.model == Model::Catenaries {
+        let coarse = lock(&self.shared.ranking).clone();
+        let catenaries = self.shared.scene.layup.settings.model == Model::Catenaries;
+        if catenaries || coarse.mesh == Mesh::Own {
             return self.evolve(checkpoint, 0);
         }
-        let coarse = lock(&self.shared.ranking).clone();
         let is_accepted =
             |search: &Self| search.best.as_ref().is_some_and(|b| b.decided.judged.accepted());
         if !is_accepted(self) {
@@ -230,9 +235,10 @@ impl Search<'_, '_> {
             score
         };
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
-        let step = TUNING.search.steps[usize::from(fine)];
+        let on_mounts = shared.scene.layup.settings.pad.gives();
+        let step = TUNING.search.steps[usize::from(fine && !on_mounts)];
         let mut unit = start.to_unit().to_vec();
-        if !shared.scene.layup.settings.pad.gives() {
+        if !on_mounts {
             unit.truncate(unit.len() - MOUNTED);
         }
         let options = CMAESOptions::new(unit, step)
@@ -321,6 +327,9 @@ impl Search<'_, '_> {
                 self.candidates.push(candidate);
             }
             Ok(decision) => {
+                if let Some(cell) = decision.decided.refused_by {
+                    state.add_cell(cell);
+                }
                 let mut ranking = lock(&self.shared.ranking);
                 if let (Mesh::Coarse, Some(ranked)) = (ranking.mesh, candidate.drape) {
                     ranking.bias.learn(&ranked, &decision.decided.judged);

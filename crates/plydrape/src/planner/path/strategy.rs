@@ -1,9 +1,8 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
 use super::fronts::flattest;
-use super::preload::against_errors;
+use super::preload::{against_errors, loads};
 use super::tuning::TUNING;
-use crate::measure::Name;
 use crate::mold::Mold;
 use crate::scene::Scene;
 use rayon::prelude::*;
@@ -120,15 +119,21 @@ impl Strategy {
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
             let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
-            let flatter = |of: &Strategy| Strategy { slope: 0.8 * of.slope, ..*of };
+            let harder = |of: &Strategy| Strategy { press: (2.5 * of.press).min(1.0), ..*of };
+            // a ply that is stiff in shear does not stay flat where a steep front shears it
+            let flatter = |of: &Strategy| Strategy { slope: 0.5 * of.slope, ..*of };
             // what is stretched when it lands bridges a hollow
             let softer = |of: &Strategy| Strategy { pretension: 0.25 * of.pretension, ..*of };
-            let changed: [Vec<Strategy>; 3] = [
-                shapes.iter().map(softer).collect(),
-                shapes.iter().map(looser).collect(),
-                shapes.iter().map(flatter).collect(),
-            ];
-            return [shapes, changed.concat()].concat();
+            let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
+            let flattest: Vec<Strategy> = flat.iter().map(flatter).collect();
+            let loose: Vec<Strategy> = flat.iter().map(looser).collect();
+            let soft: Vec<Strategy> = flat.iter().map(softer).collect();
+            // of each kind all shapes, and the circle of every kind first
+            let hard: Vec<Strategy> = flat.iter().map(harder).collect();
+            let kinds = [flat, hard, shapes, loose, soft, flattest];
+            let first = kinds.iter().filter_map(|kind| kind.first().copied());
+            let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
+            return first.chain(others).collect();
         }
         let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
             return shapes;
@@ -176,10 +181,10 @@ impl Strategy {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
         let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
-        let load = scene.limits.most(Name::GripperLoad);
-        let [pull, press] = against_errors(scene).map(|force| force / load);
-        let pull = (pull / TUNING.preload.pull).clamp(0.4, 1.0);
-        let press = (press / TUNING.preload.press).clamp(0.5, 1.0);
+        let [pull, press] = against_errors(scene);
+        let [pull, press] = [pull / loads(scene)[0], press / loads(scene)[1]];
+        let pull = (pull / TUNING.preload.pull).clamp(0.6, 1.0);
+        let press = (press / TUNING.preload.press).clamp(0.3, 1.0);
         Strategy { curvature, slope, pretension, press, pull, ..self }
     }
 
