@@ -199,8 +199,8 @@ def result(result: Result, kind: str = "result", more: dict[str, str] | None = N
     """The ply at the end, and the limits that decide."""
     steps = len(result.times)
     rows = {"steps": str(steps), "model": result.model, **(more or {})}
-    if (stands := result.stands_mm) is not None:
-        rows["stands"] = f"errors of {stands:.2g} mm"
+    if (tolerance := result.tolerance) is not None:
+        rows["tolerates"] = f"errors of {tolerance['gripper_mm']:.2g} mm"
     if (sample := result.sample) is not None:
         rows["cells"] = (
             f"{sample.accepted} of {len(sample)} accepted, {sample.confidence:.0%} confidence"

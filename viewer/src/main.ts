@@ -16,7 +16,7 @@ import { showLimit, showLimits, showVerdict } from "./page/limits";
 import { asked, colourOf, pointerOf, worst } from "./page/opening";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
-import { showSample, showStands } from "./page/sample";
+import { showSample, showTolerance } from "./page/sample";
 import { showFacts } from "./page/scene_facts";
 import { Section } from "./page/section";
 import { State } from "./page/state";
@@ -35,7 +35,7 @@ async function open(): Promise<void> {
   const data = readPageData(byId("plydrape-data").textContent);
   byId("title").textContent = data.title;
   showVerdict(data);
-  showStands(data.stands);
+  showTolerance(data.tolerance);
   const motion = await Motion.unpack(data);
   const wanted = asked(data);
   const model = wanted.model ?? data.drape.model;

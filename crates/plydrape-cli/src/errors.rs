@@ -31,9 +31,9 @@ pub fn judge(
     if !eyes.judge_by(|watch| robustness.judge_sample(&mut result.summary, watch)) {
         return false;
     }
-    let template = "looking for the errors that it tolerates, {elapsed}";
+    let template = "looking for what it tolerates, {elapsed}";
     let eyes = Eyes::new(interrupt, bar(0, template, quiet), 0, quiet);
-    eyes.judge_by(|watch| robustness.judge_stands(&mut result.summary, watch))
+    eyes.judge_by(|watch| robustness.judge_tolerance(&mut result.summary, watch))
 }
 
 /// What is printed below a verdict after which somebody broke off; a drape that was broken off says so itself.
@@ -81,7 +81,7 @@ impl<'a> Eyes<'a> {
     fn line(&self) {
         let done = self.done.load(Ordering::Relaxed);
         self.lines.say(|| match self.most {
-            0 => "looking for the errors that it tolerates".into(),
+            0 => "looking for what it tolerates".into(),
             most => format!("draping {done} of at most {most} cells with errors"),
         });
     }

@@ -309,7 +309,7 @@ fn frame(grid: Grid) -> ResultFile {
             sheet: None,
             catenaries: None,
             sample: None,
-            stands: None,
+            tolerance: None,
             tool: None,
         },
     }

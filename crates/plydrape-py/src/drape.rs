@@ -141,7 +141,7 @@ pub fn judge_by(
 ) {
     let watch = outcome::Watch { stop: &watch.stop(), done };
     if robustness.judge_sample(&mut result.summary, &watch) {
-        robustness.judge_stands(&mut result.summary, &watch);
+        robustness.judge_tolerance(&mut result.summary, &watch);
     }
 }
 
@@ -153,8 +153,8 @@ pub fn judge_by(
 /// KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
 /// in the scene's `plan`.
 ///
-/// The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
-/// those of the sample and some forty drapes more, which `time` does not bound.
+/// The plan is then judged with errors: by a sample of cells where the scene has `errors`, and what it tolerates is found. That takes
+/// those of the sample and some fifty drapes more, which `time` does not bound.
 ///
 /// Parameters
 /// ----------

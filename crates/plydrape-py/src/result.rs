@@ -14,7 +14,6 @@ use crate::sample::Sample;
 use crate::sheet::Sheet;
 use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, CatenaryStep, Cell};
-use plydrape::errors::Term;
 use plydrape::layup::Model;
 use plydrape::outcome::{Status, Step};
 use plydrape::ply::Grid;
@@ -285,22 +284,13 @@ impl Result {
         self.0.summary.sample.clone().map(Sample)
     }
 
-    /// The largest common factor of all errors at which the motion is still accepted: a dict with factor, at_least (whether it
-    /// is the largest that was tried), position and tried (drapes a factor). None where it was not asked for.
+    /// What the motion tolerates: a dict with gripper_mm (standard deviation of each gripper's position along each axis),
+    /// gripper_at_least (whether it is the largest that was tried), shear and mass (the least and the largest multiple of the ply's shear
+    /// stiffness and mass; no shear where the model knows none) and tried (cells by which each error was tried). None where it was not
+    /// asked for.
     #[getter]
-    fn stands(&self) -> PyResult<Option<Json>> {
-        self.0.summary.stands.as_ref().map(Json::of).transpose()
-    }
-
-    /// The error of each gripper's position along each axis that the motion stands (mm), a standard deviation or a bound, as in
-    /// the errors of the scene; a standard deviation where it has none. None where it was not asked for, or where grippers have
-    /// no such error.
-    #[getter]
-    fn stands_mm(&self) -> Option<f64> {
-        let position = self.0.scene.errors.map(|errors| errors.gripper.position);
-        let stands = self.0.summary.stands.as_ref()?;
-        let other = position.is_some_and(Term::is_zero) && stands.position.is_zero();
-        (!other).then(|| 1e3 * stands.position.value())
+    fn tolerance(&self) -> PyResult<Option<Json>> {
+        self.0.summary.tolerance.as_ref().map(Json::of).transpose()
     }
 
     /// The outcome by the model that decides: the `summary` of result.json.

@@ -1,4 +1,4 @@
-"""Drapes with errors: the sample of a scene and what a motion stands, as Python sees them."""
+"""Drapes with errors: the sample of a scene and what a motion tolerates, as Python sees them."""
 
 from __future__ import annotations
 
@@ -75,21 +75,19 @@ def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again.sample.spread_mm, sample.spread_mm)
 
 
-def test_what_a_motion_stands_is_in_millimetres() -> None:
-    """The bound of the scene times the factor; none without errors, none of other errors."""
+def test_what_a_motion_tolerates_is_asked_where_a_scene_has_errors() -> None:
+    """Millimeters of the grippers and multiples of the ply; nothing without errors, or where they are left out."""
     result = plydrape.simulate(scene(errors=ERRORS, limits=LOOSE))
-    stands = result.stands
-    assert stands is not None and result.stands_mm is not None
-    if stands["tried"]:
-        np.testing.assert_allclose(result.stands_mm, 0.5 * stands["factor"], rtol=1e-12)
-    assert plydrape.simulate(scene(limits=LOOSE)).stands is None
+    tolerance = result.tolerance
+    assert tolerance is not None and tolerance["gripper_mm"] >= 0
+    if tolerance["tried"]:
+        for least, most in (tolerance[name] for name in ("shear", "mass") if name in tolerance):
+            assert 0.125 <= least <= 1 <= most <= 8
+    assert plydrape.simulate(scene(limits=LOOSE)).tolerance is None
     left_out = plydrape.simulate(scene(errors=ERRORS), without_errors=True)
-    assert left_out.sample is None and left_out.stands is None and left_out.stands_mm is None
-    frame = {"samples": 2, "frame": {"position": {"bound": "0.1 mm"}}}
-    other = plydrape.simulate(scene(errors=frame, limits=LOOSE))
-    assert other.stands is not None and other.stands_mm is None
+    assert left_out.sample is None and left_out.tolerance is None
     off = plydrape.simulate(scene(errors={**ERRORS, "samples": 0}))
-    assert off.sample is None and off.stands is None
+    assert off.sample is None and off.tolerance is None
 
 
 def test_a_plan_is_accepted_only_with_its_sample() -> None:
@@ -109,4 +107,4 @@ def test_a_plan_is_accepted_only_with_its_sample() -> None:
     assert without.accepted and without.result.sample is None
     plain = plydrape.plan(scene(**tables))
     assert plain.accepted and plain.result.sample is None
-    assert plain.result.stands_mm is not None and plain.result.stands_mm > 0
+    assert plain.result.tolerance is not None and plain.result.tolerance["gripper_mm"] > 0

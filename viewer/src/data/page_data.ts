@@ -245,8 +245,8 @@ export interface PageData {
   /** When pads grip, press and let go; empty where they hold the ply from first to last. */
   events: VacuumEvent[];
   sample: SampleData | null;
-  /** The largest errors that the motion stands, in words. */
-  stands: string | null;
+  /** What the motion tolerates, line by line. */
+  tolerance: string[];
   left_out: string[];
 }
 

@@ -16,11 +16,12 @@ const BARS = 18;
 /** More of them, and the limit is no border between two. */
 const MOST_BARS = 45;
 
-/** Says beside the verdict which errors the motion stands. */
-export function showStands(stands: string | null): void {
-  const line = byId("stands");
-  line.hidden = stands === null;
-  line.textContent = stands === null ? "" : stands.charAt(0).toUpperCase() + stands.slice(1);
+/** Says beside the verdict what the motion tolerates. */
+export function showTolerance(lines: string[]): void {
+  const place = byId("tolerance");
+  place.hidden = lines.length === 0;
+  const sentence = (line: string) => `${line.charAt(0).toUpperCase()}${line.slice(1)}.`;
+  place.textContent = lines.map(sentence).join(" ");
 }
 
 /** Fills the part of the page that is about the sample; without one there is none. */

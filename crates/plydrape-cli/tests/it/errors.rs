@@ -67,13 +67,13 @@ fn a_plan_without_errors_says_what_it_tolerates() {
 
     let printed_of = |flags: &[&str]| printed(&run("plan", home.path(), "", flags));
     let plain = printed_of(&["--json"]);
-    assert!(plain["stands"]["position"]["deviation"].as_f64().unwrap() > 0.0, "{plain}");
+    assert!(plain["tolerance"]["gripper_mm"].as_f64().unwrap() > 0.0, "{plain}");
     assert!(plain.get("sample").is_none());
     let hurried = printed_of(&["--json", "--without-errors"]);
-    assert!(hurried.get("stands").is_none() && hurried["accepted"] == true, "{hurried}");
+    assert!(hurried.get("tolerance").is_none() && hurried["accepted"] == true, "{hurried}");
     let drawn = errors(0, "0.01 mm");
     let none = printed(&run("plan", home.path(), &drawn, &["--json"]));
-    assert!(none.get("stands").is_none() && none.get("sample").is_none(), "{none}");
+    assert!(none.get("tolerance").is_none() && none.get("sample").is_none(), "{none}");
 }
 
 /// A plan that is not accepted tolerates nothing, and no cell is draped to find that.
@@ -110,7 +110,7 @@ fn a_sample_decides_with_the_errors_of_the_scene() {
         let file = std::fs::read(home.path().join("flat.plan/result.json")).unwrap();
         let written: Value = serde_json::from_slice(&file).unwrap();
         assert_eq!(&written["summary"]["sample"], sample);
-        assert_eq!(written["summary"]["stands"], found["stands"]);
+        assert_eq!(written["summary"]["tolerance"], found["tolerance"]);
 
         let shown = text(&run("plan", home.path(), &more, &[]).stdout);
         let said = match code {
@@ -133,11 +133,11 @@ fn a_sample_decides_with_the_errors_of_the_scene() {
 fn a_simulation_takes_the_errors_of_its_scene_alone() {
     let home = tempfile::tempdir().unwrap();
     let plain = printed(&run("simulate", home.path(), "", &["--json"]));
-    assert!(plain.get("sample").is_none() && plain.get("stands").is_none(), "{plain}");
+    assert!(plain.get("sample").is_none() && plain.get("tolerance").is_none(), "{plain}");
     let more = errors(4, "0.01 mm");
     let judged = printed(&run("simulate", home.path(), &more, &["--json"]));
     assert_eq!(judged["sample"]["cells"].as_array().map(Vec::len), Some(4), "{judged}");
-    assert!(judged["stands"]["factor"].is_number());
+    assert!(judged["tolerance"]["gripper_mm"].is_number());
     let left_out = printed(&run("simulate", home.path(), &more, &["--json", "--without-errors"]));
     assert!(left_out.get("sample").is_none());
 }

@@ -42,7 +42,7 @@ use limit::{Limit, limits};
 use mold::Mold;
 use plydrape::layup::Model;
 use plydrape::ply::GripperId;
-use sample::{Sample, sample, stands};
+use sample::{Sample, sample, tolerance};
 use serde::Serialize;
 use sheet::KeptStates;
 
@@ -90,7 +90,7 @@ struct Page<'a> {
     /// The verdict over a sample of cells, if there is one.
     sample: Option<Sample<'a>>,
     /// The largest errors that the motion stands, in words.
-    stands: Option<String>,
+    tolerance: Vec<String>,
     left_out: Vec<String>,
 }
 
@@ -184,7 +184,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
         cell: cell(scene),
         events: events(result),
         sample,
-        stands: stands(result),
+        tolerance: tolerance(result),
     })
 }
 

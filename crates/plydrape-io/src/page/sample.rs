@@ -1,9 +1,9 @@
-//! What the page shows of the verdict over a sample of cells, and of the largest errors that a motion stands.
+//! What the page shows of the verdict over a sample of cells, and of what a motion tolerates.
 
 use super::limit::{Limit, closest_first};
 use crate::result::ResultFile;
 use crate::result::sheet::SheetMesh;
-use crate::text::table::{sample_in_words, share, stands_in_words};
+use crate::text::table::{sample_in_words, share, tolerance_in_words};
 use plydrape::geometry::distance;
 use plydrape::measure::Name;
 use plydrape::outcome::CellVerdict;
@@ -66,9 +66,10 @@ fn nearest(mesh: &SheetMesh, [u, v]: [f64; 2]) -> Option<usize> {
     places.min_by(|a, b| away(a.1).total_cmp(&away(b.1))).map(|(node, _)| node)
 }
 
-/// The largest errors that the motion stands, in words; none where it was not asked for.
-pub(super) fn stands(result: &ResultFile) -> Option<String> {
-    result.summary.stands.as_ref().map(|stands| stands_in_words(result, stands))
+/// What the motion tolerates, in words, line by line; none where it was not asked for.
+pub(super) fn tolerance(result: &ResultFile) -> Vec<String> {
+    let tolerance = result.summary.tolerance.as_ref();
+    tolerance.map_or_else(Vec::new, |tolerance| tolerance_in_words(result, tolerance))
 }
 
 #[cfg(test)]

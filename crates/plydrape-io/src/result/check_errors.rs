@@ -2,13 +2,13 @@
 
 use super::ResultFile;
 use plydrape::errors::Errors;
-use plydrape::outcome::{SampleVerdict, Stands};
+use plydrape::outcome::{SampleVerdict, Tolerance};
 use plydrape::scene::World;
 
 /// Confidences of one count by two machines differ by less.
 const ROUNDING: f64 = 1e-9;
 
-/// What is impossible in the world, in the sample and in the errors that a result stands.
+/// What is impossible in the world and the sample of a result and in what it tolerates.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let summary = &result.summary;
     if summary.world != World::of(&result.scene.settings.pad, summary.sample.is_some()) {
@@ -16,7 +16,7 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);
     let sample = summary.sample.as_ref().and_then(|sample| of_sample(sample, nodes, result));
-    sample.or_else(|| summary.stands.as_ref().and_then(of_stands))
+    sample.or_else(|| summary.tolerance.as_ref().and_then(of_tolerance))
 }
 
 fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
@@ -59,6 +59,15 @@ fn is_share(errors: &Errors) -> bool {
     errors.share > 0.0 && errors.share <= 1.0
 }
 
-fn of_stands(stands: &Stands) -> Option<String> {
-    (stands.factor < 0.0).then(|| format!("it tolerates {} times its errors", stands.factor))
+fn of_tolerance(tolerance: &Tolerance) -> Option<String> {
+    let Tolerance { gripper_mm, shear, mass, .. } = tolerance;
+    if *gripper_mm < 0.0 {
+        return Some(format!("it tolerates errors of {gripper_mm} mm"));
+    }
+    let ranges = [("mass", Some(mass)), ("shear stiffness", shear.as_ref())];
+    ranges.into_iter().find_map(|(name, range)| {
+        let [least, most] = range?;
+        let is_sound = *least > 0.0 && *least <= 1.0 && *most >= 1.0;
+        (!is_sound).then(|| format!("it tolerates {least} to {most} times its {name}"))
+    })
 }

@@ -3,7 +3,7 @@ use crate::sample;
 use plydrape::layup::Friction;
 use plydrape::material::TensionLaw;
 use plydrape::measure::{Name, Verdict};
-use plydrape::outcome::{CatenaryReport, CellVerdict, Stands};
+use plydrape::outcome::{CatenaryReport, CellVerdict, Tolerance};
 use plydrape::scene::World;
 
 fn read(text: &str) -> Result<ResultFile, Error> {
@@ -268,16 +268,16 @@ fn the_sample_of_a_result_fits_its_scene() {
         let mut result = sample::sheet(3, 2, 3);
         let verdict = sample::sample_verdict();
         result.scene.errors = Some(verdict.errors);
-        let position = verdict.errors.gripper.position.scaled(0.5);
-        let stands = Stands { factor: 0.5, at_least: false, position, tried: 4 };
-        (result.summary.sample, result.summary.stands) = (Some(verdict), Some(stands));
+        let tolerance =
+            Tolerance { gripper_mm: 0.5, shear: Some([0.2, 8.0]), tried: 4, ..Tolerance::NOTHING };
+        (result.summary.sample, result.summary.tolerance) = (Some(verdict), Some(tolerance));
         result.summary.world = World::Errors;
         change(&mut result);
         result
     };
     let whole = changed(|_| {});
     let found = read(&ResultFile::text(&whole).unwrap()).unwrap().summary;
-    assert_eq!((found.sample, found.stands), (whole.summary.sample, whole.summary.stands));
+    assert_eq!((found.sample, found.tolerance), (whole.summary.sample, whole.summary.tolerance));
 
     // three of four cells must keep the limits: it ends where they do, or where two have failed
     for (kept, ok) in [(&[true, true, true][..], true), (&[true, false, false], false)] {
@@ -286,7 +286,7 @@ fn the_sample_of_a_result_fits_its_scene() {
         assert!(read(&ResultFile::text(&ended).unwrap()).is_ok());
     }
 
-    let spoilt: [fn(&mut ResultFile); 12] = [
+    let spoilt: [fn(&mut ResultFile); 14] = [
         |r| r.summary.world = World::Ideal,
         |r| r.scene.errors = None,
         |r| r.summary.sample.as_mut().unwrap().ok = true,
@@ -298,7 +298,9 @@ fn the_sample_of_a_result_fits_its_scene() {
         |r| with_cells(r, &[true, false, true, true, true], true),
         |r| with_cells(r, &[], false),
         |r| r.summary.sample.as_mut().unwrap().spread_mm.truncate(8),
-        |r| r.summary.stands.as_mut().unwrap().factor = -0.5,
+        |r| r.summary.tolerance.as_mut().unwrap().gripper_mm = -0.5,
+        |r| r.summary.tolerance.as_mut().unwrap().mass = [1.0, 0.5],
+        |r| r.summary.tolerance.as_mut().unwrap().shear = Some([0.0, 2.0]),
         |r| {
             let limits = &mut r.summary.sample.as_mut().unwrap().limits;
             limits.extend(r.summary.limits.first().cloned());

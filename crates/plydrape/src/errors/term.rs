@@ -47,12 +47,13 @@ impl Term {
     }
 
     /// An error that hardly one of twenty exceeds to either side, upwards with a `sign` of 1 and downwards with −1: two standard
-    /// deviations, or the bound.
+    /// deviations, or the bound; of a factor the share of the nominal value that the true one then has more.
     #[must_use]
     pub fn extreme(self, sign: f64) -> f64 {
         match self {
             Term::Deviation(deviation) => 2.0 * sign * deviation,
             Term::Bound(bound) => sign * bound,
+            Term::Factor(most) => most.powf(sign) - 1.0,
         }
     }
 

@@ -8,7 +8,8 @@
 //! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
 //! 3. `sensitivity`: whether it depends on what is too small to know;
 //! 4. `forecast`: how long drapes of the sheet will take;
-//! 5. `sample`, `robustness`: the verdict over cells with the errors of the scene.
+//! 5. `sample`, `robustness`: the verdict over cells with the errors of the scene;
+//! 6. `tolerance`: how far grippers and ply may be off.
 
 mod check;
 mod drape;
@@ -26,6 +27,9 @@ mod step;
 mod summary;
 #[cfg(test)]
 mod summary_tests;
+mod tolerance;
+#[cfg(test)]
+mod tolerance_tests;
 
 pub(crate) use check::check_catenaries;
 pub use check::check_model;
@@ -33,12 +37,13 @@ pub(crate) use drape::drape_catenaries;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
 pub use forecast::{Effort, Forecast, Pace};
 pub use robustness::Robustness;
-pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
+pub use sample::{CellVerdict, Highest, SampleVerdict, Watch};
 pub use sensitivity::minute_changes;
 pub use step::{Gripper, Step, attitudes};
 #[cfg(feature = "serde")]
 pub use summary::Unjudged;
 pub use summary::{CatenaryReport, Status, Summary};
+pub use tolerance::Tolerance;
 
 use crate::Error;
 use crate::layup::Model;

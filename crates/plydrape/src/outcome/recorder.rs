@@ -106,7 +106,7 @@ impl<'a> Recorder<'a> {
             sheet: None,
             catenaries: None,
             sample: None,
-            stands: None,
+            tolerance: None,
             tool: None,
         }
     }

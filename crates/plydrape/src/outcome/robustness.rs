@@ -1,9 +1,10 @@
-//! How a finished drape is judged with errors: the sample of its scene, and the errors that its motion stands.
+//! How a finished drape is judged with errors: the sample of its scene, and what its motion
+//! tolerates.
 //!
-//! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it stands is said
+//! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it tolerates is said
 //! for information. Both are complete drapes along the motion that was draped, by the model that decides.
 
-use super::{Stands, Status, Summary, Watch};
+use super::{Status, Summary, Tolerance, Watch};
 use crate::errors::Errors;
 use crate::layup::Stepping;
 use crate::motion::Motion;
@@ -17,8 +18,8 @@ pub struct Robustness {
     scene: Scene,
     /// The errors of the sample; none where the scene has none.
     sample: Option<Errors>,
-    /// The errors of which a factor is looked for; none where nobody asks.
-    stands: Option<Errors>,
+    /// Whether somebody asks what the motion tolerates.
+    tolerance: bool,
 }
 
 impl Robustness {
@@ -26,11 +27,11 @@ impl Robustness {
     #[must_use]
     pub fn of_simulated(scene: &Scene) -> Self {
         let errors = scene.errors.filter(Errors::is_drawn);
-        Robustness { scene: scene.clone(), sample: errors, stands: errors }
+        Robustness { scene: scene.clone(), sample: errors, tolerance: errors.is_some() }
     }
 
-    /// Of a drape along a planned motion, with steps cut as planners do. What it stands is said of [`Errors::of_grippers`]
-    /// where the scene has no errors; not where it asks for no samples.
+    /// Of a drape along a planned motion, with steps cut as planners do. What it tolerates is said, but not where the scene asks for no
+    /// samples.
     #[must_use]
     pub fn of_planned(scene: &Scene, motion: Motion) -> Self {
         let mut planned = scene.clone();
@@ -38,8 +39,7 @@ impl Robustness {
         planned.layup.settings.contact.stepping = Stepping::Cut;
         let asked = scene.errors.is_none_or(|errors| errors.samples > 0);
         let sample = scene.errors.filter(Errors::is_drawn);
-        let stands = asked.then(|| sample.unwrap_or_else(|| Errors::of_grippers(scene)));
-        Robustness { scene: planned, sample, stands }
+        Robustness { scene: planned, sample, tolerance: asked }
     }
 
     /// The errors of the sample; none where the scene has none.
@@ -65,14 +65,15 @@ impl Robustness {
         Scene { layup: at_these_times(&self.scene.layup, &summary.events), ..self.scene.clone() }
     }
 
-    /// Finds the errors that the motion stands: none at all if it is not accepted without errors. Returns whether that was
-    /// done to its end.
-    pub fn judge_stands(&self, summary: &mut Summary, watch: &Watch) -> bool {
-        let Some(errors) = &self.stands else { return true };
-        summary.stands = match summary.accepted_without_errors() {
-            true => errors.stands(&self.scene_of(summary), watch),
-            false => Some(Stands::nothing(errors)),
+    /// Finds what the motion tolerates: nothing if it is not accepted without errors. Returns whether that was done to its end.
+    pub fn judge_tolerance(&self, summary: &mut Summary, watch: &Watch) -> bool {
+        if !self.tolerance {
+            return true;
+        }
+        summary.tolerance = match summary.accepted_without_errors() {
+            true => Tolerance::of(&self.scene_of(summary), watch),
+            false => Some(Tolerance::NOTHING),
         };
-        summary.stands.is_some()
+        summary.tolerance.is_some()
     }
 }

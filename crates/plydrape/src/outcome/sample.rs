@@ -2,11 +2,10 @@
 
 use super::Judged;
 use super::drape::judge_seen;
-use crate::errors::{Draw, Errors, Term};
+use crate::errors::{Draw, Errors};
 use crate::measure::Verdict;
-use crate::ply::{Neighbours, Ply};
+use crate::ply::Neighbours;
 use crate::scene::Scene;
-use crate::sheet;
 use crate::state::Site;
 use rayon::prelude::*;
 use statrs::distribution::{Binomial, DiscreteCDF};
@@ -17,12 +16,6 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 /// A sample is accepted before its last cell if none has failed and the share of all cells keeps every limit with this confidence.
 const CONFIDENCE: f64 = 0.95;
 
-/// Factors of the errors that are tried to each one of twice the size: what is found is known within 9 %.
-const PER_OCTAVE: i32 = 8;
-/// The least factor that is tried, and the most, in octaves: 1/64 and 16.
-const OCTAVES: [i32; 2] = [-6, 4];
-/// Drapes at most by which a factor is tried.
-const TRIED: usize = 16;
 /// What a measure that is no number has for a ratio, so that a file can hold it.
 const LARGEST_RATIO: f64 = 1e6;
 
@@ -85,22 +78,6 @@ pub struct Highest {
     pub gripper: String,
 }
 
-/// The largest errors that a plan stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Stands {
-    /// The largest common factor of all errors at which the plan is still accepted, found within 9 %; 0 if it is not at the
-    /// least one that was tried.
-    pub factor: f64,
-    /// Whether it is the largest one that was tried, so that the plan may stand more.
-    pub at_least: bool,
-    /// The error of each gripper's position along each axis at this factor.
-    pub position: Term,
-    /// Drapes by which each factor was tried; 0 where the plan is not accepted without errors, so that none was.
-    pub tried: usize,
-}
-
 /// The drapes of a sample so far.
 #[derive(Default)]
 struct Row {
@@ -113,8 +90,8 @@ struct Row {
 }
 
 /// One drape of a sample.
-struct Drape {
-    judged: Judged,
+pub(super) struct Drape {
+    pub judged: Judged,
     /// Height of each node at the end (m); beyond the boundary of the mold 0. Empty of catenaries.
     heights: Vec<f64>,
     places: Vec<[f64; 2]>,
@@ -127,21 +104,6 @@ impl Errors {
         // a share that is a whole number of cells but for rounding is that number
         ((self.share * samples as f64 * (1.0 - 1e-12)).ceil() as usize)
             .clamp(usize::from(samples > 0), samples)
-    }
-
-    /// Those of which "a plan stands so much" is said where a scene has none: of each gripper's position, a thousandth of the
-    /// grippers' pitch along each axis.
-    #[must_use]
-    pub fn of_grippers(scene: &Scene) -> Errors {
-        Errors::of_array(&scene.layup.ply)
-    }
-
-    /// The same of the grippers that hold a ply.
-    #[must_use]
-    pub fn of_array(ply: &Ply) -> Errors {
-        let mut errors = Errors::default();
-        errors.gripper.position = Term::Deviation(1e-3 * sheet::pitch(ply));
-        errors
     }
 
     /// Whether a sample is accepted, if that is decided when `kept` of its first `cells` cells keep every limit.
@@ -210,51 +172,10 @@ impl Errors {
         })
     }
 
-    /// The largest common factor of all errors at which a scene along its motion is still accepted; none if it was stopped.
-    ///
-    /// Only the cells that decide are followed to the factor from which on they fail: all others are draped once, with the errors
-    /// that those before them still stand.
-    #[must_use]
-    pub fn stands(&self, scene: &Scene, watch: &Watch) -> Option<Stands> {
-        let tried = self.samples.clamp(1, TRIED);
-        // so many of the cells may fail, so the next worse one decides
-        let spare = tried - self.needed(tried);
-        let mut worst: Vec<i32> = Vec::new();
-        for pair in (0..tried).collect::<Vec<_>>().chunks(2) {
-            let most = worst.get(spare).copied();
-            let one = |sample: &usize| {
-                let keeps = |place: i32| {
-                    let drape = draped(&self.cell(scene, *sample, factor(place)), watch.stop)?;
-                    Some(drape.judged.accepted())
-                };
-                largest(most, keeps)
-            };
-            let found: Option<Vec<i32>> = pair.par_iter().map(one).collect();
-            worst.extend(found?);
-            worst.sort_unstable();
-        }
-        let place = worst[spare];
-        let factor = if place < PLACES[0] { 0.0 } else { factor(place) };
-        let position = self.gripper.position.scaled(factor);
-        Some(Stands { factor, at_least: place == PLACES[1], position, tried })
-    }
-
     /// The scene of a cell with all errors larger by a factor.
-    fn cell(&self, scene: &Scene, sample: usize, factor: f64) -> Scene {
+    pub(super) fn cell(&self, scene: &Scene, sample: usize, factor: f64) -> Scene {
         let draw: Draw = self.draw(sample, scene.layup.ply.grippers());
         Scene { layup: draw.scaled(factor).apply(&scene.layup), errors: None, ..scene.clone() }
-    }
-}
-
-impl Stands {
-    /// The least factor that is tried.
-    pub const LEAST: f64 = 1.0 / (1u64 << -OCTAVES[0]) as f64;
-
-    /// Of a plan that is not accepted without errors.
-    #[must_use]
-    pub fn nothing(errors: &Errors) -> Self {
-        let position = errors.gripper.position.scaled(0.0);
-        Stands { factor: 0.0, at_least: false, position, tried: 0 }
     }
 }
 
@@ -275,48 +196,8 @@ impl SampleVerdict {
     }
 }
 
-/// The first and the last place among the factors that are tried.
-const PLACES: [i32; 2] = [OCTAVES[0] * PER_OCTAVE, OCTAVES[1] * PER_OCTAVE];
-
-/// The factor of a place.
-fn factor(place: i32) -> f64 {
-    (f64::from(place) / f64::from(PER_OCTAVE)).exp2()
-}
-
-/// The last place at which a cell keeps its limits, one before the first if it keeps them nowhere; no search beyond `most`, if
-/// given. None if it was stopped.
-fn largest(most: Option<i32>, keeps: impl Fn(i32) -> Option<bool>) -> Option<i32> {
-    let [first, last] = PLACES;
-    let start = most.unwrap_or(0);
-    if start < first {
-        return Some(start);
-    }
-    let (mut low, mut high) = (first - 1, last + 1);
-    if keeps(start)? {
-        low = start;
-        // as far as it need be known
-        high = most.map_or(high, |most| most + 1);
-    } else {
-        high = start;
-    }
-    // octave by octave, then by halves
-    while high - low > 1 {
-        let next = match (low < first, high > last) {
-            (true, _) => (high - PER_OCTAVE).max(first),
-            (_, true) => (low + PER_OCTAVE).min(last),
-            _ => i32::midpoint(low, high),
-        };
-        if keeps(next)? {
-            low = next;
-        } else {
-            high = next;
-        }
-    }
-    Some(low)
-}
-
 /// A drape by the model that decides; `None` if it was stopped.
-fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
+pub(super) fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
     if stop() {
         return None;
     }

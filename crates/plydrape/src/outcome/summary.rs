@@ -1,6 +1,6 @@
 //! How a drape came out: worst values, limits, and the verdict that follows from them.
 
-use super::{SampleVerdict, Stands};
+use super::{SampleVerdict, Tolerance};
 use crate::draping::record::CatenaryId;
 use crate::layup::Model;
 use crate::measure::{Name, Numbers, Verdict};
@@ -73,9 +73,9 @@ pub struct Summary {
     /// The verdict over a sample of cells with the errors of the scene; `None` if the scene has none.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub sample: Option<SampleVerdict>,
-    /// The largest errors that the motion tolerates; `None` where it was not asked for.
+    /// What the motion tolerates; `None` where it was not asked for.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub stands: Option<Stands>,
+    pub tolerance: Option<Tolerance>,
     /// What the motion takes of the tool; `None` where each gripper moves by itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub tool: Option<ToolRecord>,
@@ -124,7 +124,7 @@ impl Summary {
     #[must_use]
     pub fn unjudged(self) -> Self {
         let world = World::default();
-        Summary { world, limits: Vec::new(), sample: None, stands: None, tool: None, ..self }
+        Summary { world, limits: Vec::new(), sample: None, tolerance: None, tool: None, ..self }
     }
 
     /// Whether somebody broke the drape off.

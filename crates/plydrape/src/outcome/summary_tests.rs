@@ -35,7 +35,7 @@ fn summary(height: f64) -> Summary {
         sheet: None,
         catenaries: None,
         sample: None,
-        stands: None,
+        tolerance: None,
         tool: None,
     }
 }

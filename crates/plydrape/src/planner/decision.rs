@@ -229,13 +229,14 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
         let mut cells = state.cells();
         let others: Vec<usize> = (0..TUNING.proving).filter(|n| !cells.contains(n)).collect();
         cells.extend(others);
-        (judged, refused_by) = evaluation::with_errors(&layup, scene.errors, judged, &cells, |cell| {
-            let stop = || state.report().is_break();
-            let judged = outcome::judge(&cell, &scene.limits, usize::MAX, &stop);
-            // the errors may have left nothing that could be draped
-            let judged = judged.unwrap_or_else(|_| Judged::nothing());
-            (!judged.interrupted).then_some(judged)
-        });
+        (judged, refused_by) =
+            evaluation::with_errors(&layup, scene.errors, judged, &cells, |cell| {
+                let stop = || state.report().is_break();
+                let judged = outcome::judge(&cell, &scene.limits, usize::MAX, &stop);
+                // the errors may have left nothing that could be draped
+                let judged = judged.unwrap_or_else(|_| Judged::nothing());
+                (!judged.interrupted).then_some(judged)
+            });
         score = evaluation::score(&judged);
     }
     Ok(Decided { drape, attitudes, judged, score, refused_by })

@@ -5,7 +5,7 @@
 
 use crate::Error;
 use crate::clearance::Nearest;
-use crate::errors::Errors;
+use crate::errors::{Errors, RelativeError};
 use crate::layup::{Layup, Model, SheetTime, Stepping};
 use crate::measure::{Limits, Name, Unit, Verdict, Worst, Worth, clearance_found};
 use crate::motion::{Attitudes, Motion, TimedMotion};
@@ -114,8 +114,9 @@ pub fn planned_cell(errors: Errors, sample: usize, layup: &Layup) -> Layup {
     let planned = Errors { seed: !errors.seed, ..errors };
     let mut draw = planned.draw(sample, layup.ply.grippers());
     if let Some(sign) = [1.0, -1.0].get(sample) {
-        draw.material.shear = errors.material.shear.extreme(*sign);
-        draw.material.areal_mass = errors.material.areal_mass.extreme(-sign);
+        draw.material.shear = RelativeError::Share(errors.material.shear.extreme(*sign));
+        let mass = errors.material.areal_mass.extreme(-sign);
+        draw.material.areal_mass = RelativeError::Share(mass);
     }
     draw.apply(layup)
 }

@@ -1,10 +1,12 @@
 //! A plan is made with other cells than those that judge it.
 
-use super::evaluation::{planned_errors, with_errors};
+use super::evaluation::{planned_cell, with_errors};
 use super::tuning::TUNING;
 use crate::errors::tests::{budget, layup};
-use crate::errors::{Draw, Errors};
+use crate::errors::{Errors, Term};
 use crate::layup::Layup;
+use crate::material::Section;
+use crate::measure::{Name, Verdict, Worst};
 use crate::motion::Motion;
 use crate::outcome::Judged;
 use proptest::prelude::*;
@@ -13,48 +15,75 @@ use std::sync::Mutex;
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(16))]
 
-    /// Whatever the seed of the sample, none of its cells is one of the few that the search looks at, nor is an error of one the same.
+    /// Whatever the seed of the sample, none of its cells is one of those that the search looks at.
     #[test]
     fn no_cell_of_the_search_is_one_of_the_sample(seed in any::<u64>()) {
-        let errors = Errors { seed, ..budget() };
-        let draws = |errors: Errors, count: usize| -> Vec<Draw> {
-            (0..count).map(|n| errors.draw(n, 4)).collect()
-        };
-        let planned = draws(planned_errors(errors), TUNING.cells);
-        for cell in draws(errors, errors.samples) {
-            for own in &planned {
-                prop_assert_ne!(own.frame, cell.frame);
-                prop_assert_ne!(&own.grippers, &cell.grippers);
-                prop_assert_ne!(own.material, cell.material);
-            }
+        let (layup, errors) = (layup(2, 2), Errors { seed, ..budget() });
+        let planned = planned(errors, &layup);
+        for sample in 0..errors.samples {
+            prop_assert!(!planned.contains(&errors.draw(sample, 4).apply(&layup).motion));
         }
     }
 }
 
-/// The cells that are draped for a candidate are those of the search, and none of the sample that judges the plan.
-#[test]
-fn a_candidate_is_ranked_by_the_cells_of_the_search() {
-    let (layup, errors) = (layup(2, 2), budget());
-    let judged = || Judged {
-        limits: Vec::new(),
+/// The motions of the cells that prove a plan.
+fn planned(errors: Errors, layup: &Layup) -> Vec<Motion> {
+    (0..TUNING.proving).map(|n| planned_cell(errors, n, layup).motion).collect()
+}
+
+/// A drape that keeps every limit, and one that does not.
+fn judged(ok: bool) -> Judged {
+    let worst = Worst { value: if ok { 0.1 } else { 0.9 }, at: String::new(), place: None };
+    Judged {
+        limits: vec![Verdict::of(Name::Height, worst, 0.5, Some(1))],
         complete: true,
         missing: 0.0,
         unsolved: 0,
         interrupted: false,
         effort: None,
-    };
+    }
+}
+
+/// The cells that are draped for a candidate are those that are asked for, and none of the sample that judges the plan. The first that
+/// breaks a limit is told, its height is that of the whole, and none is draped that is in no batch with it.
+#[test]
+fn a_candidate_is_ranked_by_the_cells_of_the_search() {
+    let (layup, errors) = (layup(2, 2), budget());
+    let motions = planned(errors, &layup);
     let seen: Mutex<Vec<Motion>> = Mutex::new(Vec::new());
-    with_errors(&layup, Some(errors), judged(), |cell: Layup| {
-        seen.lock().unwrap().push(cell.motion);
-        Some(judged())
-    });
-    let seen = seen.into_inner().unwrap();
-    let motions = |errors: Errors, count: usize| -> Vec<Motion> {
-        (0..count).map(|n| errors.draw(n, 4).apply(&layup).motion).collect()
+    let cells: Vec<usize> = (0..TUNING.proving).collect();
+    let drape = |bad: Option<usize>| {
+        seen.lock().unwrap().clear();
+        let found = with_errors(&layup, Some(errors), judged(true), &cells, |cell: Layup| {
+            let ok = bad.is_none_or(|bad| cell.motion != motions[bad]);
+            seen.lock().unwrap().push(cell.motion);
+            Some(judged(ok))
+        });
+        (found, seen.lock().unwrap().clone())
     };
-    let planned = motions(planned_errors(errors), TUNING.cells);
-    assert_eq!(seen.len(), planned.len());
-    assert!(planned.iter().all(|motion| seen.contains(motion)));
-    let sample = motions(errors, errors.samples);
-    assert!(sample.iter().all(|motion| !seen.contains(motion)));
+    let ((all, refused), draped) = drape(None);
+    assert!(all.accepted() && refused.is_none());
+    assert_eq!(draped.len(), motions.len());
+    assert!(motions.iter().all(|motion| draped.contains(motion)));
+    let ((some, refused), draped) = drape(Some(TUNING.batch));
+    assert!(!some.accepted() && some.limits[0].value == 0.9);
+    assert_eq!((refused, draped.len()), (Some(TUNING.batch), 2 * TUNING.batch));
+}
+
+/// The first two cells are the plies that hardly one of twenty passes: stiff in shear and light, limp and heavy.
+#[test]
+fn the_first_cells_of_a_search_are_the_plies_at_the_ends() {
+    let mut errors = Errors::default();
+    errors.material.areal_mass = Term::Deviation(0.05);
+    let layup = layup(2, 2);
+    let weight = |n: usize| planned_cell(errors, n, &layup).ply.material.section;
+    let nominal = |share: f64| match layup.ply.material.section {
+        Section::Line { mass, flexural_rigidity } => {
+            Section::Line { mass: share * mass, flexural_rigidity }
+        }
+        Section::Areal { mass, warp_rigidity, weft_rigidity } => {
+            Section::Areal { mass: share * mass, warp_rigidity, weft_rigidity }
+        }
+    };
+    assert_eq!([weight(0), weight(1)], [nominal(0.9), nominal(1.1)]);
 }

@@ -99,7 +99,10 @@ impl<'a> Energies<'a> {
             stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), system),
             shear: Shear::new(&fabric.cells, sheet.shear.clone(), system),
             bending: Bending::new(&fabric.bends, sheet.rigidity, &sheet.moment, system),
-            contact: sheet.mold.as_ref().map(|mold| Contact::new(sheet, mold, tuning, pads, system)),
+            contact: sheet
+                .mold
+                .as_ref()
+                .map(|mold| Contact::new(sheet, mold, tuning, pads, system)),
             mounts: Mounts::new(sheet, tuning, pads, system),
         }
     }

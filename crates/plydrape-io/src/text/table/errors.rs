@@ -1,10 +1,10 @@
-//! What drapes with errors say beside a verdict: the sample, its highest place, the errors that a plan tolerates.
+//! What drapes with errors say beside a verdict: the sample, its highest place, what a motion tolerates.
 
-use super::{WIDTH, limiting, significant, unit, verdict_text};
+use super::{WIDTH, limiting, significant, verdict_text};
 use crate::result::ResultFile;
 use crate::store::shown;
-use plydrape::errors::{Errors, Term};
-use plydrape::outcome::{SampleVerdict, Stands};
+use plydrape::outcome::{SampleVerdict, Tolerance};
+use plydrape::sheet::pitch;
 
 /// The lines below a verdict; empty where nothing was draped with errors and nothing was to be.
 pub(super) fn errors(result: &ResultFile) -> String {
@@ -18,8 +18,8 @@ pub(super) fn errors(result: &ResultFile) -> String {
         }
         (None, _) => {}
     }
-    if let Some(stands) = &summary.stands {
-        lines.push(stands_in_words(result, stands));
+    if let Some(tolerance) = &summary.tolerance {
+        lines.extend(tolerance_in_words(result, tolerance));
     }
     lines.iter().map(|line| shown::excerpt(line, WIDTH) + "\n").collect()
 }
@@ -64,39 +64,38 @@ pub(crate) fn share(sample: &SampleVerdict) -> String {
     format!("{} %", significant(100.0 * sample.errors.share))
 }
 
-/// What a plan tolerates, as in `tolerates errors of 0.41 mm (standard deviation of each gripper's position along each axis)`.
+/// What a motion tolerates, in lines: the errors of its grippers, and multiples of the shear stiffness and the mass of its ply.
 #[must_use]
-pub(crate) fn stands_in_words(result: &ResultFile, stands: &Stands) -> String {
-    if stands.tried == 0 {
-        return "tolerates no errors: it is not accepted without any".into();
+pub(crate) fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> Vec<String> {
+    if tolerance.tried == 0 {
+        return vec!["tolerates no errors: it is not accepted without any".into()];
     }
-    let given = result.scene.errors.filter(Errors::is_drawn);
-    let errors = given.unwrap_or_else(|| Errors::of_array(&result.scene.ply));
-    let (times, most) = match stands.factor {
-        0.0 => (Stands::LEAST, "less than "),
-        factor if stands.at_least => (factor, "at least "),
-        factor => (factor, ""),
+    let least = Tolerance::least_mm(pitch(&result.scene.ply));
+    let (millimetres, most) = match tolerance.gripper_mm {
+        0.0 => (least, "less than "),
+        mm if tolerance.gripper_at_least => (mm, "at least "),
+        mm => (mm, ""),
     };
-    let factor = rounded(times);
-    if errors.gripper.position.is_zero() {
-        return format!("tolerates {most}{factor} times the errors of the scene");
-    }
-    let (sign, law) = match errors.gripper.position {
-        Term::Deviation(_) => ("", "standard deviation of each gripper's position along each axis"),
-        Term::Bound(_) | Term::Factor(_) => ("± ", "of each gripper's position along each axis"),
+    let mut lines = vec![format!(
+        "tolerates errors of {most}{} mm (standard deviation of each gripper's position along each axis)",
+        rounded(millimetres)
+    )];
+    let multiples = |[least, most]: [f64; 2]| {
+        let at_most = if 1.0 / least >= Tolerance::MOST { "at most " } else { "" };
+        let at_least = if most >= Tolerance::MOST { "at least " } else { "" };
+        format!("{at_most}{} to {at_least}{}", rounded(least), rounded(most))
     };
-    let millimetres = rounded(1e3 * errors.gripper.position.scaled(times).value());
-    let mut alone = errors;
-    alone.gripper.position = Term::NONE;
-    match alone.is_zero() {
-        true => format!("tolerates errors of {most}{sign}{millimetres}{} ({law})", unit("mm")),
-        false => format!(
-            "tolerates {most}{factor} times the errors of the scene: {sign}{millimetres} mm ({law})"
-        ),
-    }
+    let shear =
+        tolerance.shear.map(|range| format!("{} times its shear stiffness, ", multiples(range)));
+    lines.push(format!(
+        "tolerates a ply of {}{} times its mass",
+        shear.unwrap_or_default(),
+        multiples(tolerance.mass)
+    ));
+    lines
 }
 
-/// Two digits: a factor is known within 9 %.
+/// Two digits: an error is known within 9 %.
 fn rounded(value: f64) -> String {
     significant(format!("{value:.1e}").parse().unwrap_or(value))
 }
@@ -109,35 +108,37 @@ mod tests {
     use plydrape::measure::{Name, Verdict};
     use plydrape::outcome::Status;
 
-    fn said(result: &ResultFile, factor: f64, at_least: bool) -> String {
-        let position = Term::NONE;
-        stands_in_words(result, &Stands { factor, at_least, position, tried: 16 })
-    }
-
-    /// The fabric between the grippers of the sample is 100 mm long: without errors of the scene a factor is one of 0.1 mm.
+    /// What was found at an end of what was tried is said to be no more than that; catenaries know no shear stiffness.
     #[test]
-    fn what_a_plan_tolerates_is_said_of_its_own_errors() {
-        let mut result = sample::draped(4, 2, 3);
+    fn what_a_motion_tolerates_is_said_with_the_ends_of_what_was_tried() {
+        let result = sample::draped(4, 2, 3);
         let law = "(standard deviation of each gripper's position along each axis)";
-        assert_eq!(said(&result, 4.1, false), format!("tolerates errors of 0.41 mm {law}"));
-        assert_eq!(said(&result, 16.0, true), format!("tolerates errors of at least 1.6 mm {law}"));
-        let least = said(&result, 0.0, false);
-        assert_eq!(least, format!("tolerates errors of less than 0.0016 mm {law}"));
-
-        let mut errors = Errors::default();
-        errors.gripper.position = Term::Bound(3e-4);
-        result.scene.errors = Some(errors);
-        let wanted = "tolerates errors of ± 0.42 mm (of each gripper's position along each axis)";
-        assert_eq!(said(&result, 1.4, false), wanted);
-        errors.frame.position = Term::Bound(1e-3);
-        result.scene.errors = Some(errors);
-        let wanted = "tolerates 1.4 times the errors of the scene: ± 0.42 mm";
-        assert!(said(&result, 1.4, false).starts_with(wanted));
-        errors.gripper.position = Term::NONE;
-        result.scene.errors = Some(errors);
-        assert_eq!(said(&result, 1.4, false), "tolerates 1.4 times the errors of the scene");
-        let nothing = stands_in_words(&result, &Stands::nothing(&errors));
-        assert_eq!(nothing, "tolerates no errors: it is not accepted without any");
+        let found = Tolerance {
+            gripper_mm: 0.41,
+            gripper_at_least: false,
+            shear: Some([0.2, 8.0]),
+            mass: [0.125, 1.6],
+            tried: 16,
+        };
+        let said = |tolerance: &Tolerance| tolerance_in_words(&result, tolerance);
+        let wanted = [
+            format!("tolerates errors of 0.41 mm {law}"),
+            "tolerates a ply of 0.2 to at least 8 times its shear stiffness, at most 0.13 to 1.6 times its mass"
+                .into(),
+        ];
+        assert_eq!(said(&found), wanted);
+        let most =
+            Tolerance { gripper_mm: 1.6, gripper_at_least: true, shear: None, ..found.clone() };
+        let wanted = [
+            format!("tolerates errors of at least 1.6 mm {law}"),
+            "tolerates a ply of at most 0.13 to 1.6 times its mass".into(),
+        ];
+        assert_eq!(said(&most), wanted);
+        // cells of 100 mm: the least that is tried is a 64th of 0.1 mm
+        let least = Tolerance { gripper_mm: 0.0, ..found };
+        assert_eq!(said(&least)[0], format!("tolerates errors of less than 0.0016 mm {law}"));
+        let nothing = ["tolerates no errors: it is not accepted without any"];
+        assert_eq!(said(&Tolerance::NOTHING), nothing);
     }
 
     /// A plan that is accepted only without errors is not accepted, and the table has a column of what the share keeps.

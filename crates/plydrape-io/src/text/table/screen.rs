@@ -8,7 +8,6 @@ use crate::result::sheet::{ended, overstrained};
 use crate::store::shown;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
-use plydrape::outcome::Summary;
 use plydrape::ply::Grid;
 use std::time::Duration;
 
@@ -91,14 +90,30 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
     let line = format!("{word} by {model}{world}{}", worst.unwrap_or_default());
     let mut text = ink.tinted(&shown::excerpt(&line, WIDTH), tone) + "\n";
     let why = ended(summary).into_iter().chain(overstrained(summary).into_iter().flatten());
-    for line in why.chain([forces(summary)]).filter(|line| !line.is_empty()) {
+    for line in why.chain([forces(result)]).filter(|line| !line.is_empty()) {
         text += &(shown::excerpt(&line, WIDTH) + "\n");
     }
     text + &errors::errors(result) + &beside::line(result)
 }
 
-/// The largest load and the largest pull of grippers, each with its limit; empty where the model knows none.
-fn forces(summary: &Summary) -> String {
+/// The largest loads of cups beside what they hold, or where that is not known the largest load and the largest pull of grippers with their
+/// limits; empty where the model knows none.
+fn forces(result: &ResultFile) -> String {
+    let summary = &result.summary;
+    let pad = &result.scene.settings.pad;
+    let held = |name: Name, way: &str, holds: Option<f64>| {
+        let verdict = summary.limits.iter().find(|verdict| verdict.name == name)?;
+        let [value, holds] = [verdict.value, holds?].map(significant);
+        Some(format!("{value} N {way} the ply of {holds} N ({})", verdict.at))
+    };
+    let cups = [
+        held(Name::Slip, "along", pad.slip_force),
+        held(Name::Holding, "across", pad.holding_force),
+    ];
+    let cups: Vec<String> = cups.into_iter().flatten().collect();
+    if !cups.is_empty() {
+        return format!("largest load of a cup {}", cups.join(", "));
+    }
     let force = |name: Name, words: &str| {
         let value = significant(summary.worst.value(name)?);
         let limit = summary.limits.iter().find(|verdict| verdict.name == name);
@@ -157,6 +172,20 @@ mod tests {
         let text = verdict(&result, Ink::Plain);
         let wanted = "accepted by the sheet in an ideal cell, without errors\n\
             largest load of a gripper 0.5 N (limit 10 N), largest pull 0.4 N (no limit)\n";
+        assert_eq!(text, wanted);
+    }
+
+    /// What a cup bears stands beside what it holds, which is more than its limit by the safety.
+    #[test]
+    fn margins_say_what_a_cup_holds() {
+        let mut result = sample::sheet(4, 2, 3);
+        result.scene.settings.pad.slip_force = Some(10.0);
+        let at = "gripper g3_1".to_owned();
+        let worst = Worst { value: 4.4, at, place: None };
+        result.summary.limits = vec![Verdict::of(Name::Slip, worst, 10.0 / 1.5, Some(2))];
+        let text = verdict(&result, Ink::Plain);
+        let wanted = "accepted by the sheet\n\
+            largest load of a cup 4.4 N along the ply of 10 N (gripper g3_1)\n";
         assert_eq!(text, wanted);
     }
 
