@@ -29,7 +29,7 @@ const EXAMPLES: [&str; 9] = [
     "06_saddle",
     "08_stl_mold",
     "10_shallow",
-    "12_mounts",
+    "12_real_cell",
     "13_cut_ply",
     "16_fixture",
 ];

@@ -1,6 +1,6 @@
 //! Slip: the load of the ply on a gripper along the ply, against the largest one that a pad holds before the fabric slides, with a safety.
 
-use super::{Description, Found, Limits, Measure, Observation, Unit, Worth};
+use super::{Description, Found, Limits, Measure, Name, Observation, Unit, Worth};
 use crate::layup::Layup;
 use crate::state::GripperState;
 
@@ -14,7 +14,9 @@ impl Measure for Slip {
     }
 
     fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
-        layup.settings.pad.slip_force.map(|force| force / limits.grip_safety)
+        // fabric that may slide does so at the slip force
+        let force = layup.settings.pad.slip_force?;
+        limits.get(Name::SlipLength).is_none().then_some(force / limits.grip_safety)
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {
