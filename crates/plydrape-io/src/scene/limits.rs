@@ -88,7 +88,7 @@ mod tests {
     use std::path::Path;
 
     const SCENE: &str = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
-        [mold]\nkind = \"plane\"\n[target]\n[limits]\n";
+        [mold]\nkind = \"plane\"\n[grippers]\nslip_force = 10\n[target]\n[limits]\n";
 
     fn limits(keys: &str) -> Limits {
         parse(&format!("{SCENE}{keys}\n"), Path::new(""), "scene.toml")

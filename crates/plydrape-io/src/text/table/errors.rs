@@ -123,7 +123,7 @@ mod tests {
         let said = |tolerance: &Tolerance| tolerance_in_words(&result, tolerance);
         let wanted = [
             format!("tolerates errors of 0.41 mm {law}"),
-            "tolerates a ply of 0.2 to at least 8 times its shear stiffness, at most 0.13 to 1.6 times its mass"
+            "tolerates a ply of 0.2 to at least 8 times its shear stiffness, at most 0.12 to 1.6 times its mass"
                 .into(),
         ];
         assert_eq!(said(&found), wanted);
@@ -131,7 +131,7 @@ mod tests {
             Tolerance { gripper_mm: 1.6, gripper_at_least: true, shear: None, ..found.clone() };
         let wanted = [
             format!("tolerates errors of at least 1.6 mm {law}"),
-            "tolerates a ply of at most 0.13 to 1.6 times its mass".into(),
+            "tolerates a ply of at most 0.12 to 1.6 times its mass".into(),
         ];
         assert_eq!(said(&most), wanted);
         // cells of 100 mm: the least that is tried is a 64th of 0.1 mm

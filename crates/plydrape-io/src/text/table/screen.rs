@@ -184,7 +184,7 @@ mod tests {
         let worst = Worst { value: 4.4, at, place: None };
         result.summary.limits = vec![Verdict::of(Name::Slip, worst, 10.0 / 1.5, Some(2))];
         let text = verdict(&result, Ink::Plain);
-        let wanted = "accepted by the sheet\n\
+        let wanted = "accepted by the sheet in an ideal cell, without errors\n\
             largest load of a cup 4.4 N along the ply of 10 N (gripper g3_1)\n";
         assert_eq!(text, wanted);
     }
