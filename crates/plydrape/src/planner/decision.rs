@@ -1,7 +1,7 @@
 //! The decision about a plan: its motion in time, and the drape along it by the model that decides, with the mesh of the
 //! scene.
 
-use super::evaluation;
+use super::evaluation::{self, ENDS};
 use super::path::Strategy;
 use super::search_state::SearchState;
 use super::tuning::TUNING;
@@ -226,17 +226,21 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let mut refused_by = None;
     if judged.accepted() {
         let layup = sheet::event::at_these_times(&followed, &drape.summary.events);
+        // those that refused another plan first; a ply at the ends of its scatter is none of sixteen
+        let proving = ENDS.len()..ENDS.len() + TUNING.proving;
         let mut cells = state.cells();
-        let others: Vec<usize> = (0..TUNING.proving).filter(|n| !cells.contains(n)).collect();
+        cells.retain(|cell| proving.contains(cell));
+        let others: Vec<usize> = proving.filter(|n| !cells.contains(n)).collect();
         cells.extend(others);
-        (judged, refused_by) =
-            evaluation::with_errors(&layup, scene.errors, judged, &cells, |cell| {
+        let drapes =
+            evaluation::with_errors(&layup, scene.errors, judged, &cells, TUNING.spare, |cell| {
                 let stop = || state.report().is_break();
                 let judged = outcome::judge(&cell, &scene.limits, usize::MAX, &stop);
                 // the errors may have left nothing that could be draped
                 let judged = judged.unwrap_or_else(|_| Judged::nothing());
                 (!judged.interrupted).then_some(judged)
             });
+        (judged, refused_by) = (drapes.worst, drapes.refused_by);
         score = evaluation::score(&judged);
     }
     Ok(Decided { drape, attitudes, judged, score, refused_by })

@@ -33,6 +33,34 @@ pub enum Mesh {
     Own,
 }
 
+/// The mesh with which candidates for a scene are ranked first: what mounts make of errors a coarse one does not know.
+#[must_use]
+pub fn first_mesh(layup: &Layup) -> Mesh {
+    let own = layup.settings.model == Model::Sheet && layup.settings.pad.gives();
+    if own { Mesh::Own } else { Mesh::Coarse }
+}
+
+/// The drapes along planned positions: the one without errors, and those of cells with errors.
+#[derive(Debug, Clone)]
+pub struct Drapes {
+    /// Of each limit the worst of all.
+    pub worst: Judged,
+    /// Each of them, the one without errors first.
+    pub each: Vec<Judged>,
+    /// The first cell that breaks a limit and counts, if one does.
+    pub refused_by: Option<usize>,
+}
+
+impl Drapes {
+    /// The mean of all scores with what is known of the error of a mesh: a few cells say more of all others together than the worst
+    /// of them alone.
+    #[must_use]
+    pub fn score(&self, bias: &Bias) -> f64 {
+        let sum: f64 = self.each.iter().map(|judged| score_with(judged, bias)).sum();
+        sum / self.each.len() as f64
+    }
+}
+
 /// The complete drape along planned positions of grippers (m), rounded as the motion will round them, of catenaries or a
 /// sheet; broken off where it needs too much or the search is stopped.
 ///
@@ -43,7 +71,7 @@ pub fn drape(
     planned: &[Vec<[f64; 3]>],
     mesh: Mesh,
     state: &SearchState,
-) -> Result<Judged, Error> {
+) -> Result<Drapes, Error> {
     let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
     let layup = along_motion(&scene.layup, Motion { times, positions });
@@ -51,55 +79,65 @@ pub fn drape(
     match layup.settings.model {
         Model::Catenaries => {
             let most = TUNING.most_equilibria * planned.len();
-            outcome::judge(&layup, limits, most, &|| state.report().is_break())
+            let judged = outcome::judge(&layup, limits, most, &|| state.report().is_break())?;
+            Ok(Drapes { worst: judged.clone(), each: vec![judged], refused_by: None })
         }
         Model::Sheet => {
             let nominal = ranked_sheet(layup.clone(), limits, mesh, state)?;
-            let (judged, _) = with_errors(&layup, scene.errors, nominal, &state.cells(), |cell| {
+            Ok(with_errors(&layup, scene.errors, nominal, &state.cells(), 0, |cell| {
                 // the errors may have left no sheet that could be draped
                 let judged = ranked_sheet(cell, limits, mesh, state);
                 Some(judged.unwrap_or_else(|_| Judged::nothing()))
-            });
-            Ok(judged)
+            }))
         }
     }
 }
 
-/// The drape of a layup and those of some cells with errors as one: of each limit the worst. `drape` drapes a cell; it gives `None`
-/// if it was stopped. A drape that is far from a plan is as it is. Returns the first cell that breaks a limit, too, if one does; only a
-/// few of those behind it are draped.
+/// The drape of a layup and those of some cells with errors. `drape` drapes a cell; it gives `None` if it was stopped. A drape that is far
+/// from a plan is alone. So many cells may break a limit as are to spare, and do not count; behind one more only a few others are draped.
 ///
 /// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
 pub fn with_errors(
     layup: &Layup,
     errors: Option<Errors>,
-    mut worst: Judged,
+    nominal: Judged,
     cells: &[usize],
+    mut spare: usize,
     drape: impl Fn(Layup) -> Option<Judged> + Sync,
-) -> (Judged, Option<usize>) {
-    let Some(errors) = errors.filter(Errors::is_drawn) else { return (worst, None) };
-    if score(&worst) > TUNING.far {
-        return (worst, None);
+) -> Drapes {
+    let mut drapes = Drapes { worst: nominal.clone(), each: vec![nominal], refused_by: None };
+    let Some(errors) = errors.filter(Errors::is_drawn) else { return drapes };
+    if score(&drapes.worst) > TUNING.far {
+        return drapes;
     }
     let cell = |sample: &usize| Some((*sample, drape(planned_cell(errors, *sample, layup))?));
     for batch in cells.chunks(TUNING.batch) {
         let judged: Vec<(usize, Judged)> = batch.par_iter().filter_map(cell).collect();
-        let refused = judged.iter().find(|(_, judged)| !judged.accepted()).map(|(n, _)| *n);
-        judged.into_iter().for_each(|(_, judged)| worsen(&mut worst, judged));
-        if refused.is_some() {
-            return (worst, refused);
+        for (sample, judged) in judged {
+            match (judged.accepted(), spare) {
+                (true, _) => worsen(&mut drapes.worst, &judged),
+                (false, 0) => {
+                    worsen(&mut drapes.worst, &judged);
+                    drapes.refused_by = drapes.refused_by.or(Some(sample));
+                }
+                (false, _) => spare -= 1,
+            }
+            drapes.each.push(judged);
+        }
+        if drapes.refused_by.is_some() {
+            break;
         }
     }
-    (worst, None)
+    drapes
 }
 
 /// Makes of a drape the worse of it and another, limit by limit.
-fn worsen(worst: &mut Judged, other: Judged) {
-    for verdict in other.limits {
+fn worsen(worst: &mut Judged, other: &Judged) {
+    for verdict in &other.limits {
         match worst.limits.iter_mut().find(|limit| limit.name == verdict.name) {
-            Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
+            Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict.clone(),
             Some(_) => {}
-            None => worst.limits.push(verdict),
+            None => worst.limits.push(verdict.clone()),
         }
     }
     worst.complete &= other.complete;
@@ -107,13 +145,16 @@ fn worsen(worst: &mut Judged, other: Judged) {
     worst.unsolved += other.unsolved;
 }
 
+/// The ends of its scatter at which the ply of the first cells is.
+pub const ENDS: [f64; 2] = [1.0, -1.0];
+
 /// The layup of a cell that a plan is made with: of another seed than the sample by which it is judged in the end. In the first the ply is as
 /// stiff in shear and as light as hardly one of twenty, and in the second as limp and as heavy.
 #[must_use]
 pub fn planned_cell(errors: Errors, sample: usize, layup: &Layup) -> Layup {
     let planned = Errors { seed: !errors.seed, ..errors };
     let mut draw = planned.draw(sample, layup.ply.grippers());
-    if let Some(sign) = [1.0, -1.0].get(sample) {
+    if let Some(sign) = ENDS.get(sample) {
         draw.material.shear = RelativeError::Share(errors.material.shear.extreme(*sign));
         let mass = errors.material.areal_mass.extreme(-sign);
         draw.material.areal_mass = RelativeError::Share(mass);

@@ -1,6 +1,6 @@
 //! A plan is made with other cells than those that judge it.
 
-use super::evaluation::{planned_cell, with_errors};
+use super::evaluation::{Bias, planned_cell, score_with, with_errors};
 use super::tuning::TUNING;
 use crate::errors::tests::{budget, layup};
 use crate::errors::{Errors, Term};
@@ -52,22 +52,31 @@ fn a_candidate_is_ranked_by_the_cells_of_the_search() {
     let motions = planned(errors, &layup);
     let seen: Mutex<Vec<Motion>> = Mutex::new(Vec::new());
     let cells: Vec<usize> = (0..TUNING.proving).collect();
-    let drape = |bad: Option<usize>| {
+    let drape = |bad: Option<usize>, spare: usize| {
         seen.lock().unwrap().clear();
-        let found = with_errors(&layup, Some(errors), judged(true), &cells, |cell: Layup| {
-            let ok = bad.is_none_or(|bad| cell.motion != motions[bad]);
-            seen.lock().unwrap().push(cell.motion);
-            Some(judged(ok))
-        });
+        let found =
+            with_errors(&layup, Some(errors), judged(true), &cells, spare, |cell: Layup| {
+                let ok = bad.is_none_or(|bad| cell.motion != motions[bad]);
+                seen.lock().unwrap().push(cell.motion);
+                Some(judged(ok))
+            });
         (found, seen.lock().unwrap().clone())
     };
-    let ((all, refused), draped) = drape(None);
-    assert!(all.accepted() && refused.is_none());
-    assert_eq!(draped.len(), motions.len());
+    let (all, draped) = drape(None, 0);
+    assert!(all.worst.accepted() && all.refused_by.is_none());
+    assert_eq!((all.each.len(), draped.len()), (1 + cells.len(), cells.len()));
     assert!(motions.iter().all(|motion| draped.contains(motion)));
-    let ((some, refused), draped) = drape(Some(TUNING.batch));
-    assert!(!some.accepted() && some.limits[0].value == 0.9);
-    assert_eq!((refused, draped.len()), (Some(TUNING.batch), 2 * TUNING.batch));
+    let (some, draped) = drape(Some(TUNING.batch), 0);
+    assert!(!some.worst.accepted() && some.worst.limits[0].value == 0.9);
+    assert_eq!((some.refused_by, draped.len()), (Some(TUNING.batch), 2 * TUNING.batch));
+    // where one is to spare, all are draped and it does not count
+    let (spared, draped) = drape(Some(TUNING.batch), 1);
+    assert!(spared.worst.accepted() && spared.refused_by.is_none());
+    assert_eq!(draped.len(), cells.len());
+    // one of nine drapes is higher than the others
+    let bias = Bias::default();
+    let [low, high] = [true, false].map(|ok| score_with(&judged(ok), &bias));
+    assert!((some.score(&bias) - (8.0 * low + high) / 9.0).abs() < 1e-12);
 }
 
 /// The first two cells are the plies that hardly one of twenty passes: stiff in shear and light, limp and heavy.

@@ -22,8 +22,11 @@ pub struct Tuning {
     /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few, since more of them
     /// prove what is decided on, and a whole sample judges in the end.
     pub cells: usize,
-    /// Cells with errors that prove a plan that is decided on.
+    /// Cells with errors that prove a plan that is decided on, and how many of them may break a limit: about the share that may in a
+    /// sample.
     pub proving: usize,
+    /// See there.
+    pub spare: usize,
     /// Cells by which candidates are ranked once those are among them that refused a plan.
     pub most_cells: usize,
     /// Cells that are draped at once: whole pairs, for two cores.
@@ -51,6 +54,7 @@ pub const TUNING: Tuning = Tuning {
     bias: [0.5, 2.0],
     cells: 3,
     proving: 16,
+    spare: 1,
     most_cells: 6,
     batch: 4,
     far: 3.0,

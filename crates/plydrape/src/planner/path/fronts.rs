@@ -8,8 +8,7 @@ use super::trajectory::trajectory;
 use super::tuning::TUNING;
 use crate::Error;
 use crate::geometry::Point;
-use crate::outcome::Judged;
-use crate::planner::evaluation::{self, Bias, Mesh};
+use crate::planner::evaluation::{self, Bias, Drapes, Mesh};
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use std::borrow::Cow;
@@ -43,7 +42,7 @@ impl<'a> Fronts<'a> {
         positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
     }
 
-    /// The score of positions of grippers (m) and their drape with a mesh, by which candidates are ranked. Positions whose grippers alone
+    /// The score of positions of grippers (m) and their drapes with a mesh, by which candidates are ranked. Positions whose grippers alone
     /// exceed a limit too far have no drape, and a score worse than that of any drape.
     ///
     /// # Errors
@@ -54,13 +53,13 @@ impl<'a> Fronts<'a> {
         mesh: Mesh,
         bias: &Bias,
         state: &SearchState,
-    ) -> Result<(f64, Option<Judged>), Error> {
+    ) -> Result<(f64, Option<Drapes>), Error> {
         let excess = geometry::excess(self.scene, positions);
         if excess > TUNING.search.excess {
             return Ok((TUNING.search.not_draped * excess, None));
         }
-        let drape = evaluation::drape(&self.tabulated, positions, mesh, state)?;
-        Ok((evaluation::score_with(&drape, bias), Some(drape)))
+        let drapes = evaluation::drape(&self.tabulated, positions, mesh, state)?;
+        Ok((drapes.score(bias), Some(drapes)))
     }
 
     /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.

@@ -12,10 +12,9 @@ use super::tuning::TUNING;
 use crate::Error;
 use crate::geometry::Point;
 use crate::layup::Model;
-use crate::outcome::Judged;
 use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
-use crate::planner::evaluation::{self, Bias, Mesh};
+use crate::planner::evaluation::{Bias, Drapes, Mesh, first_mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
@@ -29,8 +28,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 struct Candidate {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
-    /// Its drape; none of one that was not draped.
-    drape: Option<Judged>,
+    /// Its drapes; none of one that was not draped.
+    drapes: Option<Drapes>,
     score: f64,
 }
 
@@ -79,10 +78,7 @@ pub fn search(
     state: &SearchState,
 ) -> Result<Option<Decision>, Error> {
     let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
-    // what mounts make of errors a coarse mesh does not know
-    let layup = &scene.layup;
-    let own = layup.settings.model == Model::Sheet && layup.settings.pad.gives();
-    let mesh = if own { Mesh::Own } else { Mesh::Coarse };
+    let mesh = first_mesh(&scene.layup);
     let ranking = Mutex::new(Ranking { mesh, bias: Bias::default() });
     let shared = Shared { scene, fronts, state, ranking, fault: Mutex::new(None) };
     let mut search = Search {
@@ -161,7 +157,7 @@ impl Search<'_, '_> {
         let of = |strategy| Some((strategy, fronts.positions(strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
             let score = f64::INFINITY;
-            self.candidates.push(Candidate { strategy, positions, drape: None, score });
+            self.candidates.push(Candidate { strategy, positions, drapes: None, score });
         }
     }
 
@@ -318,7 +314,7 @@ impl Search<'_, '_> {
         let stage = if state.is_finishing() { "finishing the best plan" } else { "deciding" };
         let before = state.begin(stage);
         let positions = candidate.positions.clone();
-        let ranked = candidate.drape.as_ref().and_then(|drape| drape.effort);
+        let ranked = candidate.drapes.as_ref().and_then(|drapes| drapes.worst.effort);
         let decision = Decision::on(scene, Some(candidate.strategy), positions, ranked, state);
         state.begin(before);
         match decision {
@@ -331,8 +327,8 @@ impl Search<'_, '_> {
                     state.add_cell(cell);
                 }
                 let mut ranking = lock(&self.shared.ranking);
-                if let (Mesh::Coarse, Some(ranked)) = (ranking.mesh, candidate.drape) {
-                    ranking.bias.learn(&ranked, &decision.decided.judged);
+                if let (Mesh::Coarse, Some(ranked)) = (ranking.mesh, candidate.drapes) {
+                    ranking.bias.learn(&ranked.worst, &decision.decided.judged);
                 }
                 drop(ranking);
                 let key = |d: &Decision| (!d.decided.judged.accepted(), d.decided.score);
@@ -344,8 +340,8 @@ impl Search<'_, '_> {
         }
         let bias = lock(&self.shared.ranking).bias.clone();
         for candidate in &mut self.candidates {
-            if let Some(drape) = &candidate.drape {
-                candidate.score = evaluation::score_with(drape, &bias);
+            if let Some(drapes) = &candidate.drapes {
+                candidate.score = drapes.score(&bias);
             }
         }
         self.rank();
@@ -365,14 +361,14 @@ impl Shared<'_, '_> {
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
         let ranked = self.fronts.rank(&positions, mesh, &bias, self.state);
-        let (score, drape) = ranked.unwrap_or_else(|fault| {
+        let (score, drapes) = ranked.unwrap_or_else(|fault| {
             *lock(&self.fault) = Some(fault);
             (f64::INFINITY, None)
         });
-        if let Some(drape) = &drape {
-            self.state.record(drape, score, false);
+        if let Some(drapes) = &drapes {
+            self.state.record(&drapes.worst, score, false);
         }
-        Candidate { strategy, positions, drape, score }
+        Candidate { strategy, positions, drapes, score }
     }
 }
 

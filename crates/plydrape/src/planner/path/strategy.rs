@@ -119,7 +119,7 @@ impl Strategy {
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
             let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
-            let harder = |of: &Strategy| Strategy { press: (2.5 * of.press).min(1.0), ..*of };
+            let harder = |of: &Strategy| Strategy { press: (2.0 * of.press).min(1.0), ..*of };
             // a ply that is stiff in shear does not stay flat where a steep front shears it
             let flatter = |of: &Strategy| Strategy { slope: 0.5 * of.slope, ..*of };
             // what is stretched when it lands bridges a hollow
@@ -184,7 +184,7 @@ impl Strategy {
         let [pull, press] = against_errors(scene);
         let [pull, press] = [pull / loads(scene)[0], press / loads(scene)[1]];
         let pull = (pull / TUNING.preload.pull).clamp(0.6, 1.0);
-        let press = (press / TUNING.preload.press).clamp(0.3, 1.0);
+        let press = (press / TUNING.preload.press).clamp(0.5, 1.0);
         Strategy { curvature, slope, pretension, press, pull, ..self }
     }
 
