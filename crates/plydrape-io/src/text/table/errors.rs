@@ -85,13 +85,10 @@ pub(crate) fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> 
         let at_least = if most >= Tolerance::MOST { "at least " } else { "" };
         format!("{at_most}{} to {at_least}{}", rounded(least), rounded(most))
     };
-    let shear =
-        tolerance.shear.map(|range| format!("{} times its shear stiffness, ", multiples(range)));
-    lines.push(format!(
-        "tolerates a ply of {}{} times its mass",
-        shear.unwrap_or_default(),
-        multiples(tolerance.mass)
-    ));
+    let shear = tolerance.shear.map(|range| ("shear stiffness", range));
+    for (name, range) in shear.into_iter().chain([("mass", tolerance.mass)]) {
+        lines.push(format!("tolerates a {name} of {} times the ply's", multiples(range)));
+    }
     lines
 }
 
@@ -123,15 +120,15 @@ mod tests {
         let said = |tolerance: &Tolerance| tolerance_in_words(&result, tolerance);
         let wanted = [
             format!("tolerates errors of 0.41 mm {law}"),
-            "tolerates a ply of 0.2 to at least 8 times its shear stiffness, at most 0.12 to 1.6 times its mass"
-                .into(),
+            "tolerates a shear stiffness of 0.2 to at least 8 times the ply's".into(),
+            "tolerates a mass of at most 0.12 to 1.6 times the ply's".into(),
         ];
         assert_eq!(said(&found), wanted);
         let most =
             Tolerance { gripper_mm: 1.6, gripper_at_least: true, shear: None, ..found.clone() };
         let wanted = [
             format!("tolerates errors of at least 1.6 mm {law}"),
-            "tolerates a ply of at most 0.12 to 1.6 times its mass".into(),
+            "tolerates a mass of at most 0.12 to 1.6 times the ply's".into(),
         ];
         assert_eq!(said(&most), wanted);
         // cells of 100 mm: the least that is tried is a 64th of 0.1 mm

@@ -104,11 +104,12 @@ fn forces(result: &ResultFile) -> String {
     let held = |name: Name, way: &str, holds: Option<f64>| {
         let verdict = summary.limits.iter().find(|verdict| verdict.name == name)?;
         let [value, holds] = [verdict.value, holds?].map(significant);
-        Some(format!("{value} N {way} the ply of {holds} N ({})", verdict.at))
+        let at = verdict.at.trim_start_matches("gripper ");
+        Some(format!("{value} of {holds} N {way} ({at})"))
     };
     let cups = [
-        held(Name::Slip, "along", pad.slip_force),
-        held(Name::Holding, "across", pad.holding_force),
+        held(Name::Slip, "along the ply", pad.slip_force),
+        held(Name::Holding, "across it", pad.holding_force),
     ];
     let cups: Vec<String> = cups.into_iter().flatten().collect();
     if !cups.is_empty() {
@@ -185,7 +186,7 @@ mod tests {
         result.summary.limits = vec![Verdict::of(Name::Slip, worst, 10.0 / 1.5, Some(2))];
         let text = verdict(&result, Ink::Plain);
         let wanted = "accepted by the sheet in an ideal cell, without errors\n\
-            largest load of a cup 4.4 N along the ply of 10 N (gripper g3_1)\n";
+            largest load of a cup 4.4 of 10 N along the ply (g3_1)\n";
         assert_eq!(text, wanted);
     }
 

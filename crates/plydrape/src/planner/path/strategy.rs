@@ -180,12 +180,12 @@ impl Strategy {
     fn preloaded(self, scene: &Scene) -> Self {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
-        let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
+        let slope = front.steepest_on_mounts;
         let [pull, press] = against_errors(scene);
         let [pull, press] = [pull / loads(scene)[0], press / loads(scene)[1]];
         let pull = (pull / TUNING.preload.pull).clamp(0.6, 1.0);
-        let press = (press / TUNING.preload.press).clamp(0.5, 1.0);
-        Strategy { curvature, slope, pretension, press, pull, ..self }
+        let press = (press / TUNING.preload.press).clamp(0.6, 1.0);
+        Strategy { curvature, slope, press, pull, ..self }
     }
 
     /// Whether its front is a line, which rolls the ply on; others spread from a point.
