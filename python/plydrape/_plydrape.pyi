@@ -1673,19 +1673,6 @@ class Result:
             As `forces`.
         """
     @property
-    def stands(self, /) -> dict[str, Any] | None:
-        """
-        The largest common factor of all errors at which the motion is still accepted: a dict with factor, at_least (whether it
-        is the largest that was tried), position and tried (drapes a factor). None where it was not asked for.
-        """
-    @property
-    def stands_mm(self, /) -> float | None:
-        """
-        The error of each gripper's position along each axis that the motion stands (mm), a standard deviation or a bound, as in
-        the errors of the scene; a standard deviation where it has none. None where it was not asked for, or where grippers have
-        no such error.
-        """
-    @property
     def summary(self, /) -> dict[str, Any]:
         """
         The outcome by the model that decides: the `summary` of result.json.
@@ -1857,6 +1844,14 @@ class Result:
         >>> data = plydrape.simulate(scene).to_xarray()
         >>> data["positions"].dims, data["positions"].attrs["units"]
         (('step', 'u', 'v', 'xyz'), 'm')
+        """
+    @property
+    def tolerance(self, /) -> dict[str, Any] | None:
+        """
+        What the motion tolerates: a dict with gripper_mm (standard deviation of each gripper's position along each axis),
+        gripper_at_least (whether it is the largest that was tried), shear and mass (the least and the largest multiple of the ply's shear
+        stiffness and mass; no shear where the model knows none) and tried (cells by which each error was tried). None where it was not
+        asked for.
         """
     @property
     def verdict(self, /) -> str:
@@ -3091,8 +3086,8 @@ def plan(
     KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
     in the scene's `plan`.
 
-    The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
-    those of the sample and some forty drapes more, which `time` does not bound.
+    The plan is then judged with errors: by a sample of cells where the scene has `errors`, and what it tolerates is found. That takes
+    those of the sample and some fifty drapes more, which `time` does not bound.
 
     Parameters
     ----------
