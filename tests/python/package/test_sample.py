@@ -76,7 +76,7 @@ def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
 
 
 def test_what_a_motion_tolerates_is_asked_where_a_scene_has_errors() -> None:
-    """Millimeters of the grippers and multiples of the ply; nothing without errors, or where they are left out."""
+    """Millimeters and multiples; nothing without errors, or where they are left out."""
     result = plydrape.simulate(scene(errors=ERRORS, limits=LOOSE))
     tolerance = result.tolerance
     assert tolerance is not None and tolerance["gripper_mm"] >= 0
