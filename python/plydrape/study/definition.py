@@ -306,7 +306,7 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
 
     # What varies.
     if "cell" in tables:
-        tables = errors.with_cell(tables, build(tables, str(home.resolve())).errors)
+        tables = dict(errors.with_cell(tables, build(tables, str(home.resolve())).errors))
     laws = inputs(varied, tables, command, sampling)
     real = command != "plan" and "errors" in tables
     if real and sampling == "grid":
