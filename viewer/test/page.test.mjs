@@ -880,7 +880,10 @@ async function sampleIsShown(report) {
   writeFileSync(file, head + JSON.stringify(changed).replaceAll("<", "\\u003c") + tail);
   const { page, context, complaints } = await openReport(browser, file);
   assert.match(await page.locator("#verdict").innerText(), /all \d+ limits are kept, in 61 of 63 cells/);
-  assert.match(await page.locator("#tolerance").innerText(), /^Tolerates errors of 0\.28 mm\. Tolerates a ply/);
+  assert.match(
+    await page.locator("#tolerance").innerText(),
+    /^Tolerates errors of 0\.28 mm\. Tolerates a ply/,
+  );
   const text = await page.locator("#sample").innerText();
   assert.match(
     text,
