@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import plydrape
+import plydrape.study
 
 SCENE: dict[str, Any] = {
     "ply": {"grippers": [4, 2], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
@@ -108,3 +109,65 @@ def test_a_plan_is_accepted_only_with_its_sample() -> None:
     plain = plydrape.plan(scene(**tables))
     assert plain.accepted and plain.result.sample is None
     assert plain.result.tolerance is not None and plain.result.tolerance["gripper_mm"] > 0
+
+
+def test_a_cell_gives_the_errors_and_mounts_that_a_scene_leaves_out() -> None:
+    """As if they were written out; what the scene says itself stands over them."""
+    named = scene(cell={"preset": "usual"})
+    written = scene(
+        grippers={
+            **SCENE["grippers"],
+            "stiffness": {"lateral": "2 N/mm", "axial": "2 N/mm"},
+            "slip_force": "10 N",
+            "holding_force": "20 N",
+            "max_tilt": "40 deg",
+        },
+        errors={
+            "frame": {"position": {"bound": "0.5 mm"}},
+            "gripper": {"position": {"deviation": "0.1 mm"}},
+            "pick_up": {"offset": {"bound": "0.5 mm"}, "yaw": {"bound": "0.2 deg"}},
+            "material": {
+                "areal_mass": {"deviation": "5 %"},
+                "bending": {"deviation": "30 %"},
+                "shear": {"factor": 2},
+                "length": {"deviation": "0.05 %"},
+            },
+        },
+    )
+    assert named.errors == written.errors is not None
+    alone = plydrape.simulate(named, without_errors=True)
+    assert alone.measures["slip_n"].tolist() == (
+        plydrape.simulate(written, without_errors=True).measures["slip_n"].tolist()
+    )
+    own = scene(cell={"preset": "usual"}, errors={"samples": 3}).errors
+    assert own is not None and own["samples"] == 3 and own["material"]["shear"] == {"factor": 2}
+    assert scene(cell={"preset": "ideal"}).errors is None
+
+
+def test_a_study_draws_the_errors_of_the_cell_of_its_scene(tmp_path: Path) -> None:
+    """Row n has the numbers of draw n; a term that varies is that of its scenario."""
+    (tmp_path / "scene.toml").write_text(
+        '[cell]\npreset = "usual"\n[ply]\ngrippers = [2, 2]\ncell = ["100 mm", "100 mm"]\n'
+        'material = "dry_carbon"\n[mold]\nkind = "plane"\n'
+        '[grippers]\nspacing = ["98 mm", "98 mm"]\nheight = "60 mm"\n[target]\n'
+        '[motion]\nkind = "straight"\nsteps = 3\n[sheet]\nmesh = "50 mm"\n'
+    )
+    spec = {"values": ["0.05 mm", "0.2 mm"]}
+    study = plydrape.study.Study.of(
+        {
+            "scene": str(tmp_path / "scene.toml"),
+            "samples": 4,
+            "vary": {"errors.gripper.position.deviation": spec},
+        }
+    )
+    rows = plydrape.study.run(study, workers=1).table().to_pylist()
+    drawn = plydrape.Scene.read(tmp_path / "scene.toml")
+    for n, row in enumerate(rows):
+        draw = drawn.draw(n)
+        assert row["errors.material.shear"] == draw["material"]["shear"]
+        assert row["errors.pick_up.yaw"] == draw["pick_up"]["yaw"]
+        size = np.array([gripper["position"] for gripper in draw["grippers"]])
+        rms = float(np.sqrt(np.mean(np.sum(size**2, axis=1))))
+        # in the unit of the study, where the cell has 0.1 mm
+        factor = row["errors.gripper.position.deviation"] / 0.1
+        np.testing.assert_allclose(row["errors.gripper.position.rms"], factor * rms, rtol=1e-12)

@@ -3,6 +3,7 @@
 use crate::result::sheet::ended;
 use plydrape::measure::{Name, Verdict};
 use plydrape::planner::comparison::{Compared, StrategyName};
+use plydrape::scene::World;
 use serde::Serialize;
 
 /// One strategy of a comparison, as it is printed and written.
@@ -12,6 +13,8 @@ pub struct Row {
     pub strategy: StrategyName,
     /// Whether its drape keeps all limits.
     pub accepted: bool,
+    /// In which world that was judged; no sample of cells with errors is drawn.
+    pub world: World,
     /// The time of its motion (s); none without a drape.
     pub time_s: Option<f64>,
     /// Whether there is no drape.
@@ -37,6 +40,7 @@ impl Row {
                 Row {
                     strategy,
                     accepted: draped.is_accepted(),
+                    world: draped.drape.summary.world,
                     time_s: Some(draped.time),
                     not_draped: false,
                     note: ended(&draped.drape.summary),
@@ -47,6 +51,7 @@ impl Row {
             Err(reason) => Row {
                 strategy,
                 accepted: false,
+                world: World::default(),
                 time_s: None,
                 not_draped: true,
                 note: Some(reason.to_string()),

@@ -29,6 +29,7 @@ use crate::result::sheet::ended;
 use crate::store::shown;
 use plydrape::layup::Model;
 use plydrape::measure::Verdict;
+use plydrape::scene::World;
 
 /// Most characters of a line, beside the ellipsis where it is cut.
 const WIDTH: usize = 99;
@@ -136,6 +137,12 @@ fn significant(value: f64) -> String {
     } else {
         text
     }
+}
+
+/// The worlds in which several drapes are accepted, where those have no errors: a line for each, as in `accepted is without errors`.
+pub(crate) fn accepted_in(worlds: &[World]) -> String {
+    let told = [World::Ideal, World::WithoutErrors].into_iter().filter(|w| worlds.contains(w));
+    told.map(|world| format!("accepted is{}\n", world.words())).collect()
 }
 
 /// Columns aligned, two spaces between; numbers to the right, the columns of text to the left.

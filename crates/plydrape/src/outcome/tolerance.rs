@@ -16,6 +16,8 @@ use rayon::prelude::*;
 const PER_OCTAVE: i32 = 8;
 /// The least factor that is tried, and the most, in octaves: 1/64 and 16.
 const OCTAVES: [i32; 2] = [-6, 4];
+/// The first and the last place among the factors that are tried.
+const PLACES: [i32; 2] = [OCTAVES[0] * PER_OCTAVE, OCTAVES[1] * PER_OCTAVE];
 /// Drapes by which an error of the grippers is tried.
 const TRIED: usize = 16;
 /// Multiples of a property of the ply that are tried one after the other, and their inverses.
@@ -71,29 +73,17 @@ impl Tolerance {
 
         let Layup { settings, ply, .. } = &scene.layup;
         let shears = settings.model == Model::Sheet && ply.material.shear_curve.is_some();
-        let ends = [(true, false), (true, true), (false, false), (false, true)];
-        let end = |(of_shear, up): (bool, bool)| {
-            if of_shear && !shears {
-                return Some(1.0);
-            }
-            let error = |multiple: f64| {
-                let share = RelativeError::Share(if up { multiple } else { 1.0 / multiple } - 1.0);
-                let nominal = MaterialError::default();
-                match of_shear {
-                    true => MaterialError { shear: share, ..nominal },
-                    false => MaterialError { areal_mass: share, ..nominal },
-                }
-            };
-            let most = largest_multiple(scene, error, watch)?;
-            Some(if up { most } else { 1.0 / most })
-        };
-        let ends: Option<Vec<f64>> = ends.into_par_iter().map(end).collect();
-        let ends = ends?;
+        let of_mass = |mass| MaterialError { areal_mass: mass, ..MaterialError::default() };
+        let of_shear = |shear| MaterialError { shear, ..MaterialError::default() };
+        let (mass, shear) = rayon::join(
+            || range(scene, of_mass, watch),
+            || if shears { range(scene, of_shear, watch).map(Some) } else { Some(None) },
+        );
         Some(Tolerance {
             gripper_mm: 1e3 * unit * times,
             gripper_at_least: place == PLACES[1],
-            shear: shears.then_some([ends[0], ends[1]]),
-            mass: [ends[2], ends[3]],
+            shear: shear?,
+            mass: mass?,
             tried: TRIED,
         })
     }
@@ -104,24 +94,31 @@ fn unit_error(pitch: f64) -> f64 {
     1e-3 * pitch
 }
 
-/// The last multiple before the first at which a ply with an error is not accepted; none if it was stopped.
-fn largest_multiple(
+/// The least and the largest multiple of a property of the ply up to which a scene along its motion is accepted; `of` is the error of that
+/// property. None if it was stopped.
+fn range(
     scene: &Scene,
-    error: impl Fn(f64) -> MaterialError,
+    of: impl Fn(RelativeError) -> MaterialError + Sync,
     watch: &Watch,
-) -> Option<f64> {
-    let mut most = 1.0;
-    for multiple in MULTIPLES {
+) -> Option<[f64; 2]> {
+    let keeps = |multiple: f64| {
         let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
-        draw.material = error(multiple);
-        let layup = draw.apply(&scene.layup);
-        let other = Scene { layup, errors: None, ..scene.clone() };
-        if !draped(&other, watch.stop)?.judged.accepted() {
-            break;
+        draw.material = of(RelativeError::Share(multiple - 1.0));
+        let other = Scene { layup: draw.apply(&scene.layup), errors: None, ..scene.clone() };
+        Some(draped(&other, watch.stop)?.judged.accepted())
+    };
+    let end = |power: f64| {
+        let mut last = 1.0;
+        for multiple in MULTIPLES.map(|multiple| multiple.powf(power)) {
+            if !keeps(multiple)? {
+                break;
+            }
+            last = multiple;
         }
-        most = multiple;
-    }
-    Some(most)
+        Some(last)
+    };
+    let (least, most) = rayon::join(|| end(-1.0), || end(1.0));
+    Some([least?, most?])
 }
 
 /// The place of the largest common factor of errors at which a scene along its motion is still accepted; none if it was stopped.
@@ -147,9 +144,6 @@ fn largest_error(errors: &Errors, scene: &Scene, watch: &Watch) -> Option<i32> {
     }
     worst.get(spare).copied()
 }
-
-/// The first and the last place among the factors that are tried.
-const PLACES: [i32; 2] = [OCTAVES[0] * PER_OCTAVE, OCTAVES[1] * PER_OCTAVE];
 
 /// The factor of a place.
 fn factor(place: i32) -> f64 {

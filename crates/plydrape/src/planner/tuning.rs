@@ -22,10 +22,9 @@ pub struct Tuning {
     /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few, since more of them
     /// prove what is decided on, and a whole sample judges in the end.
     pub cells: usize,
-    /// Cells with errors that prove a plan that is decided on, and how many of them may break a limit: about the share that may in a
-    /// sample.
+    /// Cells with errors that prove a plan that is decided on.
     pub proving: usize,
-    /// See there.
+    /// How many of them may break a limit: about the share that may in a sample.
     pub spare: usize,
     /// Cells by which candidates are ranked once those are among them that refused a plan.
     pub most_cells: usize,

@@ -1,10 +1,11 @@
 //! The strategies of a comparison as plain text.
 
-use super::{WIDTH, aligned, fixed, verdict_text};
+use super::{WIDTH, accepted_in, aligned, fixed, verdict_text};
 use crate::store::shown;
 use crate::text::strategy::Row;
 use plydrape::measure::Name;
 use plydrape::planner::comparison::StrategyName;
+use plydrape::scene::World;
 
 /// How many broken limits of a strategy are shown.
 const MOST_BROKEN: usize = 2;
@@ -36,6 +37,8 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
             text.push('\n');
         }
     }
+    let worlds: Vec<World> = rows.iter().filter(|row| row.accepted).map(|row| row.world).collect();
+    text += &accepted_in(&worlds);
     let accepted = |best| rows.iter().any(|row| row.strategy == best && row.accepted);
     text += &match best {
         Some(best) if accepted(best) => format!("\nbest: {best}\n"),

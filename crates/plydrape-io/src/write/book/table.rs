@@ -1,7 +1,7 @@
 //! The plies of a planned book as plain text.
 
 use super::PlyRecord;
-use crate::text::table::aligned;
+use crate::text::table::{accepted_in, aligned};
 use plydrape::scene::World;
 
 /// One row a ply, in the order in which they are laid; below them the worlds in which plies are accepted, where those have no errors.
@@ -20,11 +20,6 @@ pub fn table(plies: &[PlyRecord]) -> String {
             ply.worst_text(),
         ]
     }));
-    let mut text = aligned(&rows, &[1, 2, 3, 6]);
-    for world in [World::Ideal, World::WithoutErrors] {
-        if plies.iter().any(|ply| ply.accepted && ply.world == world) {
-            text += &format!("accepted is{}\n", world.words());
-        }
-    }
-    text
+    let worlds: Vec<World> = plies.iter().filter(|ply| ply.accepted).map(|ply| ply.world).collect();
+    aligned(&rows, &[1, 2, 3, 6]) + &accepted_in(&worlds)
 }

@@ -128,8 +128,8 @@ impl Strategy {
             let flattest: Vec<Strategy> = flat.iter().map(flatter).collect();
             let loose: Vec<Strategy> = flat.iter().map(looser).collect();
             let soft: Vec<Strategy> = flat.iter().map(softer).collect();
-            // of each kind all shapes, and the circle of every kind first
             let hard: Vec<Strategy> = flat.iter().map(harder).collect();
+            // of each kind all shapes, and the circle of every kind first
             let kinds = [flat, hard, shapes, loose, soft, flattest];
             let first = kinds.iter().filter_map(|kind| kind.first().copied());
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
@@ -181,10 +181,9 @@ impl Strategy {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
         let slope = front.steepest_on_mounts;
-        let [pull, press] = against_errors(scene);
-        let [pull, press] = [pull / loads(scene)[0], press / loads(scene)[1]];
-        let pull = (pull / TUNING.preload.pull).clamp(0.6, 1.0);
-        let press = (press / TUNING.preload.press).clamp(0.6, 1.0);
+        let ([pull, press], [lateral, axial]) = (against_errors(scene), loads(scene));
+        let pull = (pull / (TUNING.preload.pull * lateral)).clamp(0.6, 1.0);
+        let press = (press / (TUNING.preload.press * axial)).clamp(0.6, 1.0);
         Strategy { curvature, slope, press, pull, ..self }
     }
 
