@@ -1400,7 +1400,7 @@ async function damagedDataIsSaid(report) {
   const [head, data, tail] = parts(report);
   const damaged = {
     cut: [data.slice(0, data.length / 2), /cut off or damaged/],
-    newer: [data.replace(/"version"\s*:\s*3/, '"version":99'), /version 99/],
+    newer: [data.replace(/"version"\s*:\s*\d+/, '"version":99'), /version 99/],
     short: [
       data.replace(/("positions"\s*:\s*\{[^}]*"data"\s*:\s*")[^"]{40}/, "$1"),
       /grippers of its geometry/,
