@@ -53,8 +53,10 @@ pub(super) fn scene(
     let models = Models::named(file, settings.model, document)?;
     models.check_lines(&ply)?;
     models.check_mounts(named_cell.as_ref())?;
+    let turn = cut::from_warp(&file.ply.value, &ply, document)?;
     let places = Surroundings {
         ply: &ply,
+        turn,
         mold: mold.as_ref(),
         tolerance: settings.contact.tolerance,
         document,
@@ -63,7 +65,7 @@ pub(super) fn scene(
     // too many grippers for a single step are refused before a net is draped for them
     places.fits(file.grippers_span(), 1)?;
     let target = match &file.target {
-        Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
+        Some(table) => Some(target::target(table, &ply, turn, mold.as_ref(), document, base)?),
         None => None,
     };
     let motion = places.motion(file, target.as_ref())?;
@@ -229,6 +231,8 @@ fn gripper_count(
 /// What gripper positions are read and checked against.
 pub(super) struct Surroundings<'a> {
     pub ply: &'a Ply,
+    /// Angle from the direction that headings are given of to u (rad).
+    pub turn: f64,
     pub mold: Option<&'a Mold>,
     /// Depth in the mold that still counts as touching it (m).
     pub tolerance: f64,

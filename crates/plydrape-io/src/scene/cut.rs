@@ -13,7 +13,7 @@ use super::usual;
 use crate::Error;
 use crate::store::shown::millimetres;
 use plydrape::LayupError;
-use plydrape::ply::{Cut, Direction, Grid, Held, Outline, Ring, gripper_name};
+use plydrape::ply::{Cut, Direction, Grid, Held, Outline, Ply, Ring, gripper_name};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use std::path::Path;
@@ -47,6 +47,18 @@ pub(super) fn is_cut(table: &PlyTable) -> bool {
         || table.holes.is_some()
         || table.array.is_some()
         || table.points.is_some()
+}
+
+/// Angle from the warp to u (rad) where the scene gives the warp as an angle in the drawing, so that headings are those of the
+/// warp; 0 where they are those of u.
+pub(super) fn from_warp(table: &PlyTable, ply: &Ply, document: &Document) -> Result<f64, Error> {
+    match (&ply.cut, &table.warp) {
+        (Some(cut), Some(Located { value: WarpChoice::Angle(angle), span })) => {
+            let warp = Located { value: angle.clone(), span: span.clone() };
+            Ok(cut.angle - heading(&warp, document)?)
+        }
+        _ => Ok(0.0),
+    }
 }
 
 /// Reads how a ply is cut and held; `radius` is that of the pads (m).

@@ -4,7 +4,7 @@ use super::check::{ply, title};
 use super::file::SceneKeys;
 use super::limits::limits;
 use super::source::Document;
-use super::{mold, target};
+use super::{cut, mold, target};
 use crate::Error;
 use plydrape::layup::{Layup, Settings};
 use plydrape::measure::Name;
@@ -61,7 +61,9 @@ pub(super) fn ideal_drape(
             "give `origin`, `direction`, `shear` and `seed` to have the ply laid on the mold",
         ));
     }
-    let target::Laid { net, seeds, wanted } = target::net(table, &ply, &mold, document, base)?;
+    let turn = cut::from_warp(&file.ply.value, &ply, document)?;
+    let target::Laid { net, seeds, wanted } =
+        target::net(table, &ply, turn, &mold, document, base)?;
     let motion = Motion { times: Vec::new(), positions: Vec::new() };
     let layup = Layup::new(ply, Settings::default(), motion);
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);

@@ -38,11 +38,13 @@ pub(super) fn free(keys: &TargetTable) -> Free {
 }
 
 /// Checks the keys of `[target]` that say how the ply is laid on the mold; `table` is the place of the
-/// whole table. What is to be searched for is the middle of the ply, and a heading of 0.
+/// whole table. What is to be searched for is the middle of the ply, and a heading of 0. Headings are given of the direction
+/// from which u is turned by `turn` (rad).
 pub(super) fn layup(
     keys: &TargetTable,
     table: &Range<usize>,
     ply: &Ply,
+    turn: f64,
     mold: &Mold,
     document: &Document,
 ) -> Result<Placement, Error> {
@@ -78,7 +80,7 @@ pub(super) fn layup(
         origin,
         seed,
         place,
-        heading,
+        heading: heading + turn,
         shear,
         generators: match keys.generators.as_ref().map(|key| key.value) {
             Some(GeneratorsKey::LeastShear) => Generators::LeastShear,
@@ -132,9 +134,8 @@ fn nodes_of_cut(
     document: &Document,
 ) -> Result<Nodes, Error> {
     let [low, high] = cut.outline.bounds();
-    let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
     let seed = match &keys.seed {
-        None | Some(Located { value: SeedChoice::Middle | SeedChoice::Best, .. }) => middle,
+        None | Some(Located { value: SeedChoice::Middle | SeedChoice::Best, .. }) => ply.middle(),
         Some(Located { value: SeedChoice::At(point), span }) => {
             let uv = cut.fabric(coordinates(point, document)?);
             if !(0..2).all(|n| (low[n]..=high[n]).contains(&uv[n])) {

@@ -31,25 +31,29 @@ impl Rectangle {
     /// Places (m) of all grippers of a ply, neighbors in its array closer to each other than in the fabric by these shares
     /// along u and v, from the first gripper at the corner.
     pub fn grippers(&self, ply: &Ply, spacing: [f64; 2]) -> Vec<[f64; 3]> {
-        let (sin, cos) = ply.cut.as_ref().map_or(0.0, |cut| cut.turn).sin_cos();
-        let place = |index: usize| {
-            let [u, v] = match ply.grid {
-                Grid::NONE => {
-                    // along the rows and columns of the array, and back
-                    let [u, v] = ply.place(index);
-                    let share = [0, 1].map(|n| spacing[n] / ply.cell[n]);
-                    let (row, column) = (cos * u + sin * v, cos * v - sin * u);
-                    let (row, column) = (share[0] * row, share[1] * column);
-                    [cos * row - sin * column, sin * row + cos * column]
-                }
-                grid => {
-                    let [i, j] = grid.id(index);
-                    [i as f64 * spacing[0], j as f64 * spacing[1]]
-                }
-            };
-            along(along(self.origin, u, self.along_u), v, self.along_v)
+        let place = |index: usize| match ply.grid {
+            Grid::NONE => self.point(ply, spacing, ply.place(index)),
+            grid => {
+                let [i, j] = grid.id(index);
+                self.place([i as f64 * spacing[0], j as f64 * spacing[1]])
+            }
         };
         (0..ply.grippers()).map(place).collect()
+    }
+
+    /// Place (m) of a fabric point (m) among these grippers.
+    pub fn point(&self, ply: &Ply, spacing: [f64; 2], [u, v]: [f64; 2]) -> [f64; 3] {
+        let (sin, cos) = ply.cut.as_ref().map_or(0.0, |cut| cut.turn).sin_cos();
+        // along the rows and columns of the array, and back
+        let share = [0, 1].map(|n| spacing[n] / ply.cell[n]);
+        let (row, column) = (cos * u + sin * v, cos * v - sin * u);
+        let (row, column) = (share[0] * row, share[1] * column);
+        self.place([cos * row - sin * column, sin * row + cos * column])
+    }
+
+    /// Place (m) so far from the corner along u and v (m).
+    fn place(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+        along(along(self.origin, u, self.along_u), v, self.along_v)
     }
 }
 

@@ -86,39 +86,42 @@ fn rectangle(
     around: &Surroundings,
     target: Option<&Target>,
 ) -> Result<Places, Error> {
-    let &Surroundings { ply, document, .. } = around;
+    let &Surroundings { ply, turn, document, .. } = around;
     let place = spacing.0[0].span.start..spacing.0[1].span.end;
     let distance = |n: usize| spacing.0[n].size(document, &usual::SPACING);
     let distances = [distance(0)?, distance(1)?];
     let lift = height.coordinate(document, &usual::HEIGHT)?;
     let plane = ground(keys, around)?;
     let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
-        (Some(direction), _) => heading(direction, document)?,
+        (Some(direction), _) => heading(direction, document)? + turn,
         (None, Some(target)) => match target.drape.as_ref().filter(|_| ply.grid == Grid::NONE) {
             Some(net) => net.placement.heading,
             None => heading_of(&target.grippers, ply),
         },
-        (None, None) => 0.0,
+        (None, None) => turn,
     };
-    // gripper g0_0 as far from the middle as without a shift
-    let shift = |[x, y]: [f64; 2]| {
-        let unmoved = Rectangle::on(&plane, [0.0; 2], direction).grippers(ply, distances);
-        let here = middle(&unmoved);
-        [x - here[0], y - here[1]]
+    // gripper g0_0 as far from the middle of the ply, or from that of all grippers, as without a shift
+    let unmoved = || Rectangle::on(&plane, [0.0; 2], direction);
+    let shift = |[x, y]: [f64; 2], [a, b]: [f64; 2]| [x - a, y - b];
+    let ply_at = |place: [f64; 2]| {
+        let [a, b, _] = unmoved().point(ply, distances, ply.middle());
+        shift(place, [a, b])
     };
     let origin = match (&keys.origin, &keys.middle) {
         (None, None) => [0.0; 2],
-        (None, Some(place)) => shift(coordinates(&place.value, document)?),
+        (None, Some(place)) => ply_at(coordinates(&place.value, document)?),
         (Some(_), Some(place)) => {
             return Err(document.error(
                 place.span.clone(),
                 "the grippers have an `origin` and a `middle`",
-                "keep one of them: `origin` is the place of gripper g0_0, `middle` that of the middle of all grippers",
+                "keep one of them: `origin` is the place of gripper g0_0, `middle` that of the middle of the ply",
             ));
         }
         (Some(origin), None) => match (&origin.value, target) {
             (Place::At(origin), _) => coordinates(origin, document)?,
-            (Place::Keyword(_), Some(target)) => shift(middle(&target.grippers)),
+            (Place::Keyword(_), Some(target)) => {
+                shift(middle(&target.grippers), middle(&unmoved().grippers(ply, distances)))
+            }
             (Place::Keyword(_), None) => {
                 return Err(document.error(
                     origin.span.clone(),

@@ -15,10 +15,11 @@ use plydrape::ply::{Ply, gripper_name};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Checks the table `[target]`.
+/// Checks the table `[target]`; its heading is given of the direction from which u is turned by `turn` (rad).
 pub(super) fn target(
     table: &Located<TargetTable>,
     ply: &Ply,
+    turn: f64,
     mold: Option<&Mold>,
     document: &Document,
     base: &Path,
@@ -45,7 +46,7 @@ pub(super) fn target(
             "add [mold] with kind = \"plane\", or give the target's `positions`",
         ));
     };
-    let Laid { net, .. } = net(table, ply, mold, document, base)?;
+    let Laid { net, .. } = net(table, ply, turn, mold, document, base)?;
     // nodes that hang straight above each other have no span between them
     let places = Places {
         points: at_grippers(&net, ply, mold, table, document)?,
@@ -67,16 +68,17 @@ pub(super) struct Laid {
     pub wanted: Option<Wanted>,
 }
 
-/// Lays the ply on the mold; nodes without a place are no fault here.
+/// Lays the ply on the mold, as [`target`] reads its heading; nodes without a place are no fault here.
 pub(super) fn net(
     table: &Located<TargetTable>,
     ply: &Ply,
+    turn: f64,
     mold: &Mold,
     document: &Document,
     base: &Path,
 ) -> Result<Laid, Error> {
     let keys = &table.value;
-    let layup = layup(keys, &table.span, ply, mold, document)?;
+    let layup = layup(keys, &table.span, ply, turn, mold, document)?;
     let outline = ply.cut.as_ref().map(|cut| &cut.outline);
     let mesh = layup.mesh[0].min(layup.mesh[1]);
     let wanted = match &keys.trim {

@@ -117,6 +117,66 @@ fn a_ply_at_45_degrees_is_laid_on_a_cylinder_without_shear() {
     assert!((start[0][1] - start[3][1]).abs() < 1e-9, "{start:?}");
 }
 
+/// A heading is that of the warp at every angle that the scene gives it, right angles too: where it is the warp's angle in the
+/// drawing, the drawing's axes lie along those of the scene, on the table and on the mold.
+#[test]
+fn a_direction_is_the_heading_of_the_warp_at_every_angle() {
+    for warp in [0, 30, 45, 89, 90, 91, 135, 180, 225, 270] {
+        let ply = format!(
+            "size = [0.36, 0.26]\nwarp = \"{warp} deg\"\ngrippers = [4, 3]\ncell = [0.1, 0.1]"
+        );
+        let rest = format!(
+            "pad_radius = 0.015\ndirection = \"{warp} deg\"\nmiddle = [-0.7, 0.2]\n[mold]\nkind = \"plane\"\n\
+             [target]\nseed = \"middle\"\norigin = [0.5, 0.1]\ndirection = \"{warp} deg\"\n"
+        );
+        let Scene { layup, .. } = parse(&ply, &rest);
+        let start = &layup.motion.positions[0];
+        for n in 0..12 {
+            let [i, j] = layup.ply.id(n).map(|k| k as f64);
+            let (x, y) = (i - 1.5, j - 1.0);
+            let (taken, laid) = (start[n], layup.target.as_ref().unwrap().grippers[n]);
+            let taken_at = [0.098 * x - 0.7, 0.098 * y + 0.2, 0.05];
+            assert!(distance(taken, taken_at) < 1e-9, "{warp}: {taken:?} {taken_at:?}");
+            let laid_at = [0.1 * x + 0.5, 0.1 * y + 0.1, 0.0];
+            assert!(distance(laid, laid_at) < 1e-9, "{warp}: {laid:?} {laid_at:?}");
+        }
+    }
+}
+
+/// The middle of a ply is that of its drawing's box: corners that are cut off, cups that do not hold and yarns at an angle move
+/// neither the array on the ply, nor the ply on the mold, nor the ply on the table.
+#[test]
+fn the_middle_of_a_ply_is_that_of_its_drawing() {
+    let whole = "outline = [[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]";
+    let corners = "outline = [[0, 0], [0.4, 0], [0.4, 0.18], [0.28, 0.3], [0, 0.3], [0, 0.02]]";
+    for warp in [0, 45, 90] {
+        let rest = format!(
+            "direction = \"{warp} deg\"\nmiddle = [1.0, 2.0]\n[mold]\nkind = \"plane\"\n\
+             [target]\norigin = [0.5, 0.1]\ndirection = \"{warp} deg\"\n"
+        );
+        let read = |outline: &str| {
+            let keys = format!(
+                "{outline}\nwarp = \"{warp} deg\"\ngrippers = [4, 3]\ncell = [0.1, 0.1]\n\
+                 array = {{ margin = 0.02 }}"
+            );
+            parse(&keys, &rest).layup
+        };
+        let (whole, cut) = (read(whole), read(corners));
+        assert!((whole.ply.grippers(), cut.ply.grippers()) == (12, 11));
+        for n in 0..11 {
+            let same = whole.ply.index(cut.ply.id(n)).unwrap();
+            let drawn = [&whole, &cut].map(|layup| layup.ply.cut.as_ref().unwrap());
+            let a = drawn[0].drawn(whole.ply.place(same));
+            let b = drawn[1].drawn(cut.ply.place(n));
+            assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12, "{a:?} {b:?}");
+            let starts = [&whole, &cut].map(|layup| &layup.motion.positions[0]);
+            assert!(distance(starts[0][same], starts[1][n]) < 1e-9);
+            let targets = [&whole, &cut].map(|layup| &layup.target.as_ref().unwrap().grippers);
+            assert!(distance(targets[0][same], targets[1][n]) < 1e-9);
+        }
+    }
+}
+
 /// A list of cups at the places of an array is that array, and a mask that lets all hold is none.
 #[test]
 fn a_list_of_cups_is_the_array_at_their_places() {

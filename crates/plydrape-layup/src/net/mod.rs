@@ -66,7 +66,6 @@ pub struct Net {
     /// The net in a few numbers: of the ply, not of what the net covers beside it.
     pub report: Report,
     /// Nodes beyond the mold's boundary included.
-    #[cfg_attr(feature = "serde", serde(skip))]
     points: Vec<Option<SurfacePoint>>,
 }
 

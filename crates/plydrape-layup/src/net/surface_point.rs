@@ -6,6 +6,7 @@ use std::cell::Cell;
 
 /// A place of the net with the mold's normal there.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct SurfacePoint {
     /// Place (m).
     pub point: [f64; 3],

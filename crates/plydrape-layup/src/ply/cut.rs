@@ -121,6 +121,17 @@ impl Ply {
         bounds
     }
 
+    /// Fabric coordinates of its middle (m): that of the box around the drawing of a ply that is cut, whatever way its yarns
+    /// run and wherever it is held; else halfway between the outermost grippers.
+    #[must_use]
+    pub fn middle(&self) -> [f64; 2] {
+        let halfway = |[low, high]: [[f64; 2]; 2]| [0, 1].map(|n| 0.5 * (low[n] + high[n]));
+        match &self.cut {
+            Some(cut) => cut.fabric(halfway(cut.outline.moved(|point| cut.drawn(point)).bounds())),
+            None => halfway(self.held_bounds()),
+        }
+    }
+
     /// Fabric coordinates of its lowest and highest points along u and along v (m); `overhang` (m) is what a rectangle has
     /// beyond its outermost grippers.
     #[must_use]

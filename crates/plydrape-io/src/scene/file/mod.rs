@@ -159,7 +159,7 @@ pub(super) struct CircleTable {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Array")]
 pub(super) struct ArrayTable {
-    /// The middle of the array in the drawing (m); the middle of the ply unless given.
+    /// The middle of the array in the drawing (m); the middle of the ply unless given, that of the box around the drawing.
     pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
     /// Angle from the drawing's x axis to the rows of the array (rad), 0 unless given.
     pub direction: Option<Quantity<Angle>>,
@@ -295,10 +295,11 @@ pub(super) struct GrippersTable {
     /// Place x, y of gripper g0_0 (m), the origin unless given; with `parallel_to_mold`, of the mold point
     /// below it. Or "centered": the rectangle's middle is above the middle of the target.
     pub origin: Option<Located<Place<Centred>>>,
-    /// Place x, y of the middle of all grippers (m), instead of the `origin`: where the ply is picked up.
+    /// Place x, y of the middle of the ply (m), of one that is cut the middle of its drawing, instead of the `origin`: where the ply
+    /// is picked up.
     pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
-    /// Heading of u at the start (rad), from x towards y, 0 unless given; that of the target where the origin is
-    /// "centered".
+    /// Heading at the start (rad), from x towards y, 0 unless given; that of the target where the origin is "centered". It is
+    /// that of u, or that of the warp where `warp` is an angle.
     pub direction: Option<Quantity<Angle>>,
     /// True turns the rectangle parallel to the mold, `height` along its normal.
     pub parallel_to_mold: Option<Located<bool>>,

@@ -13,12 +13,13 @@ use serde::Deserialize;
 pub(in crate::scene) struct TargetTable {
     /// Place x, y (m) of the fabric point that is laid first, the `seed`; it is put on the mold.
     pub origin: Option<Located<Fixed<Quantity<Length>, 2>>>,
-    /// Heading of u there (rad), from x towards y; or "best", the one with which the ply shears least.
+    /// Heading there (rad), from x towards y, of u, or of the warp where `warp` is an angle; or "best", the one with which the ply
+    /// shears least.
     pub direction: Option<Located<HeadingChoice>>,
     /// Shear angle there (rad): v stands at 90° minus this angle from u.
     pub shear: Option<Quantity<Angle>>,
     /// The fabric point [u, v] (m) that is laid first, gripper g0_0 unless given, of a ply that is cut a point of its drawing and
-    /// its middle unless given; or "middle". With "best" the middle of the ply lies at `origin`, and the yarns that are laid first
+    /// its middle unless given; or "middle", of a ply that is cut that of the box around its drawing. With "best" the middle of the ply lies at `origin`, and the yarns that are laid first
     /// are those with which the ply shears least.
     pub seed: Option<Located<SeedChoice>>,
     /// Mesh width of the net (m), a whole part of both cells. Unless given, cells are divided to a tenth of their shorter side or
