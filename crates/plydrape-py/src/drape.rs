@@ -7,6 +7,7 @@ use crate::model::for_models;
 use crate::quantity::Amount;
 use crate::result::Result;
 use crate::scene::{Scene, blocks};
+use crate::work::parallel;
 use crate::work::{Watch, run};
 use plydrape::motion::TimedMotion;
 use plydrape::outcome::{self, Robustness};
@@ -465,7 +466,7 @@ impl Plan {
     /// ['motion.csv', 'plan.json', 'report.html', 'result.json', ...]
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         let write = || plan_file::write_all(&self.result, &self.checkpoint, &folder);
-        py.detach(write).map_err(|fault| error::output(&fault))
+        parallel(py, write).map_err(|fault| error::output(&fault))
     }
 
     fn __repr__(&self) -> String {

@@ -4,6 +4,7 @@ use crate::arrays::{Array, or_nan};
 use crate::error;
 use crate::jacobian::Jacobian;
 use crate::stations::{at_least_two, every_station};
+use crate::work::parallel;
 use plydrape::draping::spans::Shape;
 use plydrape::equilibrium::{self, Direction, EarlyEnds, Property, Status};
 use plydrape::layup::Settings;
@@ -231,7 +232,7 @@ impl Equilibrium {
             let text = "the equilibrium was not found, so it has no derivative";
             return Err(error::solve(text, self.status(), self.iterations(), self.residual()));
         }
-        let tangents = py.detach(|| {
+        let tangents = parallel(py, || {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
             let State { solver, contacts, .. } = &mut *state;
             let mut linearized = solver.linearize(&self.positions, contacts);

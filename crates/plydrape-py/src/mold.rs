@@ -2,6 +2,7 @@
 
 use crate::arrays::{Array, Numbers};
 use crate::quantity::Amount;
+use crate::work::parallel;
 use plydrape::mold::{self, Mesh, patch::patch};
 use plydrape_io::scene::Measured;
 use pyo3::exceptions::PyValueError;
@@ -155,7 +156,7 @@ impl Mold {
     /// ((1, 3), (1,))
     fn closest_points(&self, py: Python<'_>, points: Numbers<'_>) -> PyResult<ClosestPoints> {
         let (axes, points) = points.points::<3>("points")?;
-        let found = py.detach(|| points.iter().map(|p| self.0.closest_point(*p)).collect());
+        let found = parallel(py, || points.iter().map(|p| self.0.closest_point(*p)).collect());
         Ok(ClosestPoints { axes, found })
     }
 
@@ -179,7 +180,7 @@ impl Mold {
     fn heights(&self, py: Python<'_>, places: Numbers<'_>) -> PyResult<Array<f64>> {
         let (axes, at) = places.points::<2>("places")?;
         let height = |p: &[f64; 2]| self.0.highest_point(*p).map_or(f64::NAN, |point| point[2]);
-        Ok(Array::new(&axes, py.detach(|| at.iter().map(height).collect())))
+        Ok(Array::new(&axes, parallel(py, || at.iter().map(height).collect())))
     }
 
     /// The triangles that a mold of kind "mesh" is made of; None of another kind.
@@ -240,7 +241,7 @@ impl Mold {
             Ok([x.si(name, Measured::Length)?, y.si(name, Measured::Length)?])
         };
         let (low, high) = (place("low", &low)?, place("high", &high)?);
-        Ok(triangles(py.detach(|| patch(&self.0, low, high, most))))
+        Ok(triangles(parallel(py, || patch(&self.0, low, high, most))))
     }
 
     /// Its surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.

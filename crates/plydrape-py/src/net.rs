@@ -2,6 +2,7 @@
 
 use crate::arrays::{Array, or_nan};
 use crate::error;
+use crate::work::parallel;
 use plydrape::net;
 use plydrape_io::scene;
 use pyo3::prelude::*;
@@ -46,7 +47,7 @@ impl Net {
     /// 38.005
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let drape = py.detach(|| scene::read_ideal_drape(&path));
+        let drape = parallel(py, || scene::read_ideal_drape(&path));
         drape.map(|drape| Net(Arc::new(drape.net))).map_err(|refused| error::scene(&refused))
     }
 

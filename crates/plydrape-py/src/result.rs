@@ -13,6 +13,7 @@ use crate::quantity::Amount;
 use crate::sample::Sample;
 use crate::sheet::Sheet;
 use crate::surface::Surface;
+use crate::work::parallel;
 use plydrape::draping::record::{CatenaryState, CatenaryStep, Cell};
 use plydrape::layup::Model;
 use plydrape::outcome::{Status, Step};
@@ -122,7 +123,7 @@ impl Result {
     /// True
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let result = py.detach(|| read::read(&path));
+        let result = parallel(py, || read::read(&path));
         result.map(|result| Result(Arc::new(result))).map_err(|fault| error::read(&fault))
     }
 
@@ -151,7 +152,7 @@ impl Result {
     /// True
     #[staticmethod]
     fn parse(py: Python<'_>, text: &str) -> PyResult<Self> {
-        let result = py.detach(|| read::parse(text.as_bytes(), "result.json".as_ref()));
+        let result = parallel(py, || read::parse(text.as_bytes(), "result.json".as_ref()));
         result.map(|result| Result(Arc::new(result))).map_err(|fault| error::read(&fault))
     }
 
@@ -269,7 +270,7 @@ impl Result {
     /// <plydrape.Sheet of 341 nodes, 30 states>
     #[getter]
     fn sheet(&self, py: Python<'_>) -> PyResult<Option<Sheet>> {
-        py.detach(|| Sheet::of(&self.0))
+        parallel(py, || Sheet::of(&self.0))
     }
 
     /// The verdict over a sample of cells with the errors of the scene; None where the scene has none.
@@ -352,7 +353,7 @@ impl Result {
     /// >>> result.to_json()[:28]
     /// '{"format":"plydrape-result",'
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| ResultFile::text(&self.0)).map_err(|fault| error::output(&fault))
+        parallel(py, || ResultFile::text(&self.0)).map_err(|fault| error::output(&fault))
     }
 
     /// Time of each step (s), shape (steps,).
@@ -562,7 +563,7 @@ impl Result {
             return Err(PyValueError::new_err(text));
         }
         let step = find(self.hanging()?, step)?;
-        Ok(Surface(py.detach(|| surface::Surface::new(&self.0, step, intervals))))
+        Ok(Surface(parallel(py, || surface::Surface::new(&self.0, step, intervals))))
     }
 
     /// The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
@@ -587,7 +588,7 @@ impl Result {
     /// (3, True)
     #[pyo3(signature = (*, most = 20_000))]
     fn mold_surface(&self, py: Python<'_>, most: usize) -> Option<(Array<f64>, Array<u32>)> {
-        py.detach(|| mold_patch(&self.0, most)).map(triangles)
+        parallel(py, || mold_patch(&self.0, most)).map(triangles)
     }
 
     /// The result of this plan for a ply that does not lie where it was planned to be picked up.
@@ -640,7 +641,7 @@ impl Result {
         let text = Offset::file(offset, points);
         let tolerance = tolerance.map(|length| length.si("tolerance", Measured::Length));
         let tolerance = tolerance.transpose()?;
-        let result = py.detach(|| {
+        let result = parallel(py, || {
             let fault = |error: Error| error::plan(&error::text(&error));
             let planned = PlannedResult::new((*self.0).clone()).map_err(fault)?;
             let tolerance = tolerance.unwrap_or_else(|| planned.tolerance());
@@ -682,7 +683,7 @@ impl Result {
     /// ...     sorted(path.name for path in result.write(folder))
     /// ['report.html', 'result.json', 'steps.csv', 'trajectory.csv']
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
-        py.detach(|| plydrape_io::write_all(&self.0, &folder))
+        parallel(py, || plydrape_io::write_all(&self.0, &folder))
             .map_err(|fault| error::output(&fault))
     }
 
@@ -769,7 +770,7 @@ impl Result {
             tolerance: Tolerance { position, ..default },
             templates: templates.iter().map(read).collect::<PyResult<_>>()?,
         };
-        py.detach(|| export::write(&self.0, format, &options, &folder))
+        parallel(py, || export::write(&self.0, format, &options, &folder))
             .map_err(|fault| error::output(&fault))
     }
 
@@ -787,7 +788,7 @@ impl Result {
     /// >>> result.html()[:15]
     /// '<!doctype html>'
     fn html(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| page::html(&self.0)).map_err(|fault| error::output(&fault))
+        parallel(py, || page::html(&self.0)).map_err(|fault| error::output(&fault))
     }
 
     /// Writes the page into a file and returns its path.

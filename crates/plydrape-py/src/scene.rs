@@ -5,6 +5,7 @@ use crate::json::Json;
 use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
+use crate::work::parallel;
 use crate::{error, table};
 use plydrape::errors::{Draw, Errors};
 use plydrape::motion::Motion;
@@ -191,7 +192,7 @@ impl Scene {
         }
         let text = table::text(&keys)?;
         let mold = given.is_some();
-        let scene = py.detach(|| scene::parse_for(&text, &base, "scene", given, None, None));
+        let scene = parallel(py, || scene::parse_for(&text, &base, "scene", given, None, None));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
         let tables = Some(text.as_str().into());
         let origin = Origin { tables, base, mold, motion: false };
@@ -226,7 +227,8 @@ impl Scene {
     /// (2, 1)
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let scene = py.detach(|| scene::read(&path)).map_err(|refused| error::scene(&refused))?;
+        let scene =
+            parallel(py, || scene::read(&path)).map_err(|refused| error::scene(&refused))?;
         let whole = std::path::absolute(&path).unwrap_or(path);
         let origin = Origin::of(&scene, whole.parent().unwrap_or(Path::new("")));
         Ok(Scene(Arc::new(scene), origin))
@@ -258,7 +260,7 @@ impl Scene {
     /// [('base 0', 'mesh'), ('turned 30', 'layered')]
     #[staticmethod]
     fn read_book(py: Python<'_>, path: PathBuf) -> PyResult<Vec<(String, Self)>> {
-        let book = py.detach(|| scene::read_book(&path));
+        let book = parallel(py, || scene::read_book(&path));
         let book = book.map_err(|refused| error::scene(&refused))?;
         let made = |scene| Scene(Arc::new(scene), Origin::default());
         Ok(book.plies.into_iter().map(|ply| (ply.name, made(ply.scene))).collect())
@@ -292,7 +294,7 @@ impl Scene {
     #[staticmethod]
     #[pyo3(signature = (text, *, base = PathBuf::new(), name = "scene.toml"))]
     fn parse(py: Python<'_>, text: &str, base: PathBuf, name: &str) -> PyResult<Self> {
-        let scene = py.detach(|| scene::parse(text, &base, name));
+        let scene = parallel(py, || scene::parse(text, &base, name));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
         let origin = Origin::of(&scene, &base);
         Ok(Scene(Arc::new(scene), origin))
@@ -628,7 +630,7 @@ impl Scene {
     #[pyo3(signature = (sample, factor = 1.0))]
     fn with_errors(&self, py: Python<'_>, sample: usize, factor: f64) -> PyResult<Scene> {
         let draw = self.drawn(sample, factor)?;
-        let real = py.detach(|| draw.apply(&self.0.layup));
+        let real = parallel(py, || draw.apply(&self.0.layup));
         let fault = real.ply.check_motion(&real.motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
         let mut scene = (*self.0).clone();

@@ -3,6 +3,7 @@
 use crate::arrays::Array;
 use crate::error;
 use crate::json::Json;
+use crate::work::parallel;
 use plydrape::layup::Model;
 use plydrape::outcome::Status;
 use plydrape_io::ResultFile;
@@ -36,7 +37,7 @@ impl Sheet {
     }
 
     fn with<T: Send>(&self, py: Python<'_>, take: impl FnOnce(&mut SheetStates) -> T + Send) -> T {
-        py.detach(|| take(&mut self.states.lock().unwrap_or_else(PoisonError::into_inner)))
+        parallel(py, || take(&mut self.states.lock().unwrap_or_else(PoisonError::into_inner)))
     }
 
     /// Some numbers of each state, one state after the other.

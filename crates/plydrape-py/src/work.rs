@@ -2,9 +2,13 @@
 //!
 //! The work has a thread of its own, and the caller's waits for it without the interpreter's lock. It wakes
 //! [`OFTEN`] to let Python handle signals, so an interrupt does not wait for the work to notice.
+//!
+//! Parallel work has threads of this process. A process that was forked, as `multiprocessing` does, has none of those of its
+//! parent, and would wait for them for ever: it gets its own.
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -65,6 +69,32 @@ impl Watch {
     }
 }
 
+/// The threads for parallel work, and the process that they belong to.
+static THREADS: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// The threads of this process for parallel work; none if the system gives no more.
+fn threads() -> Option<Arc<ThreadPool>> {
+    let mut known = THREADS.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some((owner, threads)) = &*known
+        && *owner == process
+    {
+        return Some(Arc::clone(threads));
+    }
+    let made = Arc::new(ThreadPoolBuilder::new().build().ok()?);
+    // those of the parent are not here to be ended
+    std::mem::forget(known.replace((process, Arc::clone(&made))));
+    Some(made)
+}
+
+/// Does work that may be parallel with the threads of this process, without the interpreter's lock.
+pub fn parallel<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+    py.detach(|| match threads() {
+        Some(threads) => threads.install(work),
+        None => work(),
+    })
+}
+
 /// Does the work and returns what it found; `progress(done, most, stage)` is called when that has changed.
 ///
 /// # Errors
@@ -81,7 +111,10 @@ pub fn run<T: Send + 'static>(
         .name("plydrape".into())
         .spawn(move || {
             // nobody listens any more where the caller was interrupted
-            let _ = send.send(work(&watched));
+            let _ = send.send(match threads() {
+                Some(threads) => threads.install(|| work(&watched)),
+                None => work(&watched),
+            });
         })
         .map_err(|error| PyRuntimeError::new_err(format!("cannot start a thread: {error}")))?;
 

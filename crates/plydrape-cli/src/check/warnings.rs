@@ -2,12 +2,18 @@
 
 use super::way::longest;
 use crate::numbers::{millimetres, short};
+use plydrape::clearance;
+use plydrape::layup::{Friction, Model};
 use plydrape::material::Section;
 use plydrape::measure::Name;
 use plydrape::mold::{Mesh, Mold};
-use plydrape::ply::gripper_name;
+use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::ply::{Ply, gripper_name};
 use plydrape::scene::Scene;
+use plydrape::sheet::pitch;
+use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::SceneFile;
+use plydrape_io::text::table::verdict_text;
 
 /// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
 /// side of a cell is a few of them away.
@@ -20,13 +26,99 @@ const FLAT: f64 = 1e-4;
 const SHAPED: f64 = 0.02;
 /// Share of a triangle's normal along z below which it is a wall.
 const WALL: f64 = 0.1;
+/// Fabric that hangs over a pad, as a share of the pitch of the cups, beyond which an edge on a mold that sticks finds its place
+/// rarely.
+const HANGING: f64 = 0.15;
+/// Nodes of a sheet, as a multiple of those that its mesh needs, from which on the rows of the cups are what costs.
+const FINE: f64 = 2.0;
 /// Most places of grippers that are looked at in a motion.
 const LOOKS: usize = 100_000;
 
 /// Every warning, in a sentence.
 pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
     let mesh = upside_down(scene);
-    far(scene).into_iter().chain(mass(scene)).chain(mesh).chain(below(scene)).collect()
+    let hardly_meant = far(scene).into_iter().chain(mass(scene)).chain(mesh);
+    let below = below(scene);
+    // said once
+    let seen: &[Name] = if below.is_empty() { &[] } else { &[Name::OffMold] };
+    let costly = overhang(scene).into_iter().chain(fine_mesh(scene));
+    let of_cell = standing_in_mold(scene);
+    let unplanned = unplanned(scene, seen);
+    hardly_meant.chain(below).chain(of_cell).chain(costly).chain(unplanned).collect()
+}
+
+/// Fabric that hangs far over its cups above a mold that holds what touches it.
+fn overhang(scene: &SceneFile) -> Option<String> {
+    let layup = &scene.layup;
+    let sticks =
+        matches!(layup.settings.contact.friction, Friction::Stick | Friction::StickForEver);
+    if layup.mold.is_none() || layup.settings.model != Model::Sheet || !sticks {
+        return None;
+    }
+    let beyond = reach_beyond_cups(&layup.ply, layup.settings.sheet.overhang);
+    let free = beyond - layup.settings.pad.radius;
+    (free > HANGING * pitch(&layup.ply)).then(|| {
+        format!(
+            "the ply reaches up to {} mm beyond the middles of its outer cups, and the mold holds what touches it: an edge that touches early cannot slide into its place, and few such plies find a plan; move the cups outwards, give `friction` in [contact], or cut the ply closer",
+            millimetres(rounded(beyond))
+        )
+    })
+}
+
+/// How far the ply reaches beyond its cups (m): the distance of the corner of its outline that is farthest from a cup, or its overhang.
+fn reach_beyond_cups(ply: &Ply, overhang: f64) -> f64 {
+    let Some(cut) = &ply.cut else { return overhang };
+    let cups: Vec<[f64; 2]> = (0..ply.grippers()).map(|n| ply.place(n)).collect();
+    let to_cups = |p: &[f64; 2]| {
+        let ways = cups.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1]));
+        ways.fold(f64::INFINITY, f64::min)
+    };
+    // along a side, not across a corner
+    cut.outline.boundary().iter().map(to_cups).fold(0.0, f64::max) / std::f64::consts::SQRT_2
+}
+
+/// Rows of cups across the yarns that make many lines of nodes.
+fn fine_mesh(scene: &SceneFile) -> Option<String> {
+    let layup = &scene.layup;
+    let cut = layup.ply.cut.as_ref().filter(|_| layup.settings.model == Model::Sheet)?;
+    let SheetSize { nodes, mesh, .. } = SheetSize::of(scene).ok()?;
+    let least = cut.outline.area() / (mesh * mesh);
+    let times = nodes as f64 / least;
+    (times > FINE && cut.turn != 0.0).then(|| {
+        format!(
+            "the cups stand in so many rows along the yarns that the sheet has {nodes} nodes, {times:.1} times those of its mesh of {} mm, and a drape takes longer than that many times; a square pitch at 45°, or rows along the yarns, need fewer lines",
+            millimetres(mesh)
+        )
+    })
+}
+
+/// Obstacles that stand in the mold.
+fn standing_in_mold(scene: &SceneFile) -> Vec<String> {
+    let obstacles = scene.layup.bodies.obstacles();
+    let of = |(n, depth): (usize, f64)| {
+        format!(
+            "obstacle {} stands {} mm deep in the mold; see whether its place is right, or leave it out where the mold is",
+            obstacles[n].name,
+            millimetres(rounded(depth))
+        )
+    };
+    clearance::standing_in_mold(&scene.layup).into_iter().map(of).collect()
+}
+
+/// Limits that no plan can keep, but for those that were `seen`, and what a plan is refused for.
+fn unplanned(scene: &SceneFile, seen: &[Name]) -> Vec<String> {
+    if scene.layup.target.is_none() {
+        return Vec::new();
+    }
+    let limits = infeasible_limits(scene);
+    let limits = limits
+        .iter()
+        .filter(|verdict| !seen.contains(&verdict.name))
+        .map(|verdict| format!("no plan can keep this limit: {}", verdict_text(verdict)));
+    let refusal = scene.plan_refusal.iter().map(|refusal| {
+        format!("`plydrape plan` refuses this scene: {}; {}", refusal.message, refusal.help)
+    });
+    limits.chain(refusal).collect()
 }
 
 /// A mesh that seems to lie upside down: an open one whose file says that its other side is the outer one, or a solid that is

@@ -2,9 +2,13 @@
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
-use plydrape::ply::{GripperId, gripper_name};
+use plydrape::ply::{Direction, GripperId, Ply, gripper_name};
 use plydrape::scene::Scene;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
+
+/// Angles that differ by less (rad) are the same.
+const ROUNDING: f64 = 1e-9;
 
 /// The motion, the start, the target and the longest way between them.
 pub(super) fn way(scene: &Scene) -> Vec<Line> {
@@ -69,6 +73,22 @@ fn place(points: &[[f64; 3]]) -> String {
     format!("x {x} mm, y {y} mm, z {z} mm, middle ({middle}) mm")
 }
 
+/// The heading of u (rad) in words; of a ply that is cut, those of its warp, which has two ends, and of its drawing's x axis.
+fn headings(ply: &Ply, heading: f64) -> String {
+    let Some(cut) = &ply.cut else { return format!("u heading {} deg", degrees(heading)) };
+    let across = if ply.warp == Direction::V { FRAC_PI_2 } else { 0.0 };
+    // within half a turn, and half of that for what has no sense
+    let within = |angle: f64, turn: f64| {
+        let angle = angle.rem_euclid(turn);
+        if angle > 0.5 * turn + ROUNDING { angle - turn } else { angle }
+    };
+    format!(
+        "warp heading {} deg, the drawing's x axis {} deg",
+        degrees(within(heading + across, PI)),
+        degrees(within(heading - cut.angle, TAU))
+    )
+}
+
 fn target(scene: &Scene) -> String {
     let Some(target) = &scene.layup.target else {
         return "none".into();
@@ -80,9 +100,9 @@ fn target(scene: &Scene) -> String {
     let [x, y, z] = layup.place.map(millimetres);
     let [u, v] = layup.fabric(layup.seed).map(millimetres);
     let mut text = format!(
-        "on the mold, fabric point ({u}, {v}) mm at ({x}, {y}, {z}) mm, sheared by {} deg, u heading {} deg",
+        "on the mold, fabric point ({u}, {v}) mm at ({x}, {y}, {z}) mm, sheared by {} deg, {}",
         degrees(layup.shear),
-        degrees(layup.heading)
+        headings(&scene.layup.ply, layup.heading)
     );
     let [nu, nv] = layup.nodes;
     let _ = write!(text, "; net of {nu} × {nv} nodes");

@@ -31,6 +31,99 @@ fn check(scene: &str, flags: &[&str]) -> Output {
     command().arg("check").arg(&file).args(flags).output().unwrap()
 }
 
+/// A ply that is cut, with an array of 7 × 4 cups that is 10 mm off its middle, under a lamp and beside a post.
+const CUT: &str = "\
+[ply]
+size = [\"900 mm\", \"500 mm\"]
+warp = \"45 deg\"
+holes = [{ middle = [\"300 mm\", \"175 mm\"], diameter = \"120 mm\" }]
+grippers = [7, 4]
+cell = [\"160 mm\", \"150 mm\"]
+array = { middle = [\"460 mm\", \"250 mm\"], partly = \"leave-off\" }
+material = \"prepreg_warm\"
+
+[mold]
+kind = \"cylinder\"
+radius = \"2 m\"
+position = [0, 0, \"-2 m\"]
+
+[grippers]
+pad_radius = \"20 mm\"
+spacing = [\"158 mm\", \"148 mm\"]
+height = \"60 mm\"
+origin = \"centered\"
+
+[target]
+direction = \"90 deg\"
+
+[[bodies]]
+name = \"stem\"
+on = \"stem\"
+cylinder = { radius = \"15 mm\", from = \"40 mm\", to = \"150 mm\" }
+
+[[obstacles]]
+name = \"post\"
+box = { size = [\"100 mm\", \"100 mm\", \"400 mm\"] }
+position = [\"600 mm\", 0, 0]
+";
+
+/// The lines of a ply that is cut say which cups hold and why the others do not, how far array and ply are apart, and how the warp
+/// and the drawing lie on the mold.
+#[test]
+fn what_is_said_of_a_cut_ply_names_cups_and_headings() {
+    let output = check(CUT, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = one_line(&output.stdout);
+    for expected in [
+        "19 of 28 cups of the array hold",
+        "4 beside the ply (g6_0, g6_1, g6_2, g6_3)",
+        "1 over a hole (g2_1)",
+        "4 only partly on the ply (g0_0, g0_1, g0_2, g0_3)",
+        "the array's middle is (10, 0) mm from that of the ply",
+        "warp heading 90 deg, the drawing's x axis 45 deg",
+    ] {
+        assert!(shown.contains(expected), "{expected}: {shown}");
+    }
+    let masked = CUT.replace(
+        "partly = \"leave-off\"",
+        "partly = \"leave-off\", holds = [\".####..\", \".#..##.\", \".####..\", \".####..\"]",
+    );
+    let shown = one_line(&check(&masked, &[]).stdout);
+    assert!(shown.contains("switched off by `holds`"), "{shown}");
+}
+
+/// Fabric far beyond the cups on a mold that sticks, rows of cups that make a fine mesh, an obstacle in the mold, bodies that meet
+/// something at the start, and limits that no plan keeps are warned of; each warning is gone without its cause.
+#[test]
+fn what_a_plan_will_meet_is_warned_of() {
+    let lamp = "[[obstacles]]\nname = \"lamp\"\n\
+        box = { size = [\"300 mm\", \"300 mm\", \"100 mm\"] }\nposition = [0, 0, \"200 mm\"]\n";
+    let scene = format!("{CUT}{lamp}[limits]\nposition = \"2 mm\"\ntilt = \"1 deg\"\n");
+    let warned = |scene: &str| {
+        let output = check(scene, &[]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        one_line(&output.stderr)
+    };
+    let all = warned(&scene);
+    let causes = [
+        ("the mold holds what touches it", "[limits]", "[contact]\nfriction = 0.3\n[limits]"),
+        ("the cups stand in so many rows", "warp = \"45 deg\"", "warp = \"0 deg\""),
+        (
+            "obstacle post stands 200 mm deep in the mold",
+            "[\"600 mm\", 0, 0]",
+            "[\"2 m\", 0, \"2 m\"]",
+        ),
+        ("at the start", "[0, 0, \"200 mm\"]", "[0, 0, \"800 mm\"]"),
+        ("no plan can keep this limit: tilt", "tilt = \"1 deg\"", "tilt = \"40 deg\""),
+    ];
+    for (words, cause, without) in causes {
+        assert!(all.contains(words), "{words}: {all}");
+        assert!(scene.contains(cause));
+        let left = warned(&scene.replace(cause, without));
+        assert!(!left.contains(words), "{words}: {left}");
+    }
+}
+
 /// The line of a table `[release]` says the order and the dwell; without the table there is none.
 #[test]
 fn the_line_of_a_release_says_which_pads_let_go_when() {

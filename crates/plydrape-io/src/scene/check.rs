@@ -2,6 +2,7 @@
 
 use super::bodies::bodies;
 use super::cell::cell;
+use super::cut::CupArray;
 use super::diagnostic::hint;
 use super::drawing::WarpChoice;
 use super::errors::errors;
@@ -38,7 +39,7 @@ pub(super) fn scene(
     base: &Path,
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let ply = ply(&file.ply, grippers, document, base)?;
+    let (ply, cups) = ply(&file.ply, grippers, document, base)?;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
             let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
@@ -105,6 +106,7 @@ pub(super) fn scene(
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
+        cups,
         cell: named_cell.map(|named| named.name),
         thickness,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
@@ -140,13 +142,13 @@ pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String
     }
 }
 
-/// The ply; `grippers` is the table that says how large their pads are.
+/// The ply, and of one that is cut the array of cups over it; `grippers` is the table that says how large their pads are.
 pub(super) fn ply(
     ply: &Located<PlyTable>,
     grippers: Option<&GrippersTable>,
     document: &Document,
     base: &Path,
-) -> Result<Ply, Error> {
+) -> Result<(Ply, Option<CupArray>), Error> {
     let table = &ply.value;
     let material = material::material(&table.material, document, base)?;
     if cut::is_cut(table) {
@@ -154,8 +156,8 @@ pub(super) fn ply(
             Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => 0.0,
         };
-        let cut::Shape { grid, cell, warp, cut } = cut::shape(ply, radius, document, base)?;
-        return Ok(Ply {
+        let cut::Shape { grid, cell, warp, cut, array } = cut::shape(ply, radius, document, base)?;
+        let ply = Ply {
             grid,
             cell,
             material,
@@ -163,7 +165,8 @@ pub(super) fn ply(
             length_factor: 1.0,
             cut: Some(cut),
             found: FoundLines::default(),
-        });
+        };
+        return Ok((ply, array));
     }
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {
@@ -177,7 +180,7 @@ pub(super) fn ply(
             ));
         }
     };
-    Ok(Ply {
+    let ply = Ply {
         grid: grid(ply, document)?,
         cell: [a.size(document, &usual::CELL)?, b.size(document, &usual::CELL)?],
         material,
@@ -185,7 +188,8 @@ pub(super) fn ply(
         length_factor: 1.0,
         cut: None,
         found: FoundLines::default(),
-    })
+    };
+    Ok((ply, None))
 }
 
 /// Grippers along u and v.

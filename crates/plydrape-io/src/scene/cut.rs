@@ -13,7 +13,7 @@ use super::usual;
 use crate::Error;
 use crate::store::shown::millimetres;
 use plydrape::LayupError;
-use plydrape::ply::{Cut, Direction, Grid, Held, Outline, Ply, Ring, gripper_name};
+use plydrape::ply::{Cut, Direction, Grid, GripperId, Held, Outline, Ply, Ring, gripper_name};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use std::path::Path;
@@ -31,6 +31,31 @@ pub(super) struct Shape {
     pub cell: [f64; 2],
     pub warp: Direction,
     pub cut: Cut,
+    pub array: Option<CupArray>,
+}
+
+/// An array of cups over a ply that is cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CupArray {
+    /// How many cups it has.
+    pub cups: usize,
+    /// Those that do not hold the ply, and why, in the order of the array.
+    pub left_off: Vec<(GripperId, LeftOff)>,
+    /// From the middle of the ply to that of the array, along the drawing's axes (m).
+    pub off: [f64; 2],
+}
+
+/// Why a cup of an array does not hold the ply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LeftOff {
+    /// It is beside the boundary.
+    Beside,
+    /// It is over a hole.
+    Hole,
+    /// Its pad, or the margin that it needs, is only partly on the ply.
+    Partly,
+    /// The key `holds` switches it off.
+    Off,
 }
 
 /// A cup in the drawing.
@@ -216,12 +241,15 @@ fn array(
         Cup { id, place }
     };
     let rows = keys.holds.as_ref().map(|rows| mask(rows, [nu, nv], document)).transpose()?;
-    let mut cups = Vec::new();
+    let (mut cups, mut left_off) = (Vec::new(), Vec::new());
+    let bare = Outline::new(outline.boundary().to_vec(), Vec::new());
+    let is_over_hole = |place: [f64; 2]| bare.as_ref().is_ok_and(|whole| whole.contains(place));
     for cup in (0..nu * nv).map(cup) {
         let depth = outline.depth(cup.place);
         let wanted = rows.as_ref().map(|rows| rows[cup.id[1]][cup.id[0]]);
         let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
         if wanted == Some(false) {
+            left_off.push((cup.id, LeftOff::Off));
             continue;
         }
         if depth >= radius + margin - rounding {
@@ -231,6 +259,12 @@ fn array(
         let leave = keys.partly == Some(PartlyKey::LeaveOff);
         // a cup beside the ply holds nothing; one that the scene names shall hold
         if wanted.is_none() && (leave || depth <= -radius) {
+            let why = match () {
+                () if depth > -radius => LeftOff::Partly,
+                () if is_over_hole(cup.place) => LeftOff::Hole,
+                () => LeftOff::Beside,
+            };
+            left_off.push((cup.id, why));
             continue;
         }
         let [x, y] = cup.place.map(millimetres);
@@ -268,7 +302,10 @@ fn array(
     };
     let whole = cups.len() == nu * nv && is_along;
     let grid = if whole { Grid { nu, nv } } else { Grid::NONE };
-    Ok(shaped(outline, &cups, [angle, turn], grid, cell, warp_of))
+    let off = [0, 1].map(|n| middle[n] - 0.5 * (low[n] + high[n]));
+    let array = CupArray { cups: nu * nv, left_off, off };
+    let shape = shaped(outline, &cups, [angle, turn], grid, cell, warp_of);
+    Ok(Shape { array: Some(array), ..shape })
 }
 
 /// Which cups of an array hold, row by row.
@@ -384,5 +421,5 @@ fn shaped(
         let held = |cup: &Cup| Held { id: cup.id, place: cut.fabric(cup.place) };
         cut.held = cups.iter().map(held).collect();
     }
-    Shape { grid, cell, warp, cut }
+    Shape { grid, cell, warp, cut, array: None }
 }

@@ -58,7 +58,7 @@ mod usual;
 
 pub use argument::{Measured, quantity};
 pub use book::{Book, BookPly, is_book, parse_book, read_book};
-
+pub use cut::{CupArray, LeftOff};
 pub use fit::{Reading, Table as FitTable, read_fit};
 pub use ideal::IdealDrape;
 pub use material::{read_material, shipped_material, shipped_materials};
@@ -192,7 +192,8 @@ pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, Error> {
 pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, Error> {
     let document = source::Document::new(name, text);
     let keys = keys(&document)?;
-    check::ply(&keys.ply, keys.grippers.as_ref().map(|table| &table.value), &document, base)
+    let grippers = keys.grippers.as_ref().map(|table| &table.value);
+    check::ply(&keys.ply, grippers, &document, base).map(|(ply, _)| ply)
 }
 
 /// As [`parse`], on a mold that a program has made if one is given, the text having no `[mold]` then, and for models as [`read_for`].
@@ -273,6 +274,8 @@ pub struct SceneFile {
     pub files: Vec<PathBuf>,
     /// What was found and repaired while the mold was read, if it is a mesh.
     pub mesh: Option<MeshReport>,
+    /// The array of cups over a ply that is cut.
+    pub cups: Option<CupArray>,
     /// The name of its cell, or that cell's file, if it has one.
     pub cell: Option<String>,
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.

@@ -16,7 +16,9 @@ mod over_mold;
 mod poses;
 mod tuning;
 
-pub use nearest::{Near, Nearest, Part, at, between_steps, from_obstacles, label};
+pub use nearest::{
+    Near, Nearest, Part, at, between_steps, from_obstacles, label, standing_in_mold,
+};
 pub use poses::Poses;
 
 #[cfg(test)]

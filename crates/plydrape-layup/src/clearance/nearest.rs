@@ -9,7 +9,7 @@ use super::moves::{Legs, Moves, Origin, Planned, Reach, Straight};
 use super::over_mold::OverMold;
 use super::poses::Poses;
 use super::tuning::TUNING;
-use crate::bodies::{Apart, Solid, between_segments};
+use crate::bodies::{Apart, Obstacle, Solid, Surface, between_segments};
 use crate::bodies::{Mount, Solids};
 use crate::geometry::Point;
 use crate::geometry::vector::norm;
@@ -110,6 +110,21 @@ pub fn from_obstacles(layup: &Layup, poses: &Poses, least: f64) -> Option<f64> {
         }
     }
     (found < least).then_some(found)
+}
+
+/// The obstacles that stand deeper in the mold than its tolerance of contact, by their index, and how deep (m).
+#[must_use]
+pub fn standing_in_mold(layup: &Layup) -> Vec<(usize, f64)> {
+    let Some(mold) = &layup.mold else { return Vec::new() };
+    let solids = layup.bodies.made();
+    let over_mold = OverMold::new(mold, solids);
+    let tolerance = layup.settings.contact.tolerance;
+    let obstacles = layup.bodies.obstacles().iter().zip(&solids.obstacles);
+    let depth = |(obstacle, solid): (&Obstacle, &Solid)| {
+        let surface = Surface::new(&obstacle.shape);
+        -over_mold.apart(solid, &surface, &obstacle.pose, tolerance).distance
+    };
+    obstacles.map(depth).enumerate().filter(|(_, depth)| *depth > tolerance).collect()
 }
 
 impl Nearest {

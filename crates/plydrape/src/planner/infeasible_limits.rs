@@ -29,6 +29,7 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     let start = scene.layup.motion.positions.first().map(Vec::as_slice).unwrap_or_default();
     let mut out = Vec::new();
     out.extend(places(scene, start, "at the start", Some(1)));
+    out.extend(clearance_at_start(scene, start));
     let Some(target) = &scene.layup.target else {
         return out;
     };
@@ -223,6 +224,21 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     let at = format!("{} at the target", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
     let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, None);
+    (!verdict.ok).then_some(verdict)
+}
+
+/// Bodies that are too close at the start to what stands in the cell, or to each other.
+fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
+    let layup = &scene.layup;
+    if layup.bodies.is_empty() || start.is_empty() {
+        return None;
+    }
+    let poses = Poses::by_neighbours(layup, &layup.ply.neighbours(), start);
+    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let nearest = clearance::at(layup, least, &poses)?;
+    let at = format!("{} at the start", nearest.label(layup));
+    let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
+    let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, Some(1));
     (!verdict.ok).then_some(verdict)
 }
 
