@@ -52,7 +52,7 @@ async function open(): Promise<void> {
       diagonals: true,
       mold: true,
       cell: true,
-      forces: true,
+      forces: data.look === undefined,
       paths: false,
       section: null,
       other: null,
@@ -73,6 +73,8 @@ async function open(): Promise<void> {
   linkLegend(state, motion);
   linkTimeline(state, player, motion);
   showLimits(state, data);
+  // nothing is judged before a drape, and one step has no course
+  for (const id of ["limits", "courses", "timeline"]) byId(id).hidden = data.look !== undefined;
   showSample(state, motion);
   const charts = new Charts(state, data);
   showFacts(data);

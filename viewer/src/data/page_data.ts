@@ -213,6 +213,18 @@ export interface SampleData {
   } | null;
 }
 
+/** What is drawn of a scene before anything is draped on its mold (m). */
+export interface Look {
+  /** The boundary of the ply and of its holes where they are wanted on the mold. */
+  outline: Place[][];
+  /** Arrows along the warp from the middle of the ply, on the table and on the mold. */
+  warp: Place[][];
+  /** Where the cups shall end. */
+  targets: Place[];
+  /** Cups of the array that do not hold the ply, at the start. */
+  off: Place[];
+}
+
 export interface PageData {
   format: string;
   version: number;
@@ -247,6 +259,8 @@ export interface PageData {
   sample: SampleData | null;
   /** What the motion tolerates, line by line. */
   tolerance: string[];
+  /** What is shown of a scene that is not draped yet, in place of a verdict. */
+  look?: Look;
   left_out: string[];
 }
 

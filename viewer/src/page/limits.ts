@@ -36,6 +36,11 @@ function all(count: number): string {
 
 export function showVerdict(data: PageData): void {
   const badge = byId("verdict");
+  if (data.look !== undefined) {
+    badge.className = "verdict look";
+    badge.replaceChildren("Not draped yet: the scene at its start, judged by nothing");
+    return;
+  }
   badge.className = data.accepted ? "verdict pass" : "verdict fail";
   badge.replaceChildren(
     sign(data.accepted),

@@ -18,6 +18,7 @@ import { Cell } from "./cell";
 import { Forces, USES } from "./forces";
 import { Grippers } from "./grippers";
 import { pixelRatio, resolution } from "./lines";
+import { LookPicture } from "./look";
 import { Mold } from "./mold";
 import { Overlay } from "./overlay";
 import { Paths } from "./paths";
@@ -57,6 +58,7 @@ export class Scene3d {
   private readonly cell: Cell | null;
   private readonly paths: Paths;
   private readonly line: SectionLine;
+  private readonly look: LookPicture | null;
   private bounds: Box3;
   private box: AxesBox;
   readonly overlay: Overlay;
@@ -86,7 +88,7 @@ export class Scene3d {
     this.bounds = bounds;
     const size = bounds.getSize(new Vector3()).length();
     this.size = size;
-    const { mold, cell } = motion.data;
+    const { mold, cell, look } = motion.data;
     const { spacing } = motion;
     const { count } = motion.deciding.grippers;
 
@@ -100,6 +102,7 @@ export class Scene3d {
     this.cell = cell === null ? null : new Cell(cell, count, 0.001 * size);
     this.paths = new Paths(motion, -0.001 * size);
     this.line = new SectionLine(-0.006 * size);
+    this.look = look === undefined ? null : new LookPicture(look, spacing, -0.002 * size);
     this.box = new AxesBox(bounds, BOX * size);
     this.grippers.mesh.renderOrder = 5;
     this.forces.order = 6;
@@ -113,6 +116,7 @@ export class Scene3d {
     );
     if (this.mold !== null) this.scene.add(this.mold.group);
     if (this.cell !== null) this.scene.add(this.cell.group);
+    if (this.look !== null) this.scene.add(this.look.group);
 
     this.eye = new Eye(canvas, bounds, () => this.draw());
     this.overlay = new Overlay(this.box, this.eye);
@@ -204,6 +208,12 @@ export class Scene3d {
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
     this.paths.ink(themeColour("path"), themeColour("path-later"));
     this.line.ink(themeColour("section"));
+    this.look?.ink(
+      themeColour("path"),
+      themeColour("accent"),
+      themeColour("path"),
+      themeColour("path-later"),
+    );
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
     this.cell?.ink(themeColour("cell"), themeColour("cell-line"));
     this.box.ink(themeColour("box-line"));
@@ -377,6 +387,7 @@ export class Scene3d {
 function sceneBox(motion: Motion): Box3 {
   const { low, high } = motion.bounds();
   const ply = new Box3(new Vector3(...low), new Vector3(...high));
+  for (const place of motion.data.look?.targets ?? []) ply.expandByPoint(new Vector3(...place));
   const size = ply.getSize(new Vector3());
   const room = 0.35 * Math.max(size.x, size.y);
   const box = ply.clone();

@@ -24,7 +24,7 @@ pub(super) fn cups(scene: &SceneFile) -> Vec<Line> {
     ];
     for (reason, words) in reasons {
         let ids: Vec<GripperId> =
-            left_off.iter().filter(|(_, why)| *why == reason).map(|(id, _)| *id).collect();
+            left_off.iter().filter(|cup| cup.why == reason).map(|cup| cup.id).collect();
         if !ids.is_empty() {
             parts.push(format!("{} {words} ({})", ids.len(), names(&ids)));
         }

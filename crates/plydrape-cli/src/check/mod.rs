@@ -11,12 +11,16 @@ mod sheet;
 mod warnings;
 mod way;
 
-use crate::failure::Done;
+use crate::failure::{Done, Failure};
+use crate::model;
 use crate::numbers::{degrees, millimetres, short};
+use crate::results;
+use crate::watch::Interrupt;
 use plydrape::material::{Material, Scatter, Section, ShearCurve, Spread, TensionLaw};
 use plydrape::ply::Ply;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::store::shown;
+use plydrape_io::{Content, Folder, ResultFile, page};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -24,6 +28,8 @@ use std::process::ExitCode;
 /// A noun of the scene and what it is; without a noun it goes on with the one before.
 type Line = (&'static str, String);
 
+/// The page of a scene.
+const PAGE: &str = "check.html";
 /// Mass of one ply of prepreg (kg/m²), that of `prepreg_cold`.
 const PREPREG: f64 = 0.3143;
 
@@ -31,31 +37,77 @@ const PREPREG: f64 = 0.3143;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 What is possible but hardly meant, such as a start kilometers off, is warned of on standard error, \
-with exit code 0.")]
+with exit code 0.
+
+With --html, check.html goes to the scene's name with `.check`: a page for any browser that shows the ply hung at its start, the cups \
+that hold it and those that do not, what they carry, what stands in the cell, the mold, where the ply is wanted on it, which way its warp \
+runs, and where the cups shall end. Nothing is planned for it, and nothing is judged.")]
 pub struct Arguments {
     /// The scene file, or the file of a plybook.
     scene: PathBuf,
+
+    /// Write a page that shows the scene too.
+    #[arg(long)]
+    html: bool,
+
+    /// Folder of the page; the scene's name with `.check` unless given.
+    #[arg(short, long, value_name = "DIR", requires = "html")]
+    output: Option<PathBuf>,
 }
 
 /// Reads the scene; prints a summary unless `quiet`, and warnings.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if plydrape_io::scene::is_book(&arguments.scene) {
+        if arguments.html {
+            return Err(Failure::Refused {
+                message: "--html shows one scene, and this file is a plybook".into(),
+                help: "give the scene of one ply, or leave --html out".into(),
+            });
+        }
         return book::check(&arguments.scene, quiet);
     }
     let scene = plydrape_io::scene::read(&arguments.scene)?;
+    let (lines, warnings) = (summary(&scene), warnings::warnings(&scene));
+    let files = match arguments.html {
+        true => page(&scene, arguments, &lines, &warnings)?,
+        false => Vec::new(),
+    };
     if !quiet {
         let mut out = io::stdout().lock();
         writeln!(out, "{}", scene.title)?;
-        for (noun, text) in summary(&scene) {
+        for (noun, text) in &lines {
             writeln!(out, "  {noun:<9} {text}")?;
         }
         out.flush()?;
+        results::list(&files)?;
     }
-    for warning in warnings::warnings(&scene) {
+    for warning in warnings {
         // standard error that cannot be written is no fault of the scene
         let _ = writeln!(io::stderr(), "warning: {}", shown::escaped(&warning.to_string()));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the page that shows a scene, with the ply hung at its start.
+fn page(
+    scene: &SceneFile,
+    arguments: &Arguments,
+    lines: &[Line],
+    warnings: &[String],
+) -> Result<Vec<PathBuf>, Failure> {
+    let beside = || arguments.scene.with_extension("check");
+    let folder = Folder::claim(&arguments.output.clone().unwrap_or_else(beside), "check")?;
+    folder.refuse_inputs(&[PAGE], &scene.files)?;
+    let mut held = scene.clone();
+    held.scene.layup.motion.positions.truncate(1);
+    held.scene.layup.motion.times.truncate(1);
+    held.scene.layup.release = None;
+    let interrupt = Interrupt::listen();
+    let model = held.layup.settings.model;
+    let drape = model::drape(&held, model, folder.stage(), &interrupt, true)?;
+    let result = ResultFile::new(&held, held.input.clone(), drape);
+    let html = page::look_html(scene, result, lines, warnings)?;
+    Ok(folder.write(&[(PAGE, &html.as_bytes() as &dyn Content)], &scene.files)?)
 }
 
 /// The nouns of a scene, each in a line.

@@ -92,6 +92,42 @@ fn what_is_said_of_a_cut_ply_names_cups_and_headings() {
     assert!(shown.contains("switched off by `holds`"), "{shown}");
 }
 
+/// The page of a scene has no verdict and no limit, says what the terminal says, and stands in a folder of its own; a plybook has none.
+#[test]
+fn a_page_shows_a_scene_before_it_is_draped() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    // along the yarns and coarse: it is hung in a moment
+    let scene = CUT.replace("warp = \"45 deg\"", "warp = \"0 deg\"");
+    std::fs::write(&file, format!("{scene}[sheet]\nmesh = \"40 mm\"\n")).unwrap();
+    let output = command().arg("check").arg("--html").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let page = std::fs::read_to_string(folder.path().join("scene.check/check.html")).unwrap();
+    let data =
+        page.split_once("id=\"plydrape-data\">").unwrap().1.split_once("</script>").unwrap().0;
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    assert_eq!(data["limits"], serde_json::json!([]));
+    let look = &data["look"];
+    let count = |key: &str| look[key].as_array().unwrap().len();
+    assert_eq!((count("targets"), count("off"), count("outline"), count("warp")), (19, 9, 2, 4));
+    let warned = one_line(&output.stderr);
+    for note in data["left_out"].as_array().unwrap() {
+        let note = note.as_str().unwrap().trim_end_matches('.');
+        assert!(warned.contains(&note[1..]), "{note}: {warned}");
+    }
+    let shown = one_line(&output.stdout);
+    for fact in data["facts"].as_array().unwrap().iter().skip(2) {
+        assert!(shown.contains(fact["value"].as_str().unwrap().trim()), "{fact}");
+    }
+
+    // the folder is this command's own, and a page that somebody changed stays
+    std::fs::write(folder.path().join("scene.check/check.html"), "mine").unwrap();
+    let again = command().arg("check").arg("--html").arg(&file).output().unwrap();
+    assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
+    let kept = std::fs::read_to_string(folder.path().join("scene.check/check.html")).unwrap();
+    assert_eq!(kept, "mine");
+}
+
 /// Fabric far beyond the cups on a mold that sticks, rows of cups that make a fine mesh, an obstacle in the mold, bodies that meet
 /// something at the start, and limits that no plan keeps are warned of; each warning is gone without its cause.
 #[test]

@@ -15,6 +15,13 @@ pub(super) struct Fact {
     value: String,
 }
 
+impl Fact {
+    /// What a name stands for.
+    pub fn new(label: &'static str, value: String) -> Self {
+        Fact { label, value }
+    }
+}
+
 /// Ply, material, mold, motion and model of a result.
 pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     let scene = &result.scene;
@@ -36,7 +43,7 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
         }
         (None, None) => "none".into(),
     };
-    let fact = |label, value| Fact { label, value };
+    let fact = Fact::new;
     vec![
         fact("Ply", crate::store::shown::ply(&scene.ply)),
         fact("Material", material(result)),

@@ -12,7 +12,8 @@
 //! 2. `drape`: the drape by one model; `grippers`, `reading`, `catenaries`, `sheet`: what is shown of it;
 //! 3. `cell`, `mold`: what is the same for both models;
 //! 4. `sample`, `facts`: the verdict over a sample of cells, and what was draped;
-//! 5. `block`, `packing`: integers in little text.
+//! 5. `look`: what a page shows of a scene that is not draped yet;
+//! 6. `block`, `packing`: integers in little text.
 
 mod block;
 mod catenaries;
@@ -23,6 +24,7 @@ mod facts;
 mod field;
 mod grippers;
 mod limit;
+mod look;
 mod mold;
 mod packing;
 mod reading;
@@ -32,6 +34,7 @@ mod sheet;
 use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::ended;
+use crate::scene::SceneFile;
 use crate::store::format::VERSION;
 use block::Block;
 use catenaries::Detail;
@@ -39,6 +42,7 @@ use cell::{Cell, VacuumEvent, cell, events};
 use drape::{Drape, Source};
 use facts::{Fact, facts};
 use limit::{Limit, limits};
+use look::{Look, look};
 use mold::Mold;
 use plydrape::layup::Model;
 use plydrape::ply::GripperId;
@@ -91,6 +95,9 @@ struct Page<'a> {
     sample: Option<Sample<'a>>,
     /// The largest errors that the motion stands, in words.
     tolerance: Vec<String>,
+    /// What is shown of a scene before anything is draped on its mold, in place of a verdict; none of a result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    look: Option<Look>,
     left_out: Vec<String>,
 }
 
@@ -129,7 +136,34 @@ pub fn data(result: &ResultFile, form: Form) -> Result<String, Error> {
 /// # Errors
 /// [`Error`] if a number is not finite, or the states of the sheet cannot be read.
 pub fn html(result: &ResultFile) -> Result<String, Error> {
-    let data = data(result, Form::FILE)?.replace('<', "\\u003c");
+    filled(result, &data(result, Form::FILE)?)
+}
+
+/// The page of a scene before anything is draped on its mold: the ply at its start, as the `result` of holding it there has it, where it
+/// is wanted, what is said of the scene, each line with its noun, and warnings. Same scene, same bytes.
+///
+/// # Errors
+/// As [`html`].
+pub fn look_html(
+    scene: &SceneFile,
+    mut result: ResultFile,
+    lines: &[(&'static str, String)],
+    warnings: &[String],
+) -> Result<String, Error> {
+    // no limit is judged, and none is shown
+    result.summary.limits.clear();
+    let facts = look::LEGEND.iter().map(|(noun, text)| Fact::new(noun, (*text).into()));
+    let facts =
+        facts.chain(lines.iter().map(|(noun, text)| Fact::new(noun, text.clone()))).collect();
+    let (look, left_out) =
+        (Some(look(scene)), warnings.iter().map(|text| look::sentence(text)).collect());
+    let page = Page { facts, look, left_out, ..page(&result, Form::FILE)? };
+    filled(&result, &crate::store::json::of(&page)?)
+}
+
+/// The page with its title and its data.
+fn filled(result: &ResultFile, data: &str) -> Result<String, Error> {
+    let data = data.replace('<', "\\u003c");
     let title = result.scene.title.replace('&', "&amp;").replace('<', "&lt;");
     let whole =
         PAGE.split_once(TITLE).and_then(|(head, rest)| Some((head, rest.split_once(DATA)?)));
@@ -185,6 +219,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
         events: events(result),
         sample,
         tolerance: tolerance(result),
+        look: None,
     })
 }
 

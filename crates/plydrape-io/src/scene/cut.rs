@@ -39,10 +39,21 @@ pub(super) struct Shape {
 pub struct CupArray {
     /// How many cups it has.
     pub cups: usize,
-    /// Those that do not hold the ply, and why, in the order of the array.
-    pub left_off: Vec<(GripperId, LeftOff)>,
+    /// Those that do not hold the ply, in the order of the array.
+    pub left_off: Vec<IdleCup>,
     /// From the middle of the ply to that of the array, along the drawing's axes (m).
     pub off: [f64; 2],
+}
+
+/// A cup of an array that does not hold the ply.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IdleCup {
+    /// Its column and row in the array.
+    pub id: GripperId,
+    /// Its middle in the drawing (m).
+    pub drawn: [f64; 2],
+    /// Why.
+    pub why: LeftOff,
 }
 
 /// Why a cup of an array does not hold the ply.
@@ -63,6 +74,12 @@ pub enum LeftOff {
 struct Cup {
     id: [usize; 2],
     place: [f64; 2],
+}
+
+impl Cup {
+    fn idle(self, why: LeftOff) -> IdleCup {
+        IdleCup { id: self.id, drawn: self.place, why }
+    }
 }
 
 /// Whether the table says how the ply is cut.
@@ -249,7 +266,7 @@ fn array(
         let wanted = rows.as_ref().map(|rows| rows[cup.id[1]][cup.id[0]]);
         let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
         if wanted == Some(false) {
-            left_off.push((cup.id, LeftOff::Off));
+            left_off.push(cup.idle(LeftOff::Off));
             continue;
         }
         if depth >= radius + margin - rounding {
@@ -264,7 +281,7 @@ fn array(
                 () if is_over_hole(cup.place) => LeftOff::Hole,
                 () => LeftOff::Beside,
             };
-            left_off.push((cup.id, why));
+            left_off.push(cup.idle(why));
             continue;
         }
         let [x, y] = cup.place.map(millimetres);

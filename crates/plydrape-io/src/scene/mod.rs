@@ -58,7 +58,7 @@ mod usual;
 
 pub use argument::{Measured, quantity};
 pub use book::{Book, BookPly, is_book, parse_book, read_book};
-pub use cut::{CupArray, LeftOff};
+pub use cut::{CupArray, IdleCup, LeftOff};
 pub use fit::{Reading, Table as FitTable, read_fit};
 pub use ideal::IdealDrape;
 pub use material::{read_material, shipped_material, shipped_materials};
