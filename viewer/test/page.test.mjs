@@ -4,6 +4,7 @@
 // a browser the tests are skipped, loudly; where CI is set that is an error.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -55,6 +56,7 @@ describe("results page", { skip: missing ?? false }, () => {
   test("plays from the first step to the last", () => playsThrough(reports[0]));
   test("light and dark differ, by the system and by the button", () => themesDiffer(reports[0]));
   test("views look from elsewhere, and the list of keys opens", () => viewsDiffer(reports[0]));
+  test("a scene that is not draped yet is shown without verdict, limits and courses", () => sceneIsShown());
   test("damaged data gives one sentence", () => damagedDataIsSaid(reports[0]));
   test("a drape with fewer steps than planned says why", () => fewerStepsAreSaid(reports[0]));
   const sheet = reports.find((report) => hasSheet(report));
@@ -1420,6 +1422,26 @@ async function damagedDataIsSaid(report) {
     assert.deepEqual(complaints, []);
     await context.close();
   }
+}
+
+/** The page of `plydrape check --html`: what the scene says, with the places of the cups, and nothing that judges. */
+async function sceneIsShown() {
+  const root = join(import.meta.dirname, "..", "..");
+  const program = process.env.PLYDRAPE ?? join(root, "target", "checked", "plydrape");
+  const scene = join(root, "examples", "17_robot", "scene.toml");
+  const folder = join(scratch, "check");
+  execFileSync(program, ["check", "--html", scene, "-o", folder], { stdio: "pipe" });
+  const { page, context, complaints } = await openReport(browser, join(folder, "check.html"));
+  assert.match(await page.locator("#verdict").innerText(), /^Not draped yet/);
+  for (const id of ["limits", "courses", "timeline", "sample", "worst"])
+    assert.ok(!(await page.locator(`#${id}`).isVisible()), id);
+  assert.match(await page.locator("#facts").innerText(), /upright crosses: where the cups shall end/);
+  const shown = await page.locator("#view").screenshot();
+  await page.locator("#show-mold").uncheck();
+  await page.waitForTimeout(200);
+  assert.notDeepEqual(await page.locator("#view").screenshot(), shown);
+  assert.deepEqual(complaints, []);
+  await context.close();
 }
 
 async function worksWithoutWebgl(report) {
