@@ -12,7 +12,7 @@ use super::model::Models;
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::release::release;
-use super::settings::settings;
+use super::settings::{self, settings};
 use super::source::Document;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
@@ -26,6 +26,7 @@ use plydrape::ply::{Direction, FoundLines, Grid, Ply};
 use plydrape::scene::{Cell, Scene};
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Most grippers along u or v.
 const MOST_GRIPPERS: i128 = 1000;
@@ -39,12 +40,13 @@ pub(super) fn scene(
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
     let ply = ply(&file.ply, grippers, document, base)?;
+    let tolerance = settings::contact(file, &ply, document)?.tolerance;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
-            let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
+            let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
             (Some(mold), report)
         }
-        None => (made, None),
+        None => (made.map(|mold| stitched(mold, tolerance)), None),
     };
     let named_cell =
         file.cell.as_ref().map(|table| cell(table, &ply, document, base)).transpose()?;
@@ -107,6 +109,18 @@ pub(super) fn scene(
         thickness,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
+}
+
+/// A mold that a program has made, with boundaries of its faces stitched as those of a file are.
+fn stitched(mold: Mold, tolerance: f64) -> Mold {
+    match &mold {
+        Mold::Mesh(mesh) => match mesh.stitched(tolerance) {
+            Ok(Some((mesh, _))) => Mold::Mesh(Arc::new(mesh)),
+            // what cannot be stitched stays as it is
+            _ => mold,
+        },
+        _ => mold,
+    }
 }
 
 /// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.

@@ -3,6 +3,7 @@
 use super::check::{ply, title};
 use super::file::SceneKeys;
 use super::limits::limits;
+use super::settings::contact;
 use super::source::Document;
 use super::{mold, target};
 use crate::Error;
@@ -47,7 +48,8 @@ pub(super) fn ideal_drape(
             "add [mold] with kind = \"plane\", or another one",
         ));
     };
-    let (mold, _) = mold::mold(&table.value, &ply, document, base)?;
+    let tolerance = contact(file, &ply, document)?.tolerance;
+    let (mold, _) = mold::mold(&table.value, &ply, tolerance, document, base)?;
     let Some(table) = &file.target else {
         return Err(document.error_anywhere(
             "the scene has no [target], which says how the ply is laid on the mold",

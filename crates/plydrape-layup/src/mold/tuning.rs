@@ -75,6 +75,15 @@ pub(super) struct Tuning {
     pub merge: f64,
     /// Height of a triangle, as a share of its longest side, below which it has no area.
     pub needle: f64,
+    /// Share of the shorter of two sides over which both must run beside each other to face each other over a gap.
+    pub beside: f64,
+    /// Cosine of the angle between two sides up to which they run beside each other.
+    pub parallel_sides: f64,
+    /// Cosine of the angle between what points away from two faces across their sides, from which they lie back to back, as
+    /// the two faces of a thin sheet: 26°.
+    pub back_to_back: f64,
+    /// Most rounds of stitching; in each, vertices become one or sides are divided. Where k faces meet it takes k rounds.
+    pub stitch_rounds: usize,
     /// Upward part of the vector area of an open surface, as a share of its area, below which it faces sideways.
     pub sideways: f64,
     /// How far to the side of a boundary a point may lie and still count as over it, as a share of the mesh's diagonal
@@ -131,6 +140,10 @@ pub(super) const TUNING: Tuning = Tuning {
     tracing_tolerance: 1e-12,
     merge: 1e-6,
     needle: 1e-10,
+    beside: 0.1,
+    parallel_sides: 0.5,
+    back_to_back: 0.9,
+    stitch_rounds: 40,
     sideways: 0.01,
     aside: 1e-9,
     bound_margin: 1e-6,

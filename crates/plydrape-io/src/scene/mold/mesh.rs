@@ -14,11 +14,23 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Checks the keys of a mesh, and reads its file.
-pub(super) fn mesh(keys: &Keys, ply: &Ply, base: &Path) -> Result<(Mold, MeshReport), Error> {
+pub(super) fn mesh(
+    keys: &Keys,
+    ply: &Ply,
+    tolerance: f64,
+    base: &Path,
+) -> Result<(Mold, MeshReport), Error> {
     let file =
         keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let unit = keys.table.unit.as_ref();
-    let (mesh, report) = mesh_file(file, unit, "mold", &keys.pose()?, keys.document, base)?;
+    let (mesh, report) = mesh_file(
+        file,
+        unit,
+        &Purpose { what: "mold", tolerance },
+        &keys.pose()?,
+        keys.document,
+        base,
+    )?;
     if let Some(unit) = unit {
         of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
     }
@@ -71,11 +83,19 @@ fn of_the_size_of_plies(
     ))
 }
 
-/// Reads a mesh file, whose coordinates are in a unit, and places it; `what` is what the mesh is of.
+/// What a mesh file is read for.
+pub(in crate::scene) struct Purpose {
+    /// What the mesh is of, for messages.
+    pub what: &'static str,
+    /// How far apart boundaries of its faces may be and still be stitched (m).
+    pub tolerance: f64,
+}
+
+/// Reads a mesh file, whose coordinates are in a unit, and places it.
 pub(in crate::scene) fn mesh_file(
     file: &Located<String>,
     unit: Option<&Located<String>>,
-    what: &str,
+    purpose: &Purpose,
     pose: &Pose,
     document: &Document,
     base: &Path,
@@ -83,7 +103,8 @@ pub(in crate::scene) fn mesh_file(
     let at_file = |error: Error| document.error(file.span.clone(), error.to_string(), error.help());
     let bytes = read::bytes(&base.join(&file.value), &file.value, mesh::LARGEST)
         .map_err(|error| document.error_of_named(&file.span, error, "scene"))?;
-    let parse = |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose);
+    let parse =
+        |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose, purpose.tolerance);
     let Some(unit) = unit else {
         // how big it would be, in the unit of the file
         let turned = Pose { position: [0.0; 3], ..*pose };
@@ -94,7 +115,8 @@ pub(in crate::scene) fn mesh_file(
             file.span.clone(),
             format!("a mesh file does not say its unit, and `{}` needs one", file.value),
             format!(
-                "add unit = \"mm\" if the {what} measures {x} × {y} × {z} mm, or unit = \"m\" if these are meters"
+                "add unit = \"mm\" if the {} measures {x} × {y} × {z} mm, or unit = \"m\" if these are meters",
+                purpose.what
             ),
         ));
     };

@@ -66,7 +66,7 @@ impl Joined {
     }
 }
 
-fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
+pub(super) fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
     let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
     let double_area = norm(cross(sub(q, p), sub(r, p)));
     a != b && b != c && c != a && double_area > TUNING.needle * longest * longest
