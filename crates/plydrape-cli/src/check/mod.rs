@@ -12,6 +12,7 @@ mod way;
 
 use crate::failure::Done;
 use crate::numbers::{degrees, millimetres, short};
+use crate::outcome::warn;
 use plydrape::material::{Material, Scatter, Section, ShearCurve, Spread, TensionLaw};
 use plydrape::ply::Ply;
 use plydrape_io::scene::SceneFile;
@@ -50,10 +51,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         }
         out.flush()?;
     }
-    for warning in warnings::warnings(&scene) {
-        // standard error that cannot be written is no fault of the scene
-        let _ = writeln!(io::stderr(), "warning: {}", shown::escaped(&warning.to_string()));
-    }
+    warn(&warnings::warnings(&scene));
     Ok(ExitCode::SUCCESS)
 }
 

@@ -4,7 +4,7 @@ use super::way::longest;
 use crate::numbers::{millimetres, short};
 use plydrape::material::Section;
 use plydrape::measure::Name;
-use plydrape::mold::{Mesh, Mold};
+use plydrape::mold::{Mesh, MeshReport, Mold};
 use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
 use plydrape_io::scene::SceneFile;
@@ -25,7 +25,8 @@ const LOOKS: usize = 100_000;
 
 /// Every warning, in a sentence.
 pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
-    let mesh = upside_down(scene);
+    let found = scene.mesh.iter().flat_map(MeshReport::warnings);
+    let mesh = upside_down(scene).into_iter().chain(found);
     far(scene).into_iter().chain(mass(scene)).chain(mesh).chain(below(scene)).collect()
 }
 

@@ -20,7 +20,7 @@ use crate::Error;
 use crate::store::shown;
 use crate::store::size;
 use plydrape::layup::{Layup, Target};
-use plydrape::mold::Mold;
+use plydrape::mold::{MeshReport, Mold};
 use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
 use plydrape::scene::{Cell, Scene};
@@ -46,7 +46,7 @@ pub(super) fn scene(
             let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
             (Some(mold), report)
         }
-        None => (made.map(|mold| stitched(mold, tolerance)), None),
+        None => (made, None),
     };
     let named_cell =
         file.cell.as_ref().map(|table| cell(table, &ply, document, base)).transpose()?;
@@ -111,16 +111,27 @@ pub(super) fn scene(
     })
 }
 
-/// A mold that a program has made, with boundaries of its faces stitched as those of a file are.
-fn stitched(mold: Mold, tolerance: f64) -> Mold {
-    match &mold {
-        Mold::Mesh(mesh) => match mesh.stitched(tolerance) {
-            Ok(Some((mesh, _))) => Mold::Mesh(Arc::new(mesh)),
-            // what cannot be stitched stays as it is
-            _ => mold,
-        },
-        _ => mold,
-    }
+/// As [`scene`], on a mold that a program has made and that is read as one of a file is.
+pub(super) fn scene_on(
+    file: &SceneKeys,
+    made: Mold,
+    document: &Document,
+    base: &Path,
+) -> Result<SceneFile, Error> {
+    let grippers = file.grippers.as_ref().map(|table| &table.value);
+    let ply = ply(&file.ply, grippers, document, base)?;
+    let tolerance = settings::contact(file, &ply, document)?.tolerance;
+    scene(file, Some(seen_by_plies(made, &ply, tolerance)), document, base)
+}
+
+/// A mold that a program has made, with boundaries of its faces stitched and pits and holes spanned as those of a file are.
+fn seen_by_plies(mold: Mold, ply: &Ply, tolerance: f64) -> Mold {
+    let Mold::Mesh(mesh) = &mold else { return mold };
+    // what cannot be stitched stays as it is
+    let stitched = mesh.stitched(tolerance).ok().flatten();
+    let (stitched, report) = stitched.unwrap_or_else(|| ((**mesh).clone(), MeshReport::default()));
+    let (seen, _) = stitched.spanned(report, mold::usual_width(ply), tolerance);
+    if seen == **mesh { mold } else { Mold::Mesh(Arc::new(seen)) }
 }
 
 /// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.

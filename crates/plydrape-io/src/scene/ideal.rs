@@ -32,6 +32,8 @@ pub struct IdealDrape {
     pub wanted: Option<Wanted>,
     /// Largest shear allowed (rad).
     pub shear_limit: f64,
+    /// What of a mesh is hardly meant, each in a sentence.
+    pub warnings: Vec<String>,
 }
 
 /// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
@@ -49,7 +51,7 @@ pub(super) fn ideal_drape(
         ));
     };
     let tolerance = contact(file, &ply, document)?.tolerance;
-    let (mold, _) = mold::mold(&table.value, &ply, tolerance, document, base)?;
+    let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
     let Some(table) = &file.target else {
         return Err(document.error_anywhere(
             "the scene has no [target], which says how the ply is laid on the mold",
@@ -68,5 +70,6 @@ pub(super) fn ideal_drape(
     let layup = Layup::new(ply, Settings::default(), motion);
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
     let title = title(file.title.as_ref(), document, base)?;
-    Ok(IdealDrape { title, ply: layup.ply, mold, net, seeds, wanted, shear_limit })
+    let warnings = report.map_or_else(Vec::new, |report| report.warnings());
+    Ok(IdealDrape { title, ply: layup.ply, mold, net, seeds, wanted, shear_limit, warnings })
 }

@@ -199,8 +199,13 @@ fn at_grippers(
             "the ply folds on its way there: move `origin` or `seed` towards the middle of the ply, or take a smaller ply",
         ),
     };
-    let help = match too_small(mold, ply) {
-        Some(sizes) if missing > 1 => format!("{sizes}; {help}"),
+    let gaps = match mold {
+        Mold::Mesh(mesh) => mesh.gaps(super::mold::usual_width(ply)),
+        _ => None,
+    };
+    let help = match (too_small(mold, ply), gaps) {
+        (_, Some(gaps)) => format!("{}; or {help}", gaps.warning()),
+        (Some(sizes), None) if missing > 1 => format!("{sizes}; {help}"),
         _ => help.into(),
     };
     let count = ply.grippers();

@@ -3,11 +3,12 @@
 use super::Keys;
 use crate::Error;
 use crate::read::mesh;
-use crate::scene::layup::round;
+use crate::scene::layup::{MESH, round};
 use crate::scene::located::Located;
 use crate::scene::read;
 use crate::scene::source::Document;
 use crate::scene::units::{self, Dimension};
+use crate::scene::usual;
 use plydrape::mold::{Mesh, MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::path::Path;
@@ -34,7 +35,32 @@ pub(super) fn mesh(
     if let Some(unit) = unit {
         of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
     }
+    let width = spanned(keys, ply)?;
+    let (mesh, report) = mesh.spanned(report, width, tolerance);
     Ok((Mold::Mesh(Arc::new(mesh)), report))
+}
+
+/// Width up to which the ply spans pits and holes (m).
+fn spanned(keys: &Keys, ply: &Ply) -> Result<f64, Error> {
+    let Some(width) = &keys.table.spanned else { return Ok(usual_width(ply)) };
+    let value = width.size_or_zero(keys.document, &usual::SPANNED)?;
+    let cell = ply.cell[0].min(ply.cell[1]);
+    if value > cell {
+        return Err(keys.document.error(
+            width.span.clone(),
+            format!("{} is more than a cell of the ply", keys.document.quoted(&width.span)),
+            format!(
+                "give a width up to that of a cell, {} mm; what is wider is part of the shape of the mold",
+                round(1e3 * cell)
+            ),
+        ));
+    }
+    Ok(value)
+}
+
+/// Width up to which a ply spans pits and holes unless given (m): as wide as the meshes of its ideal drape.
+pub(in crate::scene) fn usual_width(ply: &Ply) -> f64 {
+    MESH * ply.cell[0].min(ply.cell[1])
 }
 
 /// Smallest and largest mold, in diagonals of its ply: on a smaller one no ply can lie. A larger one does not exist: a thousand

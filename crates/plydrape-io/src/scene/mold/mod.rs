@@ -16,7 +16,7 @@ use plydrape::ply::Ply;
 use std::ops::Range;
 use std::path::Path;
 
-pub(super) use mesh::{Purpose, mesh_file};
+pub(super) use mesh::{Purpose, mesh_file, usual_width};
 
 /// Least upward part of a unit normal: a mold this steep or steeper is a wall (89.9°).
 const UPWARD: f64 = 1.7e-3;
@@ -56,7 +56,7 @@ pub(super) fn mold(
 
 impl Keys<'_> {
     /// Every key beside `kind`, with its place where it is given.
-    fn places(&self) -> [(&'static str, Option<&Range<usize>>); 16] {
+    fn places(&self) -> [(&'static str, Option<&Range<usize>>); 17] {
         fn place<T>(key: &Option<Located<T>>) -> Option<&Range<usize>> {
             key.as_ref().map(|located| &located.span)
         }
@@ -78,6 +78,7 @@ impl Keys<'_> {
             ("y", place(&t.y)),
             ("file", place(&t.file)),
             ("unit", place(&t.unit)),
+            ("spanned", place(&t.spanned)),
         ]
     }
 

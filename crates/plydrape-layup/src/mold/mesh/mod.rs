@@ -9,6 +9,8 @@ mod boundary;
 mod build;
 mod closest_point;
 mod curvature;
+mod detail;
+mod gap;
 mod highest_point;
 mod join;
 mod normals;
@@ -24,6 +26,8 @@ mod tree;
 mod triangle;
 
 pub use boundary::Boundary;
+pub use detail::{Detail, DetailKind};
+pub use gap::Gaps;
 pub use report::{Finding, MeshReport, Stitches};
 pub use sharp::SharpEdge;
 pub use soup::{Role, Skipped, Soup};

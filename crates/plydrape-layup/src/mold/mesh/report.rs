@@ -1,6 +1,8 @@
 //! What was found and repaired while a mesh was read.
 
 use super::boundary::Boundary;
+use super::detail::{Detail, DetailKind};
+use super::gap::Gaps;
 use super::soup::{Role, Skipped};
 use std::fmt;
 
@@ -30,6 +32,10 @@ pub struct MeshReport {
     pub flipped: Finding,
     /// Boundaries inside the outer one of their surface.
     pub holes: Vec<Boundary>,
+    /// Pits, studs and holes that no ply follows; those that it spans are no [`MeshReport::holes`] any more.
+    pub details: Vec<Detail>,
+    /// Gaps between faces, which end the mold for the ply.
+    pub gaps: Option<Gaps>,
     /// Elements that were left out, by their type.
     pub skipped: Vec<Skipped>,
 }
@@ -79,7 +85,78 @@ impl MeshReport {
     /// What of the mold is hardly meant, each in a sentence with its place and a remedy.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        self.skipped.iter().filter_map(Skipped::warning).collect()
+        let lost = self.skipped.iter().filter_map(Skipped::warning);
+        let gaps = self.gaps.iter().map(Gaps::warning);
+        lost.chain(gaps).chain(self.details()).collect()
+    }
+
+    /// Details of one kind that are treated alike, in a sentence for each kind.
+    fn details(&self) -> impl Iterator<Item = String> + '_ {
+        let kinds = [DetailKind::Pit, DetailKind::Hole, DetailKind::Stud];
+        kinds.into_iter().flat_map(|kind| [true, false].map(|spanned| (kind, spanned))).filter_map(
+            |(kind, spanned)| {
+                let own = |detail: &&Detail| detail.kind == kind && detail.spanned == spanned;
+                let own: Vec<&Detail> = self.details.iter().filter(own).collect();
+                if own.is_empty() {
+                    return None;
+                }
+                let first: Vec<String> =
+                    own.iter().take(Finding::KEPT).map(|detail| detail.text()).collect();
+                let more = match own.len().saturating_sub(Finding::KEPT) {
+                    0 => String::new(),
+                    more => format!(", and {more} more"),
+                };
+                let what = match (kind, spanned) {
+                    (DetailKind::Stud, _) => {
+                        "no ply follows what is so narrow, but the ideal drape does; cut it off in the file of the mold"
+                    }
+                    (_, true) => {
+                        "the ply spans what is narrower than `spanned` in [mold], so it is taken as filled"
+                    }
+                    (DetailKind::Hole, false) => {
+                        "the mold ends there for the ideal drape; fill it in the file of the mold"
+                    }
+                    (DetailKind::Pit, false) => {
+                        "no ply follows what is so narrow, but the ideal drape does; fill it in the file of the mold"
+                    }
+                };
+                Some(format!("the mold has {}{more}: {what}", first.join(", ")))
+            },
+        )
+    }
+}
+
+impl Detail {
+    /// What it is, how large and where.
+    fn text(&self) -> String {
+        let Detail { kind, width, length, depth, place, .. } = self;
+        let [width, length, depth] = [width, length, depth].map(|x| millimeters(*x));
+        let noun = match kind {
+            DetailKind::Pit => "a pit",
+            DetailKind::Stud => "a stud",
+            DetailKind::Hole => "a hole",
+        };
+        let long = if length > width { format!(" by {length}") } else { String::new() };
+        let deep = match kind {
+            DetailKind::Pit => format!(", {depth} mm deep,"),
+            DetailKind::Stud => format!(", {depth} mm high,"),
+            DetailKind::Hole => String::new(),
+        };
+        format!("{noun} of {width}{long} mm{deep} at {}", mm(*place))
+    }
+}
+
+impl Gaps {
+    /// How wide, how long and where they are, and what to do, in a sentence.
+    #[must_use]
+    pub fn warning(&self) -> String {
+        let [narrow, wide] = [self.narrowest, self.widest].map(|width| rounded(1e3 * width));
+        let width = if narrow < wide { format!("{narrow} to {wide}") } else { wide.to_string() };
+        format!(
+            "between faces of the mold runs a gap or step of {width} mm, {} mm long, near {}; the ply ends there as at the boundary of the mold, because it is more than the tolerance of contact: stitch the faces or merge their vertices where the mesh is made",
+            millimeters(self.length).round(),
+            mm(self.place)
+        )
     }
 }
 

@@ -335,7 +335,7 @@ mod tests {
                     (1, 0),
                     "{fine} {off:?}: {report}"
                 );
-                assert_eq!(mesh.boundaries().len(), 1);
+                assert_eq!((mesh.boundaries().len(), mesh.gaps(0.01)), (1, None));
                 let widest = report.stitched.widest.unwrap().0;
                 let most = off.iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
                 assert!(widest <= most + 1e-12, "{fine} {off:?}: {widest}");
@@ -356,8 +356,15 @@ mod tests {
     fn a_gap_above_the_tolerance_stays() {
         for off in [[3e-4, 0.0, 0.0], [0.0, 0.0, 3e-4]] {
             for fine in [1, 3] {
-                let (_, report) = stitched(&halves(fine, off));
+                let (apart, report) = stitched(&halves(fine, off));
                 assert_eq!((report.surfaces, report.stitched.count), (2, 0), "{fine} {off:?}");
+                // and is named with its width and length
+                let gaps = apart.gaps(0.01).unwrap();
+                assert!(
+                    (gaps.widest - 3e-4).abs() < 1e-5 && gaps.place[0].abs() < 1e-3,
+                    "{gaps:?}"
+                );
+                assert!((gaps.length - 1.0).abs() < 0.3, "{gaps:?}");
             }
         }
     }
