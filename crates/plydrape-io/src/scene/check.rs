@@ -130,7 +130,8 @@ fn seen_by_plies(mold: Mold, ply: &Ply, tolerance: f64) -> Mold {
     // what cannot be stitched stays as it is
     let stitched = mesh.stitched(tolerance).ok().flatten();
     let (stitched, report) = stitched.unwrap_or_else(|| ((**mesh).clone(), MeshReport::default()));
-    let (seen, _) = stitched.spanned(report, mold::usual_width(ply), tolerance);
+    let width = mold::usual_width(ply);
+    let (seen, _) = stitched.spanned(report, width, width, tolerance);
     if seen == **mesh { mold } else { Mold::Mesh(Arc::new(seen)) }
 }
 

@@ -75,6 +75,8 @@ pub(super) struct Tuning {
     pub merge: f64,
     /// Height of a triangle, as a share of its longest side, below which it has no area.
     pub needle: f64,
+    /// Distance of the vertex of a cap from the ends of its side, in greatest heights of a cap, from which it is one.
+    pub cap_flatness: f64,
     /// Share of the shorter of two sides over which both must run beside each other to face each other over a gap.
     pub beside: f64,
     /// Cosine of the angle between two sides up to which they run beside each other.
@@ -168,6 +170,7 @@ pub(super) const TUNING: Tuning = Tuning {
     tracing_tolerance: 1e-12,
     merge: 1e-6,
     needle: 1e-10,
+    cap_flatness: 10.0,
     beside: 0.1,
     parallel_sides: 0.5,
     back_to_back: 0.9,

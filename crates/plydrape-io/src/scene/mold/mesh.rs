@@ -36,7 +36,7 @@ pub(super) fn mesh(
         of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
     }
     let width = spanned(keys, ply)?;
-    let (mesh, report) = mesh.spanned(report, width, tolerance);
+    let (mesh, report) = mesh.spanned(report, width, usual_width(ply), tolerance);
     Ok((Mold::Mesh(Arc::new(mesh)), report))
 }
 

@@ -8,6 +8,7 @@ use super::{Mesh, boundary, bounds, join, normals, one_ring, stitch};
 use crate::Error;
 use crate::geometry::vector::distance;
 use crate::mold::Pose;
+use crate::mold::tuning::TUNING;
 use std::sync::OnceLock;
 
 /// Sizes of a mold that are no mistake of units (m).
@@ -23,6 +24,18 @@ impl Mesh {
         vertices: Vec<[f64; 3]>,
         triangles: &[[u32; 3]],
     ) -> Result<(Self, MeshReport), Error> {
+        Self::of_faces(vertices, triangles, 0.0)
+    }
+
+    /// As [`Mesh::of_triangles`], with boundaries of faces stitched that are no farther apart than `tolerance` (m).
+    ///
+    /// # Errors
+    /// Those of [`Mesh::of_triangles`].
+    pub fn of_faces(
+        vertices: Vec<[f64; 3]>,
+        triangles: &[[u32; 3]],
+        tolerance: f64,
+    ) -> Result<(Self, MeshReport), Error> {
         let mut soup = Soup::new("triangle");
         let most = vertices.len();
         if triangles.as_flattened().iter().any(|n| *n as usize >= most) {
@@ -33,7 +46,7 @@ impl Mesh {
         for (n, corners) in triangles.iter().enumerate() {
             soup.push(corners, n as u64 + 1);
         }
-        Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]), 0.0)
+        Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]), tolerance)
     }
 
     /// A mold of triangles that are not joined yet: coordinates are multiplied by `scale` (m per unit), then placed
@@ -110,6 +123,9 @@ fn build(
     }
     drop(soup);
     let apart = joined.clone();
+    if tolerance > 0.0 {
+        joined.leave_out_caps(TUNING.merge * size, &mut report);
+    }
     report.stitched = stitch::stitch(&mut joined, tolerance);
     let mut neighbours = orient::neighbours(&joined, noun)?;
     let (component, components) = match orient(&mut joined, &mut neighbours, noun, &mut report) {

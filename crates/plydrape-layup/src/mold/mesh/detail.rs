@@ -67,13 +67,19 @@ struct Off {
 }
 
 impl Mesh {
-    /// The mold as plies see it: with a flat cap over every pit and hole that is narrower than `width` (m) in plan, and with
-    /// what is found of pits, studs and gaps of this size added to its report. What is less than `tolerance` (m) deep or high
-    /// is no detail.
+    /// The mold as plies see it: with a flat cap over every pit and hole in plan that is no wider than `spanned` (m), and with
+    /// what is found of pits, holes, studs and gaps of up to `width` (m), or of up to `spanned` if that is more, added to its
+    /// report. What is less than `tolerance` (m) deep or high is no detail.
     #[must_use]
-    pub fn spanned(self, report: MeshReport, width: f64, tolerance: f64) -> (Self, MeshReport) {
-        let (capped, mut details) =
-            if width > 0.0 { self.capped(width, tolerance) } else { (None, Vec::new()) };
+    pub fn spanned(
+        self,
+        report: MeshReport,
+        spanned: f64,
+        width: f64,
+        tolerance: f64,
+    ) -> (Self, MeshReport) {
+        let width = width.max(spanned);
+        let (capped, mut details) = self.capped(spanned, width, tolerance);
         let still = Pose::new([0.0; 3], [0.0; 3]);
         let (mesh, mut report) = match capped.map(|soup| Self::of_soup(soup, 1.0, &still, 0.0)) {
             Some(Ok((mesh, own))) => {
@@ -93,8 +99,17 @@ impl Mesh {
         (mesh, report)
     }
 
+    /// Pits, holes and studs of up to a width in plan (m), the widest first. What is less than `tolerance` (m) deep or high is no
+    /// detail.
+    #[must_use]
+    pub fn details(&self, width: f64, tolerance: f64) -> Vec<Detail> {
+        let (_, mut details) = self.capped(0.0, width, tolerance);
+        details.sort_by(|a, b| b.width.total_cmp(&a.width));
+        details
+    }
+
     /// The triangles with caps, if there is something to cap, and all details.
-    fn capped(&self, width: f64, tolerance: f64) -> (Option<Soup>, Vec<Detail>) {
+    fn capped(&self, spanned: f64, width: f64, tolerance: f64) -> (Option<Soup>, Vec<Detail>) {
         let mut details = Vec::new();
         let mut left_out: HashSet<usize> = HashSet::new();
         let mut caps: Vec<Vec<u32>> = Vec::new();
@@ -107,8 +122,12 @@ impl Mesh {
             if boundary.vertices.len() <= TUNING.cap_corners
                 && self.is_level(&boundary.vertices, width, tolerance)
             {
-                caps.push(boundary.vertices.iter().rev().copied().collect());
-                details.push(size.detail(DetailKind::Hole, 0.0, boundary_middle(&points), true));
+                let is_spanned = size.width <= spanned;
+                if is_spanned {
+                    caps.push(boundary.vertices.iter().rev().copied().collect());
+                }
+                let place = boundary_middle(&points);
+                details.push(size.detail(DetailKind::Hole, 0.0, place, is_spanned));
             }
         }
         for part in self.parts(self.off_surface(width, tolerance), tolerance) {
@@ -116,6 +135,7 @@ impl Mesh {
                 continue;
             };
             if detail.kind == DetailKind::Pit
+                && detail.width <= spanned
                 && let Some((region, cap)) = self.cap(&part, width, tolerance)
                 && left_out.is_disjoint(&region)
             {
@@ -453,7 +473,7 @@ mod tests {
         let numbers: Vec<[u32; 3]> =
             (0..triangles.len() as u32).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
         let (mesh, report) = Mesh::of_triangles(vertices, &numbers).unwrap();
-        mesh.spanned(report, WIDTH, TOLERANCE)
+        mesh.spanned(report, WIDTH, WIDTH, TOLERANCE)
     }
 
     /// A plate of 200 mm on a surface of height z, without its middle square of 40 mm.

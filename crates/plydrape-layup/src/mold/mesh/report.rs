@@ -114,10 +114,10 @@ impl MeshReport {
                         "the ply spans what is narrower than `spanned` in [mold], so it is taken as filled"
                     }
                     (DetailKind::Hole, false) => {
-                        "the mold ends there for the ideal drape; fill it in the file of the mold"
+                        "the mold ends there for the ply; fill it in the file of the mold, or raise `spanned` in [mold]"
                     }
                     (DetailKind::Pit, false) => {
-                        "no ply follows what is so narrow, but the ideal drape does; fill it in the file of the mold"
+                        "no ply follows what is so narrow, but the ideal drape does; fill it in the file of the mold, or raise `spanned` in [mold]"
                     }
                 };
                 Some(format!("the mold has {}{more}: {what}", first.join(", ")))
@@ -127,8 +127,9 @@ impl MeshReport {
 }
 
 impl Detail {
-    /// What it is, how large and where.
-    fn text(&self) -> String {
+    /// What it is, how large and where, as in "a pit of 6 mm, 10 mm deep, at (0, 0, 0) mm".
+    #[must_use]
+    pub fn text(&self) -> String {
         let Detail { kind, width, length, depth, place, .. } = self;
         let [width, length, depth] = [width, length, depth].map(|x| millimeters(*x));
         let noun = match kind {

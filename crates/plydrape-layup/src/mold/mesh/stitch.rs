@@ -428,6 +428,25 @@ mod tests {
         assert_eq!((report.surfaces, report.stitched.count), (1, 0), "{report}");
     }
 
+    /// A cap that rounding has given a height of a ten-thousandth of a millimeter, to either side, and so a normal to any side.
+    #[test]
+    fn a_cap_of_rounding_alone_turns_no_normal() {
+        for off in [[0.0, 1e-7, 0.0], [0.0, -1e-7, 0.0], [0.0, 0.0, 1e-7], [0.0, 1e-7, -1e-7]] {
+            let (a, b, c) = ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5 + off[0], off[1], off[2]]);
+            let faces = [
+                [a, b, [0.5, 1.0, 0.0]],
+                [a, c, b],
+                [a, [0.25, -1.0, 0.0], c],
+                [c, [0.75, -1.0, 0.0], b],
+                [c, [0.25, -1.0, 0.0], [0.75, -1.0, 0.0]],
+            ];
+            let (mesh, report) = stitched(&faces);
+            assert_eq!((report.surfaces, mesh.boundaries().len()), (1, 1), "{report}");
+            assert!(mesh.closest_point(c).normal[2] > 0.999, "{:?}", mesh.closest_point(c));
+            assert_eq!(mesh.sharp_edges(0.1).count(), 0);
+        }
+    }
+
     /// A triangle without area between a coarse face and two of a finer one is left out, and what it held together is stitched.
     #[test]
     fn a_cap_without_area_leaves_no_gap() {
