@@ -17,7 +17,7 @@ use plydrape::ply::{Ply, gripper_name};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Widest pit that is named where the ply folds, in widths that it spans unless given.
+/// Widest detail that is named where the ply folds, in widths that it spans unless given.
 const FOLDING: f64 = 2.5;
 
 /// Checks the table `[target]`.
@@ -208,7 +208,7 @@ fn at_grippers(
         (Mold::Mesh(mesh), Some(Reason::OffMold)) => {
             mesh.gaps(usual_width(ply)).map(|gaps| gaps.warning())
         }
-        (Mold::Mesh(mesh), _) => pit(mesh, ply),
+        (Mold::Mesh(mesh), _) => detail(mesh, ply),
         _ => None,
     };
     let help = match (cause, too_small(mold, ply)) {
@@ -225,16 +225,20 @@ fn at_grippers(
     ))
 }
 
-/// A pit that is too wide to be spanned unasked, and too narrow for the ply to follow it without a fold.
-fn pit(mesh: &Mesh, ply: &Ply) -> Option<String> {
+/// A detail that is too wide to be spanned unasked, or cannot be, and too narrow for the ply to follow it without a fold.
+fn detail(mesh: &Mesh, ply: &Ply) -> Option<String> {
     let tolerance = ContactSettings::default().tolerance;
     let details = mesh.details(FOLDING * usual_width(ply), tolerance);
-    let pit = details.iter().find(|detail| detail.kind == DetailKind::Pit)?;
-    let width = (1e3 * pit.width).floor() + 1.0;
-    Some(format!(
-        "the mold has {}: fill it, or have the ply span it with spanned = \"{width} mm\" in [mold]",
-        pit.text()
-    ))
+    let detail = details.first()?;
+    let width = (1e3 * detail.width).floor() + 1.0;
+    let remedy = match detail.kind {
+        DetailKind::Pit => {
+            format!("fill it, or have the ply span it with spanned = \"{width} mm\" in [mold]")
+        }
+        DetailKind::Hole => "fill it".into(),
+        DetailKind::Stud => "cut it off".into(),
+    };
+    Some(format!("the mold has {}: {remedy}", detail.text()))
 }
 
 /// Of a mesh that is smaller than the ply, the sizes of both: its unit may be wrong.

@@ -108,6 +108,8 @@ pub(super) struct Tuning {
     pub open_share: f64,
     /// Most corners of a cap.
     pub cap_corners: usize,
+    /// Distance in plan, as a share of the width of the widest detail, up to which two points are above each other.
+    pub same_in_plan: f64,
     /// Directions in which the extent of a detail is measured.
     pub extents: usize,
     /// Share of the area of a circle of the same perimeter below which a detail is long and narrow.
@@ -185,6 +187,7 @@ pub(super) const TUNING: Tuning = Tuning {
     most_rough: 50_000,
     open_share: 0.25,
     cap_corners: 200,
+    same_in_plan: 1e-3,
     extents: 36,
     slender: 0.3,
     round: 1.1,

@@ -24,6 +24,7 @@ pub(super) fn mesh(
     let file =
         keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let unit = keys.table.unit.as_ref();
+    let width = spanned(keys, ply)?;
     let (mesh, report) = mesh_file(
         file,
         unit,
@@ -35,7 +36,6 @@ pub(super) fn mesh(
     if let Some(unit) = unit {
         of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
     }
-    let width = spanned(keys, ply)?;
     let (mesh, report) = mesh.spanned(report, width, usual_width(ply), tolerance);
     Ok((Mold::Mesh(Arc::new(mesh)), report))
 }

@@ -145,6 +145,7 @@ impl Mesh {
             }
             details.push(detail);
         }
+        details.extend(self.through_holes(width, tolerance));
         if caps.is_empty() {
             return (None, details);
         }
@@ -276,12 +277,24 @@ impl Mesh {
         while let Some((_, first)) = off.pop_first() {
             let below = first.below;
             let mut part = vec![first];
+            let mut walls: HashSet<usize> = HashSet::new();
             let mut next = 0;
             while next < part.len() {
-                for other in self.neighbours[part[next].triangle] {
-                    let other = other as usize;
-                    if off.get(&other).is_some_and(|own| own.below == below) {
-                        part.extend(off.remove(&other));
+                // over the walls beside a triangle, as between a countersink and its hole
+                let Around { centre, unit, .. } = part[next].around;
+                let mut waiting = vec![part[next].triangle];
+                while let Some(triangle) = waiting.pop() {
+                    for other in self.neighbours[triangle].into_iter().filter(|n| *n != NONE) {
+                        let other = other as usize;
+                        if off.get(&other).is_some_and(|own| own.below == below) {
+                            part.extend(off.remove(&other));
+                        } else if self.is_within(other, centre, unit)
+                            && !walls.contains(&other)
+                            && self.seen_from_above(other, tolerance).is_none()
+                        {
+                            walls.insert(other);
+                            waiting.push(other);
+                        }
                     }
                 }
                 next += 1;
@@ -315,24 +328,76 @@ impl Mesh {
         parts
     }
 
+    /// Whether a triangle lies in plan within a distance (m) of a place.
+    fn is_within(&self, triangle: usize, [x, y]: [f64; 2], distance: f64) -> bool {
+        self.corners(triangle).iter().all(|p| (p[0] - x).hypot(p[1] - y) <= distance)
+    }
+
+    /// Holes through a solid that are no wider than `width` (m): closed lines between what is seen from above and walls,
+    /// over whose middle there is nothing.
+    fn through_holes(&self, width: f64, tolerance: f64) -> Vec<Detail> {
+        let mut next: BTreeMap<u32, u32> = BTreeMap::new();
+        let rough = self.rough(width);
+        for triangle in rough.into_iter().take(TUNING.most_rough) {
+            if self.triangle_normals[triangle][2] >= TUNING.wall {
+                continue;
+            }
+            for k in 0..3 {
+                let other = self.neighbours[triangle][k];
+                if other != NONE && self.seen_from_above(other as usize, tolerance).is_some() {
+                    let corners = self.triangles[triangle];
+                    next.insert(corners[k], corners[(k + 1) % 3]);
+                }
+            }
+        }
+        let mut out = Vec::new();
+        while let Some((start, mut vertex)) = next.pop_first() {
+            let mut points = vec![self.vertices[start as usize]];
+            while let Some(after) = next.remove(&vertex) {
+                points.push(self.vertices[vertex as usize]);
+                vertex = after;
+            }
+            let Some(size) = Size::of(&points, None).filter(|size| size.width <= width) else {
+                continue;
+            };
+            if vertex == start && points.len() > 2 && self.highest_point(size.middle).is_none() {
+                out.push(size.detail(DetailKind::Hole, 0.0, boundary_middle(&points), false));
+            }
+        }
+        out
+    }
+
     /// Size and place of a detail.
     fn detail(&self, part: &[Off]) -> Option<Detail> {
         let numbers: HashSet<usize> = part.iter().map(|own| own.triangle).collect();
-        let (mut points, mut area, mut perimeter, mut depth) = (Vec::new(), 0.0, 0.0, 0.0_f64);
+        let (mut points, mut area, mut depth) = (Vec::new(), 0.0, 0.0_f64);
+        // sides in plan; those above and below an upright wall lie inside
+        let mut sides: HashMap<[[i64; 2]; 2], (usize, f64)> = HashMap::new();
         for own in part {
+            let plan = |p: [f64; 3]| {
+                [p[0], p[1]].map(|x| (x / (TUNING.same_in_plan * own.around.unit)).round() as i64)
+            };
             let corners = self.corners(own.triangle);
             points.extend(corners);
             area += 0.5 * cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))[2].abs();
             for k in 0..3 {
                 if !numbers.contains(&(self.neighbours[own.triangle][k] as usize)) {
-                    let side = sub(corners[(k + 1) % 3], corners[k]);
-                    perimeter += side[0].hypot(side[1]);
+                    let ends = [corners[k], corners[(k + 1) % 3]];
+                    let side = sub(ends[1], ends[0]);
+                    let mut key = ends.map(plan);
+                    key.sort_unstable();
+                    let own = sides.entry(key).or_insert((0, side[0].hypot(side[1])));
+                    own.0 += 1;
                 }
                 let rise = corners[k][2] - own.around.height([corners[k][0], corners[k][1]]);
                 depth = depth.max(if own.below { -rise } else { rise });
             }
         }
-        let size = Size::of(&points, Some([area, perimeter]))?;
+        let perimeter = sides.values().filter(|(count, _)| *count == 1).map(|(_, length)| length);
+        // in their order, because a sum of floats depends on it
+        let mut lengths: Vec<f64> = perimeter.copied().collect();
+        lengths.sort_by(f64::total_cmp);
+        let size = Size::of(&points, Some([area, lengths.iter().sum()]))?;
         let around = part.first()?.around;
         let [x, y] = size.middle;
         let kind = if part[0].below { DetailKind::Pit } else { DetailKind::Stud };
@@ -609,6 +674,53 @@ mod tests {
             }
         }
         out
+    }
+
+    /// A countersunk hole and a round bottom are one pit each; a hole through a solid is named and stays.
+    #[test]
+    fn holes_of_several_walls_are_one_pit_and_holes_through_solids_are_named() {
+        let flat = |_: f64, _: f64| 0.0;
+        // the walls of `round` lead to its floor; in its place a cylinder of 4 mm goes on, 9 mm deep
+        let sunk = round(0.0045, 0.0025, 0.0025, true, flat);
+        let sunk = sunk.into_iter().filter(|t| t[0][0].hypot(t[0][1]) > 1e-9);
+        let mut faces: Vec<[Point; 3]> = frame(flat);
+        faces.extend(sunk);
+        let ring = |n: usize, z: f64| {
+            let (sin, cos) = (PI * n as f64 / 8.0).sin_cos();
+            [0.002 * cos, 0.002 * sin, z]
+        };
+        for n in 0..16 {
+            let [a, b, c, d] = [(n, -0.0025), (n + 1, -0.0025), (n, -0.009), (n + 1, -0.009)]
+                .map(|(n, z)| ring(n, z));
+            faces.extend([[a, b, d], [a, d, c], [[0.0, 0.0, -0.009], c, d]]);
+        }
+        let (_, report) = spanned(&faces);
+        let pit = only(&report);
+        assert!(pit.spanned, "{pit:?}");
+        near(pit.width, 0.009, 1e-4);
+        near(pit.depth, 0.009, 1e-4);
+
+        // a block of 200 mm with a hole of 6 mm through it
+        let mut faces: Vec<[Point; 3]> =
+            [frame(flat), round(0.003, 0.0, 0.0, false, flat)].concat();
+        let down = |p: Point| [p[0], p[1], p[2] - 0.02];
+        let under: Vec<[Point; 3]> = faces.iter().map(|[a, b, c]| [*a, *c, *b].map(down)).collect();
+        faces.extend(under);
+        let side = |k: usize, n: i32| {
+            let s = 0.02 * f64::from(n) - 0.1;
+            [[s, -0.1, 0.0], [0.1, s, 0.0], [-s, 0.1, 0.0], [-0.1, -s, 0.0]][k]
+        };
+        let mut wall = |a: Point, b: Point| faces.extend([[a, down(a), down(b)], [a, down(b), b]]);
+        (0..4).for_each(|k| (0..10).for_each(|n| wall(side(k, n), side(k, n + 1))));
+        let rim = |n: usize| {
+            let (sin, cos) = (PI * n as f64 / 8.0).sin_cos();
+            [0.003 * cos, 0.003 * sin, 0.0]
+        };
+        (0..16).for_each(|n| wall(rim(n + 1), rim(n)));
+        let (_, report) = spanned(&faces);
+        assert_eq!((report.surfaces, report.closed), (1, 1), "{report}");
+        assert_eq!((only(&report).kind, only(&report).spanned), (DetailKind::Hole, false));
+        near(only(&report).width, 0.006, 1e-4);
     }
 
     /// An engraved groove of 3 mm has its width, though not where it runs out of the mold.

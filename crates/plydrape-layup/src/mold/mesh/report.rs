@@ -114,7 +114,7 @@ impl MeshReport {
                         "the ply spans what is narrower than `spanned` in [mold], so it is taken as filled"
                     }
                     (DetailKind::Hole, false) => {
-                        "the mold ends there for the ply; fill it in the file of the mold, or raise `spanned` in [mold]"
+                        "the ideal drape ends there or runs into it; fill it in the file of the mold"
                     }
                     (DetailKind::Pit, false) => {
                         "no ply follows what is so narrow, but the ideal drape does; fill it in the file of the mold, or raise `spanned` in [mold]"
