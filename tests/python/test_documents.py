@@ -115,7 +115,14 @@ BASE: dict[str, dict[str, Any]] = {
 }
 TORUS = {"kind": "torus", "ring_radius": "1.2 m", "tube_radius": "0.3 m"}
 TILTED = {"kind": "plane", "tilt": "12 deg", "tilt_direction": "30 deg"}
-MOLDS = {"ring_radius": TORUS, "tube_radius": TORUS, "tilt": TILTED, "tilt_direction": TILTED}
+MESH = {"kind": "mesh", "file": "mold.stl", "unit": "mm"}
+MOLDS = {
+    "ring_radius": TORUS,
+    "spanned": MESH,
+    "tube_radius": TORUS,
+    "tilt": TILTED,
+    "tilt_direction": TILTED,
+}
 # values beyond a range, and what is said of them
 BEYOND: dict[str, list[tuple[float | str, str]]] = {
     "> 0": [(0, "is zero"), (-1e-6, "is negative")],

@@ -33,6 +33,7 @@ struct Printed<'a> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let results = &arguments.results;
     let ideal = plydrape_io::scene::read_ideal_drape(&results.scene)?;
+    crate::outcome::warn(&ideal.warnings);
     let (mold, net) = (&ideal.mold, &ideal.net);
     // once more, to measure how long it takes apart from all else that reading a scene does
     let start = Instant::now();

@@ -2,10 +2,20 @@
 
 use plydrape::outcome::{Status, Summary, Unjudged};
 use plydrape_io::ResultFile;
+use plydrape_io::store::shown;
 use serde::Serialize;
 use std::borrow::Cow;
+use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Duration;
+
+/// Prints what is possible but hardly meant to standard error, each in a line.
+pub fn warn(warnings: &[String]) {
+    for warning in warnings {
+        // standard error that cannot be written is no fault of the scene
+        let _ = writeln!(io::stderr(), "warning: {}", shown::escaped(warning));
+    }
+}
 
 /// What `--json` prints of a drape: the summary of the model that decides, `accepted` in front, how long that model took, and the summary
 /// of the other one if it was asked.

@@ -40,7 +40,9 @@ static FILE: LazyLock<Vec<u8>> = LazyLock::new(|| {
 
 fn load() -> Mesh {
     let still = Pose::new([0.0; 3], [0.0; 3]);
-    plydrape_io::read::mesh::parse("sheet.stl", &FILE, 1.0, &still).expect("the sheet is a mold").0
+    plydrape_io::read::mesh::parse("sheet.stl", &FILE, 1.0, &still, 0.0)
+        .expect("the sheet is a mold")
+        .0
 }
 
 static MESH: LazyLock<Mesh> = LazyLock::new(load);

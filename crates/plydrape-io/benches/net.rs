@@ -80,7 +80,7 @@ fn meshed_cap() -> Mold {
         let _ = writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}");
     }
     let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let (mesh, _) = plydrape_io::read::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose)
+    let (mesh, _) = plydrape_io::read::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose, 0.0)
         .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }

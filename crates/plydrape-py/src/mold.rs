@@ -3,6 +3,7 @@
 use crate::arrays::{Array, Numbers};
 use crate::quantity::Amount;
 use crate::work::parallel;
+use plydrape::layup::ContactSettings;
 use plydrape::mold::{self, Mesh, patch::patch};
 use plydrape_io::scene::Measured;
 use pyo3::exceptions::PyValueError;
@@ -115,7 +116,9 @@ impl Mold {
             }
             corners.push(triangle);
         }
-        let made = Mesh::of_triangles(vertices, &corners);
+        // the faces of a body that were meshed one by one are a mold only if they are stitched
+        let made = Mesh::of_triangles(vertices.clone(), &corners)
+            .or_else(|_| Mesh::of_faces(vertices, &corners, ContactSettings::default().tolerance));
         let (mesh, _) = made.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
         Ok(Mold(mold::Mold::Mesh(Arc::new(mesh))))
     }

@@ -14,6 +14,7 @@ mod way;
 use crate::failure::{Done, Failure};
 use crate::model;
 use crate::numbers::{degrees, millimetres, short};
+use crate::outcome::warn;
 use crate::results;
 use crate::watch::Interrupt;
 use plydrape::material::{Material, Scatter, Section, ShearCurve, Spread, TensionLaw};
@@ -81,10 +82,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         out.flush()?;
         results::list(&files)?;
     }
-    for warning in warnings {
-        // standard error that cannot be written is no fault of the scene
-        let _ = writeln!(io::stderr(), "warning: {}", shown::escaped(&warning.to_string()));
-    }
+    warn(&warnings);
     Ok(ExitCode::SUCCESS)
 }
 

@@ -6,7 +6,7 @@ use plydrape::clearance;
 use plydrape::layup::{Friction, Model};
 use plydrape::material::Section;
 use plydrape::measure::Name;
-use plydrape::mold::{Mesh, Mold};
+use plydrape::mold::{Mesh, MeshReport, Mold};
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::ply::{Ply, gripper_name};
 use plydrape::scene::Scene;
@@ -36,7 +36,8 @@ const LOOKS: usize = 100_000;
 
 /// Every warning, in a sentence.
 pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
-    let mesh = upside_down(scene);
+    let found = scene.mesh.iter().flat_map(MeshReport::warnings);
+    let mesh = upside_down(scene).into_iter().chain(found);
     let hardly_meant = far(scene).into_iter().chain(mass(scene)).chain(mesh);
     let below = below(scene);
     // said once

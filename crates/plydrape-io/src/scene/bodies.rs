@@ -4,7 +4,7 @@ use super::check::line;
 use super::file::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable, SceneKeys};
 use super::heading::{coordinates, pose};
 use super::located::Located;
-use super::mold::mesh_file;
+use super::mold::{Purpose, mesh_file};
 use super::source::Document;
 use super::usual;
 use crate::Error;
@@ -127,8 +127,9 @@ impl Reader<'_> {
             (_, Some(table), _) => self.cuboid(&table.value),
             (.., Some(file)) => {
                 let own = Pose::upright([0.0; 3]);
-                let (mesh, _) =
-                    mesh_file(file, keys.unit.as_ref(), "body", &own, document, self.base)?;
+                let purpose = Purpose { what: "body", tolerance: 0.0 };
+                let unit = keys.unit.as_ref();
+                let (mesh, _) = mesh_file(file, unit, &purpose, &own, document, self.base)?;
                 let (vertices, triangles) = (mesh.vertices().to_vec(), mesh.triangles().to_vec());
                 Ok(Shape::Mesh { vertices, triangles })
             }

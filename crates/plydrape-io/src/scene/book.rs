@@ -13,7 +13,7 @@ use super::file::{MoldTable, SceneKeys};
 use super::located::Located;
 use super::source::{Document, excerpt};
 use super::tree::{Fault, read_table};
-use super::{SceneFile, mold, named, open, read};
+use super::{SceneFile, mold, named, open, read, settings};
 use crate::Error;
 use plydrape::mold::{Layer, Layers, MeshReport, Mold, Raised, overlap};
 use serde::Deserialize;
@@ -200,7 +200,9 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
         let grippers = first.keys.grippers.as_ref().map(|table| &table.value);
         let (ply, _) = check::ply(&first.keys.ply, grippers, &first.document, &first.base)
             .map_err(|fault| in_ply(fault, &first.name))?;
-        mold::mold(&head.mold.value, &ply, document, base)?
+        let contact = settings::contact(&first.keys, &ply, &first.document)
+            .map_err(|fault| in_ply(fault, &first.name))?;
+        mold::mold(&head.mold.value, &ply, contact.tolerance, document, base)?
     };
     let mut plies: Vec<BookPly> = Vec::with_capacity(readings.len());
     for reading in &readings {

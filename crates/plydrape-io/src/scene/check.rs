@@ -13,7 +13,7 @@ use super::model::Models;
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::release::release;
-use super::settings::settings;
+use super::settings::{self, settings};
 use super::source::Document;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
@@ -21,12 +21,13 @@ use crate::Error;
 use crate::store::shown;
 use crate::store::size;
 use plydrape::layup::{Layup, Target};
-use plydrape::mold::Mold;
+use plydrape::mold::{MeshReport, Mold};
 use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
 use plydrape::scene::{Cell, Scene};
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Most grippers along u or v.
 const MOST_GRIPPERS: i128 = 1000;
@@ -40,9 +41,10 @@ pub(super) fn scene(
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
     let (ply, cups) = ply(&file.ply, grippers, document, base)?;
+    let tolerance = settings::contact(file, &ply, document)?.tolerance;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
-            let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
+            let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
             (Some(mold), report)
         }
         None => (made, None),
@@ -111,6 +113,30 @@ pub(super) fn scene(
         thickness,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
+}
+
+/// As [`scene`], on a mold that a program has made and that is read as one of a file is.
+pub(super) fn scene_on(
+    file: &SceneKeys,
+    made: Mold,
+    document: &Document,
+    base: &Path,
+) -> Result<SceneFile, Error> {
+    let grippers = file.grippers.as_ref().map(|table| &table.value);
+    let (ply, _) = ply(&file.ply, grippers, document, base)?;
+    let tolerance = settings::contact(file, &ply, document)?.tolerance;
+    scene(file, Some(seen_by_plies(made, &ply, tolerance)), document, base)
+}
+
+/// A mold that a program has made, with boundaries of its faces stitched and pits and holes spanned as those of a file are.
+fn seen_by_plies(mold: Mold, ply: &Ply, tolerance: f64) -> Mold {
+    let Mold::Mesh(mesh) = &mold else { return mold };
+    // what cannot be stitched stays as it is
+    let stitched = mesh.stitched(tolerance).ok().flatten();
+    let (stitched, report) = stitched.unwrap_or_else(|| ((**mesh).clone(), MeshReport::default()));
+    let width = mold::usual_width(ply);
+    let (seen, _) = stitched.spanned(report, width, width, tolerance);
+    if seen == **mesh { mold } else { Mold::Mesh(Arc::new(seen)) }
 }
 
 /// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.

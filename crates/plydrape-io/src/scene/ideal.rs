@@ -3,6 +3,7 @@
 use super::check::{ply, title};
 use super::file::SceneKeys;
 use super::limits::limits;
+use super::settings::contact;
 use super::source::Document;
 use super::{cut, mold, target};
 use crate::Error;
@@ -31,6 +32,8 @@ pub struct IdealDrape {
     pub wanted: Option<Wanted>,
     /// Largest shear allowed (rad).
     pub shear_limit: f64,
+    /// What of a mesh is hardly meant, each in a sentence.
+    pub warnings: Vec<String>,
 }
 
 /// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
@@ -47,7 +50,8 @@ pub(super) fn ideal_drape(
             "add [mold] with kind = \"plane\", or another one",
         ));
     };
-    let (mold, _) = mold::mold(&table.value, &ply, document, base)?;
+    let tolerance = contact(file, &ply, document)?.tolerance;
+    let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
     let Some(table) = &file.target else {
         return Err(document.error_anywhere(
             "the scene has no [target], which says how the ply is laid on the mold",
@@ -68,5 +72,6 @@ pub(super) fn ideal_drape(
     let layup = Layup::new(ply, Settings::default(), motion);
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
     let title = title(file.title.as_ref(), document, base)?;
-    Ok(IdealDrape { title, ply: layup.ply, mold, net, seeds, wanted, shear_limit })
+    let warnings = report.map_or_else(Vec::new, |report| report.warnings());
+    Ok(IdealDrape { title, ply: layup.ply, mold, net, seeds, wanted, shear_limit, warnings })
 }

@@ -17,7 +17,7 @@ use plydrape::ply::{Cut, Ply};
 use std::ops::Range;
 
 /// Widest mesh on a curved mold unless given, as a share of the shorter side of a cell.
-const MESH: f64 = 0.1;
+pub(super) const MESH: f64 = 0.1;
 /// Most nodes of a net.
 const MOST_NODES: usize = 250_000;
 /// Most meshes that a cell is divided into to put the seed on a node.

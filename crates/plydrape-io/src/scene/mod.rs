@@ -211,13 +211,14 @@ pub fn parse_for(
     let document = source::Document::new(name, text);
     let mut file = keys(&document)?;
     choose_models(&mut file, model, also);
-    match (&file.mold, &made) {
+    match (&file.mold, made) {
         (Some(table), Some(_)) => Err(document.error(
             table.span.clone(),
             "the scene has two molds",
             "leave out [mold], or give no other mold",
         )),
-        _ => check::scene(&file, made, &document, base),
+        (_, Some(made)) => check::scene_on(&file, made, &document, base),
+        (_, None) => check::scene(&file, None, &document, base),
     }
 }
 

@@ -75,7 +75,12 @@ pub(super) fn settings(
     })
 }
 
-fn contact(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<ContactSettings, Error> {
+/// Checks the table `[contact]`.
+pub(super) fn contact(
+    file: &SceneKeys,
+    ply: &Ply,
+    document: &Document,
+) -> Result<ContactSettings, Error> {
     let (contact, usual) = (&file.contact, ContactSettings::default());
     let tolerance = match &contact.tolerance {
         Some(tolerance) => {

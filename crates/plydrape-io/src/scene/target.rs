@@ -4,16 +4,21 @@ use super::csv::Csv;
 use super::file::TargetTable;
 use super::layup::{free, layup, round};
 use super::located::Located;
+use super::mold::usual_width;
 use super::places::{Places, X, Y, Z, csv_file, point};
 use super::source::Document;
 use crate::Error;
 use plydrape::LayupError;
-use plydrape::layup::Target;
-use plydrape::mold::Mold;
+use plydrape::layup::{ContactSettings, Target};
+use plydrape::mold::mesh::DetailKind;
+use plydrape::mold::{Mesh, Mold};
 use plydrape::net::{Free, Missing, Net, Reason, Seeds, Wanted};
 use plydrape::ply::{Ply, gripper_name};
 use std::path::Path;
 use std::sync::Arc;
+
+/// Widest detail that is named where the ply folds, in widths that it spans unless given.
+const FOLDING: f64 = 2.5;
 
 /// Checks the table `[target]`; its heading is given of the direction from which u is turned by `turn` (rad).
 pub(super) fn target(
@@ -182,7 +187,7 @@ fn at_grippers(
         (p - u).hypot(q - v)
     };
     let reason = net.missing.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-    let (reason, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
+    let (told, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
         Some((Reason::OffMold, beyond)) => (
             match beyond {
                 Some(beyond) => {
@@ -201,17 +206,41 @@ fn at_grippers(
             "the ply folds on its way there: move `origin` or `seed` towards the middle of the ply, or take a smaller ply",
         ),
     };
-    let help = match too_small(mold, ply) {
-        Some(sizes) if missing > 1 => format!("{sizes}; {help}"),
+    let cause = match (mold, reason.map(|missing| missing.reason)) {
+        (Mold::Mesh(mesh), Some(Reason::OffMold)) => {
+            mesh.gaps(usual_width(ply)).map(|gaps| gaps.warning())
+        }
+        (Mold::Mesh(mesh), _) => detail(mesh, ply),
+        _ => None,
+    };
+    let help = match (cause, too_small(mold, ply)) {
+        (Some(cause), _) => format!("{cause}; or {help}"),
+        (None, Some(sizes)) if missing > 1 => format!("{sizes}; {help}"),
         _ => help.into(),
     };
     let count = ply.grippers();
     let have = if missing == 1 { "gripper has" } else { "grippers have" };
     Err(document.error(
         header(table, document),
-        format!("{missing} of {count} {have} no place on the mold: gripper {id} {reason}"),
+        format!("{missing} of {count} {have} no place on the mold: gripper {id} {told}"),
         help,
     ))
+}
+
+/// A detail that is too wide to be spanned unasked, or cannot be, and too narrow for the ply to follow it without a fold.
+fn detail(mesh: &Mesh, ply: &Ply) -> Option<String> {
+    let tolerance = ContactSettings::default().tolerance;
+    let details = mesh.details(FOLDING * usual_width(ply), tolerance);
+    let detail = details.first()?;
+    let width = (1e3 * detail.width).floor() + 1.0;
+    let remedy = match detail.kind {
+        DetailKind::Pit => {
+            format!("fill it, or have the ply span it with spanned = \"{width} mm\" in [mold]")
+        }
+        DetailKind::Hole => "fill it".into(),
+        DetailKind::Stud => "cut it off".into(),
+    };
+    Some(format!("the mold has {}: {remedy}", detail.text()))
 }
 
 /// Of a mesh that is smaller than the ply, the sizes of both: its unit may be wrong.

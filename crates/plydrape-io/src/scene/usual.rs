@@ -72,6 +72,8 @@ usual! {
     DRAWN: "a tolerance of", "m", [1e-6, 5e-3], "tolerances of drawings are 0.001 mm to 5 mm", LENGTHS;
     /// A part of a cell.
     MESH: "meshes of", "m", [0.001, 0.1], "meshes are 1 mm to 100 mm wide", LENGTHS;
+    /// From an engraved mark to a port for vacuum.
+    SPANNED: "details of", "m", [0.0, 0.05], "details that a ply spans are up to 50 mm wide", LENGTHS;
     /// How far a gripper moves in one step of a plan.
     MOVE: "moves of", "m", [0.0005, 0.2], "grippers move 0.5 mm to 200 mm in a step", LENGTHS;
     /// Waves of a mold that is off its drawing.

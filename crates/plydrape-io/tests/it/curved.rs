@@ -191,7 +191,7 @@ fn cap(radius: f64, n: usize) -> Mold {
         }
     }
     let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let (mesh, _) = plydrape_io::read::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose)
+    let (mesh, _) = plydrape_io::read::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose, 0.0)
         .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }

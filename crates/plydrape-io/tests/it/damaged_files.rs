@@ -167,7 +167,7 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
     assert!(scene.help().contains("as a file"), "{}", scene.help());
     no_file(scene.to_string());
     let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-    no_file(mesh::read(&pipe("mold.stl"), 1.0, &pose).unwrap_err().to_string());
+    no_file(mesh::read(&pipe("mold.stl"), 1.0, &pose, 0.0).unwrap_err().to_string());
     for (old, new) in [
         ("material = \"krogh2018\"", "material = \"pipe.toml\""),
         ("kind = \"plane\"", "kind = \"mesh\"\nfile = \"mold.stl\"\nunit = \"mm\""),
@@ -215,7 +215,7 @@ fn deck(side: usize, instances: usize) -> String {
 #[test]
 fn a_deck_that_grows_beyond_memory_is_refused_by_its_count() {
     let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-    let parse = |text: &str| mesh::parse("deck.inp", text.as_bytes(), 1e-3, &pose);
+    let parse = |text: &str| mesh::parse("deck.inp", text.as_bytes(), 1e-3, &pose, 0.0);
     let refused = parse(&deck(100, 10_000)).unwrap_err();
     assert!(matches!(refused, Error::TooLarge { .. }), "{refused}");
     let text = refused.to_string();
@@ -238,7 +238,7 @@ fn a_polygon_of_ten_thousand_corners_is_refused_with_its_line() {
         format!("{vertices}f{face}\n")
     };
     let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-    let parse = |text: &str| mesh::parse("mold.obj", text.as_bytes(), 1.0, &pose);
+    let parse = |text: &str| mesh::parse("mold.obj", text.as_bytes(), 1.0, &pose, 0.0);
     let refused = parse(&ring(10_000)).unwrap_err();
     let text = refused.to_string();
     assert!(text.contains("line 10001: face 1 has 10000 corners"), "{text}");

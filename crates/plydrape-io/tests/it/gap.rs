@@ -66,7 +66,7 @@ fn as_mesh(scale: f64) -> Mold {
             text += &format!("f {} {} {} {}\n", a, a + 1, a + n + 1, a + n);
         }
     }
-    let (mesh, _) = plydrape_io::read::mesh::parse("m.obj", text.as_bytes(), 1.0, &level())
+    let (mesh, _) = plydrape_io::read::mesh::parse("m.obj", text.as_bytes(), 1.0, &level(), 0.0)
         .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }

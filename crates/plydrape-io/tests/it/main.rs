@@ -24,6 +24,7 @@ mod molds_in_scenes;
 mod motion;
 mod net;
 mod outlines;
+mod part_meshes;
 mod pattern;
 mod plans;
 mod preload;

@@ -2,7 +2,7 @@
 //! they get.
 
 use plydrape::mold::Pose;
-use plydrape::mold::mesh::{Mesh, MeshReport};
+use plydrape::mold::mesh::{Mesh, MeshReport, Role};
 use plydrape_io::Error;
 use std::path::Path;
 
@@ -18,7 +18,7 @@ fn message(fault: &Error) -> String {
 }
 
 fn parse(file: &str, contents: impl AsRef<[u8]>) -> Result<(Mesh, MeshReport), Error> {
-    plydrape_io::read::mesh::parse(file, contents.as_ref(), 1.0, &still())
+    plydrape_io::read::mesh::parse(file, contents.as_ref(), 1.0, &still(), 0.0)
 }
 
 fn read(file: &str, contents: impl AsRef<[u8]>) -> (Mesh, MeshReport) {
@@ -206,11 +206,67 @@ fn a_flat_abaqus_file_is_read() {
                 *ELEMENT, TYPE=STRI65\n2, 4, 3, 5,\n 6, 6, 6\n*ELEMENT, TYPE=MASS\n3, 6\n";
     let (mesh, report) = read("a.inp", text);
     assert_eq!((report.triangles, report.vertices), (3, 5));
-    assert_eq!(report.skipped, [("MASS".to_owned(), 1)]);
+    let [mass] = &report.skipped[..] else { panic!("{:?}", report.skipped) };
+    assert_eq!((mass.kind.as_str(), mass.count, mass.role), ("MASS", 1, Role::NoSurface));
+    assert!(
+        report.to_string().ends_with("elements of type MASS, which are no surface, left out: 1")
+    );
+    assert!(report.warnings().is_empty());
     let at = |p: Point| mesh.vertices().iter().position(|q| *q == p).unwrap() as u32;
     let diagonal = [at([1.0, 0.0, 0.0]), at([0.0, 1.0, 0.0])];
     let along = mesh.triangles().iter().filter(|t| diagonal.iter().all(|n| t.contains(n))).count();
     assert_eq!(along, 2);
+}
+
+/// A plate of 600 × 600 mm of one S8R and two triangles of second order, as CalculiX has them.
+fn second_order_plate(triangles: &str) -> String {
+    format!(
+        "*NODE\n1, -300., -300., 0.\n2, 0., -300., 0.\n3, 300., -300., 0.\n4, -300., 300., 0.\n\
+         5, 0., 300., 0.\n6, 300., 300., 0.\n7, -150., -300., 0.\n8, 150., -300., 0.\n\
+         9, 300., 0., 0.\n10, 150., 300., 0.\n11, -150., 300., 0.\n12, -300., 0., 0.\n\
+         13, 0., 0., 0.\n14, -150., 0., 0.\n*ELEMENT, TYPE=S8R, ELSET=SKIN\n\
+         1, 2, 3, 6, 5, 8, 9, 10, 13\n*ELEMENT, TYPE={triangles}, ELSET=SKIN\n\
+         2, 1, 2, 5, 7, 13, 14\n3, 1, 5, 4, 14, 11, 12\n"
+    )
+}
+
+/// Triangles of second order are read by their corners, under every name that programs give them.
+#[test]
+fn triangles_of_second_order_are_part_of_the_surface() {
+    for kind in ["S6", "STRI65", "M3D6", "CPS6"] {
+        let (mesh, report) = read("a.inp", second_order_plate(kind));
+        assert_eq!((report.triangles, report.surfaces, report.skipped.len()), (4, 1, 0), "{kind}");
+        assert_eq!(mesh.bounds(), [[-300.0, -300.0, 0.0], [300.0, 300.0, 0.0]]);
+    }
+}
+
+/// Elements that are left out beside shells leave a hole, which is said with their number, type and place; those that
+/// share no edge may be no part of the surface, and a solid below the shells is none.
+#[test]
+fn elements_left_out_beside_shells_are_warned_of() {
+    let text = second_order_plate("SHELL6");
+    let (_, report) = read("a.inp", &text);
+    let [warning] = &report.warnings()[..] else { panic!("{:?}", report.warnings()) };
+    assert!(warning.starts_with("2 of the mold's elements are of type SHELL6, a type that is not known here, and left out; 1 of these share an edge with its surface"), "{warning}");
+    // the middle of element 2, in a file of meters
+    assert!(warning.contains("near (-100000, -100000, 0) mm"), "{warning}");
+
+    let text = second_order_plate("SC6R");
+    let (_, report) = read("a.inp", &text);
+    assert!(report.to_string().contains("type SC6R, which have two surfaces, left out: 2"));
+    assert!(report.warnings()[0].contains("the mold has a hole"));
+
+    let far = "*NODE\n21, 0, 0, 9\n22, 1, 0, 9\n23, 0, 1, 9\n*ELEMENT, TYPE=TRIA\n9, 21, 22, 23\n";
+    let (_, report) = read("a.inp", second_order_plate("S6") + far);
+    assert!(
+        report.warnings()[0].contains("if it belongs to the surface"),
+        "{:?}",
+        report.warnings()
+    );
+
+    let below = "*NODE\n21, 0, 0, -9\n*ELEMENT, TYPE=C3D4\n9, 2, 3, 6,\n21\n10, 2, 6, 5, 21\n";
+    let (_, report) = read("a.inp", second_order_plate("S6") + below);
+    assert_eq!((report.skipped[0].count, report.warnings().len()), (2, 0));
 }
 
 /// A part library, without an assembly.
@@ -232,7 +288,7 @@ fn the_blade_like_mold_is_one_open_surface() {
         return;
     }
     let (mesh, report) =
-        plydrape_io::read::mesh::read(path, 1.0, &still()).unwrap_or_else(|e| panic!("{e}"));
+        plydrape_io::read::mesh::read(path, 1.0, &still(), 0.0).unwrap_or_else(|e| panic!("{e}"));
     // its sets say 1 to 3510 and 1 to 6764
     assert_eq!((report.vertices, report.triangles), (3510, 6764));
     assert_eq!((report.surfaces, report.closed, mesh.boundaries().len()), (1, 0, 1));
@@ -244,7 +300,7 @@ fn a_mesh_is_scaled_and_then_placed() {
     let pose = Pose::new([1.0, 2.0, 3.0], [0.0, 0.0, std::f64::consts::FRAC_PI_2]);
     let text = "v 0 0 0\nv 1000 0 0\nv 0 500 0\nf 1 2 3\n";
     let (mesh, report) =
-        plydrape_io::read::mesh::parse("a.obj", text.as_bytes(), 1e-3, &pose).unwrap();
+        plydrape_io::read::mesh::parse("a.obj", text.as_bytes(), 1e-3, &pose, 0.0).unwrap();
     let expected: [Point; 3] = [[0.5, 2.0, 3.0], [1.0, 2.0, 3.0], [1.0, 3.0, 3.0]];
     close(&sorted(&mesh), &expected, 1e-15);
     close(&report.bounds, &mesh.bounds(), 0.0);
@@ -418,11 +474,12 @@ fn broken_files_are_refused_with_place_and_remedy() {
             Err(fault) => messages += &message(&fault),
         }
     }
-    let missing = plydrape_io::read::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still());
+    let missing = plydrape_io::read::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still(), 0.0);
     messages += &message(&missing.unwrap_err());
     for scale in [0.0, f64::NAN] {
-        let fault = plydrape_io::read::mesh::parse("a.obj", square.as_bytes(), scale, &still())
-            .unwrap_err();
+        let fault =
+            plydrape_io::read::mesh::parse("a.obj", square.as_bytes(), scale, &still(), 0.0)
+                .unwrap_err();
         messages += &message(&fault);
     }
     insta::assert_snapshot!("messages", messages);

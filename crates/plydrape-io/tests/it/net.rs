@@ -492,7 +492,7 @@ fn meshed(
             writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}").unwrap();
         }
     }
-    let (mesh, _) = plydrape_io::read::mesh::parse("mold.obj", text.as_bytes(), 1.0, &level())
+    let (mesh, _) = plydrape_io::read::mesh::parse("mold.obj", text.as_bytes(), 1.0, &level(), 0.0)
         .expect("a sound mesh");
     Mold::Mesh(Arc::new(mesh))
 }

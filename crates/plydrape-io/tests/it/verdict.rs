@@ -147,8 +147,8 @@ fn a_flat_mold_has_one_outcome_by_whatever_name() {
     let heights = HeightGrid::new(axis.clone(), axis, vec![0.0; 441]).expect("a grid");
     let square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n";
     let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let (mesh, _) =
-        plydrape_io::read::mesh::parse("flat.obj", square.as_bytes(), 1.0, &pose).expect("a mesh");
+    let (mesh, _) = plydrape_io::read::mesh::parse("flat.obj", square.as_bytes(), 1.0, &pose, 0.0)
+        .expect("a mesh");
     let sphere = |radius: f64| {
         let pose = Pose::new([0.15, 0.05, -radius], [0.0; 3]);
         Mold::Sphere(Sphere { pose, radius, face: Face::Outside })

@@ -75,6 +75,47 @@ pub(super) struct Tuning {
     pub merge: f64,
     /// Height of a triangle, as a share of its longest side, below which it has no area.
     pub needle: f64,
+    /// Distance of the vertex of a cap from the ends of its side, in greatest heights of a cap, from which it is one.
+    pub cap_flatness: f64,
+    /// Share of the shorter of two sides over which both must run beside each other to face each other over a gap.
+    pub beside: f64,
+    /// Cosine of the angle between two sides up to which they run beside each other.
+    pub parallel_sides: f64,
+    /// Cosine of the angle between what points away from two faces across their sides, from which they lie back to back, as
+    /// the two faces of a thin sheet: 26°.
+    pub back_to_back: f64,
+    /// Most rounds of stitching; in each, vertices become one or sides are divided. Where k faces meet it takes k rounds.
+    pub stitch_rounds: usize,
+    /// Radii of the rings that give the surface around a detail, in widths of the widest detail: a triangle in it is off its
+    /// middle, and all of the detail shall lie within them.
+    pub rings: [f64; 2],
+    /// Points of each ring.
+    pub ring_points: usize,
+    /// Share of the points of both rings that the mold must have, and that must lie on the surface around a detail.
+    pub ring_share: f64,
+    /// Rounds in which the weights of these points are made anew.
+    pub ring_rounds: usize,
+    /// Distance from the surface around a place, in median distances of the points that it is made from, up to which a place
+    /// lies on it.
+    pub off_surface: f64,
+    /// Difference of two unit normals within the width of a detail below which there is no detail: 30°.
+    pub rough: f64,
+    /// Upward part of a unit normal below which a triangle is a wall.
+    pub wall: f64,
+    /// Most triangles that are looked at for details; a mesh with more near sharp turns is rough everywhere.
+    pub most_rough: usize,
+    /// Share of the boundary of a detail that may go on at its own level.
+    pub open_share: f64,
+    /// Most corners of a cap.
+    pub cap_corners: usize,
+    /// Distance in plan, as a share of the width of the widest detail, up to which two points are above each other.
+    pub same_in_plan: f64,
+    /// Directions in which the extent of a detail is measured.
+    pub extents: usize,
+    /// Share of the area of a circle of the same perimeter below which a detail is long and narrow.
+    pub slender: f64,
+    /// Longest extent of a detail, as a multiple of its shortest, up to which it is round.
+    pub round: f64,
     /// Upward part of the vector area of an open surface, as a share of its area, below which it faces sideways.
     pub sideways: f64,
     /// How far to the side of a boundary a point may lie and still count as over it, as a share of the mesh's diagonal
@@ -131,6 +172,25 @@ pub(super) const TUNING: Tuning = Tuning {
     tracing_tolerance: 1e-12,
     merge: 1e-6,
     needle: 1e-10,
+    cap_flatness: 10.0,
+    beside: 0.1,
+    parallel_sides: 0.5,
+    back_to_back: 0.9,
+    stitch_rounds: 40,
+    rings: [1.0, 1.6],
+    ring_points: 24,
+    ring_share: 0.6,
+    ring_rounds: 12,
+    off_surface: 5.0,
+    rough: 0.517_638,
+    wall: 0.05,
+    most_rough: 50_000,
+    open_share: 0.25,
+    cap_corners: 200,
+    same_in_plan: 1e-3,
+    extents: 36,
+    slender: 0.3,
+    round: 1.1,
     sideways: 0.01,
     aside: 1e-9,
     bound_margin: 1e-6,

@@ -5,13 +5,13 @@
 //! first and then turned about an axis. Sets, materials and steps are passed over; a keyword that would
 //! change the geometry is refused.
 
-use super::element::surface;
+use super::element::{self, element};
 use super::instance::{Placing, turned};
 use super::text::{CORRECT, Lines, refused};
 use crate::Error;
 use crate::store::size;
-use plydrape::mold::mesh::Soup;
-use std::collections::HashMap;
+use plydrape::mold::mesh::{Role, Skipped, Soup};
+use std::collections::{HashMap, HashSet};
 
 /// Keywords that make or move nodes and elements, and what to do about them.
 const REFUSED: [(&str, &str); 11] = [
@@ -36,6 +36,8 @@ struct Scope {
     /// Nodes by number: place and line.
     nodes: HashMap<u64, ([f64; 3], usize)>,
     elements: Vec<Element>,
+    /// Elements that may be part of the surface and cannot be read: which of the skipped types, and their nodes.
+    lost: Vec<(usize, Vec<u64>)>,
 }
 
 /// A surface element.
@@ -61,8 +63,8 @@ struct Instance {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Data {
     Ignored,
-    /// Of elements that are no surface.
-    Skipped,
+    /// Of elements that are left out, by the number of their type.
+    Skipped(usize),
     Nodes,
     Elements {
         nodes: usize,
@@ -92,7 +94,8 @@ struct Reader<'a> {
     data: Data,
     /// Numbers of an element that goes on in the next line.
     pending: Vec<u64>,
-    skipped: Vec<(String, usize)>,
+    /// Types of elements that are left out.
+    skipped: Vec<Skipped>,
 }
 
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
@@ -153,6 +156,7 @@ impl Reader<'_> {
         let value = |key: &str| parameters.iter().find(|(k, _)| k == key).map(|(_, value)| *value);
         let number = self.lines.number;
         self.data = Data::Ignored;
+        self.pending.clear();
         match name.as_str() {
             "NODE" | "ELEMENT" if value("INPUT").is_some() => {
                 return Err(
@@ -172,13 +176,16 @@ impl Reader<'_> {
                 let kind = value("TYPE").filter(|kind| !kind.is_empty());
                 let kind = kind.ok_or_else(|| self.lines.fault(line, "`*Element, type=…`"))?;
                 let kind = kind.to_ascii_uppercase();
-                match surface(&kind) {
-                    Some((nodes, corners)) => self.data = Data::Elements { nodes, corners },
-                    None => {
-                        self.skipped.push((kind, 0));
-                        self.data = Data::Skipped;
+                let role = match element(&kind) {
+                    element::Element::Face { nodes, corners } => {
+                        self.data = Data::Elements { nodes, corners };
+                        return Ok(());
                     }
-                }
+                    element::Element::Thick => Role::Thick,
+                    element::Element::NoFace => Role::NoSurface,
+                    element::Element::Unknown => Role::Unknown,
+                };
+                self.data = Data::Skipped(self.skipped_type(kind, role));
             }
             "PART" | "INSTANCE" if self.place != Place::File => {
                 let end = if self.place == Place::Part { "`*End Part`" } else { "`*End Instance`" };
@@ -214,6 +221,32 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// The number of a type of elements that are left out.
+    fn skipped_type(&mut self, kind: String, role: Role) -> usize {
+        let known = self.skipped.iter().position(|skipped| skipped.kind == kind);
+        known.unwrap_or_else(|| {
+            self.skipped.push(Skipped { kind, role, count: 0, beside: 0, place: None });
+            self.skipped.len() - 1
+        })
+    }
+
+    /// Counts an element that is left out, and keeps its nodes if it may be part of the surface.
+    fn skip(&mut self, kind: usize, line: &str) {
+        let skipped = &mut self.skipped[kind];
+        if skipped.role == Role::NoSurface {
+            // an element that goes on in the next line counts where it ends
+            skipped.count += usize::from(!line.ends_with(','));
+            return;
+        }
+        self.pending.extend(line.split(',').filter_map(|field| field.trim().parse::<u64>().ok()));
+        if !line.ends_with(',') && !self.pending.is_empty() {
+            skipped.count += 1;
+            let nodes = self.pending.split_off(1);
+            self.pending.clear();
+            self.scope().lost.push((kind, nodes));
+        }
+    }
+
     fn refused(&self, keyword: &str, remedy: &str) -> Error {
         refused(self.file, self.lines.number, format!("{keyword} is not read"), remedy)
     }
@@ -241,10 +274,8 @@ impl Reader<'_> {
     fn data(&mut self, line: &str) -> Result<(), Error> {
         match self.data {
             Data::Ignored => Ok(()),
-            Data::Skipped => {
-                if let Some((_, count)) = self.skipped.last_mut() {
-                    *count += 1;
-                }
+            Data::Skipped(kind) => {
+                self.skip(kind, line);
                 Ok(())
             }
             Data::Nodes => self.node(line),
@@ -331,7 +362,8 @@ impl Reader<'_> {
     /// All elements in their places.
     fn soup(self) -> Result<Soup, Error> {
         let mut soup = Soup::new("element");
-        let Reader { file, flat, parts, instances, .. } = self;
+        let Reader { file, flat, parts, instances, skipped, .. } = self;
+        soup.skipped = skipped;
         // an instance is a line, and all elements of its part once more
         let triangles = |scope: &Scope| -> f64 {
             scope.elements.iter().map(|element| element.count as f64 - 2.0).sum()
@@ -354,7 +386,6 @@ impl Reader<'_> {
                 add(&mut soup, file, part, &Placing::default())?;
             }
         }
-        soup.skipped = self.skipped;
         Ok(soup)
     }
 }
@@ -389,5 +420,35 @@ fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<
         }
         soup.push(&corners[..element.count], element.number);
     }
+    if !scope.lost.is_empty() {
+        note_lost(&mut soup.skipped, scope, placing);
+    }
     Ok(())
+}
+
+/// Notes which of the elements that are left out of a scope share an edge with its surface, and where the first one is.
+fn note_lost(skipped: &mut [Skipped], scope: &Scope, placing: &Placing) {
+    let mut edges: HashSet<[u64; 2]> = HashSet::with_capacity(2 * scope.elements.len());
+    for element in &scope.elements {
+        let corners = &element.corners[..element.count];
+        for (n, &a) in corners.iter().enumerate() {
+            let b = corners[(n + 1) % corners.len()];
+            edges.insert([a.min(b), a.max(b)]);
+        }
+    }
+    for (kind, nodes) in &scope.lost {
+        let skipped = &mut skipped[*kind];
+        let is_beside = nodes
+            .iter()
+            .enumerate()
+            .any(|(n, &a)| nodes[..n].iter().any(|&b| edges.contains(&[a.min(b), a.max(b)])));
+        let places: Vec<[f64; 3]> =
+            nodes.iter().filter_map(|node| Some(scope.nodes.get(node)?.0)).collect();
+        if (skipped.place.is_none() || (is_beside && skipped.beside == 0)) && !places.is_empty() {
+            let middle =
+                [0, 1, 2].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / places.len() as f64);
+            skipped.place = Some(turned(middle, placing));
+        }
+        skipped.beside += usize::from(is_beside);
+    }
 }

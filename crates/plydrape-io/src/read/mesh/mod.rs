@@ -19,14 +19,26 @@ pub(crate) const LARGEST: u64 = 1 << 30;
 
 /// Reads a mesh from an STL, OBJ or Abaqus file, recognized by the end of its name.
 ///
-/// Coordinates are multiplied by `scale` (m per unit of the file), then placed by `pose`.
+/// Coordinates are multiplied by `scale` (m per unit of the file), then placed by `pose`. Boundaries of faces that are no
+/// farther apart than `tolerance` (m) are stitched; none are at 0.
 ///
 /// # Errors
 /// If the file cannot be read, its contents are no mesh, or the mesh is no mold: see [`Error`].
-pub fn read(path: &Path, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), Error> {
+pub fn read(
+    path: &Path,
+    scale: f64,
+    pose: &Pose,
+    tolerance: f64,
+) -> Result<(Mesh, MeshReport), Error> {
     let file = path.display().to_string();
     let bytes = input::bytes(path, LARGEST).map_err(|source| Error::read(path, source))?;
-    parse(&file, &bytes, scale, pose)
+    parse(&file, &bytes, scale, pose, tolerance)
+}
+
+/// A file's name as a word of a command line.
+fn quoted(name: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "./\\_-+:".contains(c);
+    if name.chars().all(is_plain) { name.to_owned() } else { format!("\"{name}\"") }
 }
 
 /// The same from the contents of a file; its name states the format and stands in messages.
@@ -38,6 +50,7 @@ pub fn parse(
     bytes: &[u8],
     scale: f64,
     pose: &Pose,
+    tolerance: f64,
 ) -> Result<(Mesh, MeshReport), Error> {
     let no_mold = |fault: LayupError| Error::file(file, format!("{file}: {fault}"), fault.remedy());
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
@@ -54,13 +67,19 @@ pub fn parse(
                 "" => format!("{file}: the file name has no ending"),
                 _ => format!("{file}: the file name ends in .{extension}"),
             };
-            return Err(Error::file(
-                file,
-                message,
-                "the name of a mesh ends in .stl, .obj or .inp",
-            ));
+            let help = match &*extension.to_ascii_lowercase() {
+                "step" | "stp" | "iges" | "igs" => {
+                    let made = Path::new(file).with_extension("stl").display().to_string();
+                    let [cad, made] = [file, &made].map(quoted);
+                    format!(
+                        "a part from CAD becomes a mesh by `python -m plydrape.cad {cad} -o {made}`; then give the .stl file, with unit = \"mm\""
+                    )
+                }
+                _ => "the name of a mesh ends in .stl, .obj or .inp".to_owned(),
+            };
+            return Err(Error::file(file, message, help));
         }
     };
     size::mesh(soup.triangles.len() as f64).map_err(|error| error.of_file(file))?;
-    Mesh::of_soup(soup, scale, pose).map_err(no_mold)
+    Mesh::of_soup(soup, scale, pose, tolerance).map_err(no_mold)
 }

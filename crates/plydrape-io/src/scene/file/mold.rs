@@ -45,6 +45,9 @@ pub(in crate::scene) struct MoldTable {
     pub file: Option<Located<String>>,
     /// Of a mesh: the unit in which its file is written, as in "mm"; mesh files do not say it themselves.
     pub unit: Option<Located<String>>,
+    /// Of a mesh: width up to which the ply spans pits and holes, which are then taken as filled (m), a tenth of a cell unless
+    /// given; 0 for none.
+    pub spanned: Option<Quantity<Length>>,
 }
 
 /// Shape of the mold.
@@ -105,7 +108,7 @@ impl MoldKind {
             MoldKind::Saddle => &["radii", "x", "y", "position", "rotation"],
             MoldKind::Formula => &["z", "x", "y", "position", "rotation"],
             MoldKind::HeightGrid => &["file", "position", "rotation"],
-            MoldKind::Mesh => &["file", "unit", "position", "rotation"],
+            MoldKind::Mesh => &["file", "unit", "spanned", "position", "rotation"],
         }
     }
 }

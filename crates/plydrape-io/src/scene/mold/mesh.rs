@@ -3,26 +3,64 @@
 use super::Keys;
 use crate::Error;
 use crate::read::mesh;
-use crate::scene::layup::round;
+use crate::scene::layup::{MESH, round};
 use crate::scene::located::Located;
 use crate::scene::read;
 use crate::scene::source::Document;
 use crate::scene::units::{self, Dimension};
+use crate::scene::usual;
 use plydrape::mold::{Mesh, MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::path::Path;
 use std::sync::Arc;
 
 /// Checks the keys of a mesh, and reads its file.
-pub(super) fn mesh(keys: &Keys, ply: &Ply, base: &Path) -> Result<(Mold, MeshReport), Error> {
+pub(super) fn mesh(
+    keys: &Keys,
+    ply: &Ply,
+    tolerance: f64,
+    base: &Path,
+) -> Result<(Mold, MeshReport), Error> {
     let file =
         keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let unit = keys.table.unit.as_ref();
-    let (mesh, report) = mesh_file(file, unit, "mold", &keys.pose()?, keys.document, base)?;
+    let width = spanned(keys, ply)?;
+    let (mesh, report) = mesh_file(
+        file,
+        unit,
+        &Purpose { what: "mold", tolerance },
+        &keys.pose()?,
+        keys.document,
+        base,
+    )?;
     if let Some(unit) = unit {
         of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
     }
+    let (mesh, report) = mesh.spanned(report, width, usual_width(ply), tolerance);
     Ok((Mold::Mesh(Arc::new(mesh)), report))
+}
+
+/// Width up to which the ply spans pits and holes (m).
+fn spanned(keys: &Keys, ply: &Ply) -> Result<f64, Error> {
+    let Some(width) = &keys.table.spanned else { return Ok(usual_width(ply)) };
+    let value = width.size_or_zero(keys.document, &usual::SPANNED)?;
+    let cell = ply.cell[0].min(ply.cell[1]);
+    if value > cell {
+        return Err(keys.document.error(
+            width.span.clone(),
+            format!("{} is more than a cell of the ply", keys.document.quoted(&width.span)),
+            format!(
+                "give a width up to that of a cell, {} mm; what is wider is part of the shape of the mold",
+                round(1e3 * cell)
+            ),
+        ));
+    }
+    Ok(value)
+}
+
+/// Width up to which a ply spans pits and holes unless given (m): as wide as the meshes of its ideal drape.
+pub(in crate::scene) fn usual_width(ply: &Ply) -> f64 {
+    MESH * ply.cell[0].min(ply.cell[1])
 }
 
 /// Smallest and largest mold, in diagonals of its ply: on a smaller one no ply can lie. A larger one does not exist: a thousand
@@ -71,11 +109,19 @@ fn of_the_size_of_plies(
     ))
 }
 
-/// Reads a mesh file, whose coordinates are in a unit, and places it; `what` is what the mesh is of.
+/// What a mesh file is read for.
+pub(in crate::scene) struct Purpose {
+    /// What the mesh is of, for messages.
+    pub what: &'static str,
+    /// How far apart boundaries of its faces may be and still be stitched (m).
+    pub tolerance: f64,
+}
+
+/// Reads a mesh file, whose coordinates are in a unit, and places it.
 pub(in crate::scene) fn mesh_file(
     file: &Located<String>,
     unit: Option<&Located<String>>,
-    what: &str,
+    purpose: &Purpose,
     pose: &Pose,
     document: &Document,
     base: &Path,
@@ -83,7 +129,8 @@ pub(in crate::scene) fn mesh_file(
     let at_file = |error: Error| document.error(file.span.clone(), error.to_string(), error.help());
     let bytes = read::bytes(&base.join(&file.value), &file.value, mesh::LARGEST)
         .map_err(|error| document.error_of_named(&file.span, error, "scene"))?;
-    let parse = |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose);
+    let parse =
+        |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose, purpose.tolerance);
     let Some(unit) = unit else {
         // how big it would be, in the unit of the file
         let turned = Pose { position: [0.0; 3], ..*pose };
@@ -94,7 +141,8 @@ pub(in crate::scene) fn mesh_file(
             file.span.clone(),
             format!("a mesh file does not say its unit, and `{}` needs one", file.value),
             format!(
-                "add unit = \"mm\" if the {what} measures {x} × {y} × {z} mm, or unit = \"m\" if these are meters"
+                "add unit = \"mm\" if the {} measures {x} × {y} × {z} mm, or unit = \"m\" if these are meters",
+                purpose.what
             ),
         ));
     };

@@ -16,7 +16,7 @@ use plydrape::ply::Ply;
 use std::ops::Range;
 use std::path::Path;
 
-pub(super) use mesh::mesh_file;
+pub(super) use mesh::{Purpose, mesh_file, usual_width};
 
 /// Least upward part of a unit normal: a mold this steep or steeper is a wall (89.9°).
 const UPWARD: f64 = 1.7e-3;
@@ -27,11 +27,12 @@ struct Keys<'a> {
     document: &'a Document,
 }
 
-/// Checks the table `[mold]`; files that it names are relative to `base`. A mesh comes with what was found
-/// in it.
+/// Checks the table `[mold]`; files that it names are relative to `base`. A mesh comes with what was found in it; boundaries
+/// of its faces that are no farther apart than `tolerance` (m) are stitched.
 pub(super) fn mold(
     table: &MoldTable,
     ply: &Ply,
+    tolerance: f64,
     document: &Document,
     base: &Path,
 ) -> Result<(Mold, Option<MeshReport>), Error> {
@@ -46,7 +47,7 @@ pub(super) fn mold(
         MoldKind::Formula => graph::formula(&keys, ply),
         MoldKind::HeightGrid => graph::height_grid(&keys, base),
         MoldKind::Mesh => {
-            let (mesh, report) = mesh::mesh(&keys, ply, base)?;
+            let (mesh, report) = mesh::mesh(&keys, ply, tolerance, base)?;
             return Ok((mesh, Some(report)));
         }
     };
@@ -55,7 +56,7 @@ pub(super) fn mold(
 
 impl Keys<'_> {
     /// Every key beside `kind`, with its place where it is given.
-    fn places(&self) -> [(&'static str, Option<&Range<usize>>); 16] {
+    fn places(&self) -> [(&'static str, Option<&Range<usize>>); 17] {
         fn place<T>(key: &Option<Located<T>>) -> Option<&Range<usize>> {
             key.as_ref().map(|located| &located.span)
         }
@@ -77,6 +78,7 @@ impl Keys<'_> {
             ("y", place(&t.y)),
             ("file", place(&t.file)),
             ("unit", place(&t.unit)),
+            ("spanned", place(&t.spanned)),
         ]
     }
 

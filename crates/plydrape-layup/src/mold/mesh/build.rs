@@ -1,20 +1,21 @@
 //! From loose triangles to a mold: placing, joining, turning, boundaries.
 
-use super::orient::{neighbours, orient};
-use super::report::MeshReport;
+use super::orient::{self, orient};
+use super::report::{MeshReport, Stitches};
 use super::soup::Soup;
 use super::tree::Tree;
-use super::{Mesh, boundary, bounds, join, normals, one_ring};
+use super::{Mesh, boundary, bounds, join, normals, one_ring, stitch};
 use crate::Error;
 use crate::geometry::vector::distance;
 use crate::mold::Pose;
+use crate::mold::tuning::TUNING;
 use std::sync::OnceLock;
 
 /// Sizes of a mold that are no mistake of units (m).
 const SIZES: std::ops::RangeInclusive<f64> = 1e-4..=1e5;
 
 impl Mesh {
-    /// A mold of triangles: corners (m), and the three of each triangle.
+    /// A mold of triangles: corners (m), and the three of each triangle. Its faces are not stitched.
     ///
     /// # Errors
     /// If the triangles are no mold: [`Error::MeshEmpty`], [`Error::MeshNoArea`], [`Error::MeshSize`],
@@ -22,6 +23,18 @@ impl Mesh {
     pub fn of_triangles(
         vertices: Vec<[f64; 3]>,
         triangles: &[[u32; 3]],
+    ) -> Result<(Self, MeshReport), Error> {
+        Self::of_faces(vertices, triangles, 0.0)
+    }
+
+    /// As [`Mesh::of_triangles`], with boundaries of faces stitched that are no farther apart than `tolerance` (m).
+    ///
+    /// # Errors
+    /// Those of [`Mesh::of_triangles`].
+    pub fn of_faces(
+        vertices: Vec<[f64; 3]>,
+        triangles: &[[u32; 3]],
+        tolerance: f64,
     ) -> Result<(Self, MeshReport), Error> {
         let mut soup = Soup::new("triangle");
         let most = vertices.len();
@@ -33,27 +46,53 @@ impl Mesh {
         for (n, corners) in triangles.iter().enumerate() {
             soup.push(corners, n as u64 + 1);
         }
-        Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]))
+        Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]), tolerance)
     }
 
     /// A mold of triangles that are not joined yet: coordinates are multiplied by `scale` (m per unit), then placed
-    /// by `pose`.
+    /// by `pose`. Boundaries of faces that are no farther apart than `tolerance` (m) are stitched; none are at 0.
     ///
     /// # Errors
     /// Those of [`Mesh::of_triangles`], and [`Error::MeshScale`] if the scale is no positive number.
-    pub fn of_soup(soup: Soup, scale: f64, pose: &Pose) -> Result<(Self, MeshReport), Error> {
-        build(soup, scale, pose)
+    pub fn of_soup(
+        soup: Soup,
+        scale: f64,
+        pose: &Pose,
+        tolerance: f64,
+    ) -> Result<(Self, MeshReport), Error> {
+        build(soup, scale, pose, tolerance)
+    }
+
+    /// The mold with boundaries of faces stitched that are no farther apart than `tolerance` (m); none where there are none.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::of_triangles`].
+    pub fn stitched(&self, tolerance: f64) -> Result<Option<(Self, MeshReport)>, Error> {
+        if self.boundaries.is_empty() {
+            return Ok(None);
+        }
+        let mut soup = Soup::new("triangle");
+        soup.points.clone_from(&self.vertices);
+        soup.triangles.clone_from(&self.triangles);
+        soup.numbers = (1..=self.triangles.len() as u64).collect();
+        let (mesh, report) = Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]), tolerance)?;
+        Ok((report.stitched.count > 0).then_some((mesh, report)))
     }
 }
 
 /// Builds the mold from loose triangles.
-fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), Error> {
+fn build(
+    mut soup: Soup,
+    scale: f64,
+    pose: &Pose,
+    tolerance: f64,
+) -> Result<(Mesh, MeshReport), Error> {
     let noun = soup.noun;
     if !(scale > 0.0 && scale.is_finite()) {
         return Err(Error::MeshScale { scale });
     }
     if soup.triangles.is_empty() {
-        let kinds: Vec<&str> = soup.skipped.iter().map(|(kind, _)| kind.as_str()).collect();
+        let kinds: Vec<&str> = soup.skipped.iter().map(|skipped| skipped.kind.as_str()).collect();
         let others = match kinds.len() {
             0 => String::new(),
             _ => format!(" of a surface, only of type {}", kinds.join(", ")),
@@ -70,6 +109,9 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
     let size = distance(low, high);
     let mut report =
         MeshReport { skipped: std::mem::take(&mut soup.skipped), ..MeshReport::default() };
+    for place in report.skipped.iter_mut().filter_map(|skipped| skipped.place.as_mut()) {
+        *place = pose.place(place.map(|x| scale * x));
+    }
     if !SIZES.contains(&size) {
         return Err(Error::MeshSize { size, scale });
     }
@@ -80,8 +122,22 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
         return Err(Error::MeshNoArea { triangles, size });
     }
     drop(soup);
-    let mut neighbours = neighbours(&joined, noun)?;
-    let (component, components) = orient(&mut joined, &mut neighbours, noun, &mut report)?;
+    let apart = joined.clone();
+    if tolerance > 0.0 {
+        joined.leave_out_caps(TUNING.merge * size, &mut report);
+    }
+    report.stitched = stitch::stitch(&mut joined, tolerance);
+    let mut neighbours = orient::neighbours(&joined, noun)?;
+    let (component, components) = match orient(&mut joined, &mut neighbours, noun, &mut report) {
+        // faces that make a surface without two sides once they are stitched stay apart
+        Err(_) if report.stitched.count > 0 => {
+            report.stitched = Stitches::default();
+            joined = apart;
+            neighbours = orient::neighbours(&joined, noun)?;
+            orient(&mut joined, &mut neighbours, noun, &mut report)?
+        }
+        found => found?,
+    };
     joined.renumber();
     let first_corners = one_ring::split(&mut joined, &neighbours);
 

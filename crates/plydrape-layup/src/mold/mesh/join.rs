@@ -2,7 +2,7 @@
 
 use super::report::{Finding, MeshReport};
 use super::soup::Soup;
-use crate::geometry::vector::{cross, distance, norm, sub};
+use crate::geometry::vector::{cross, distance, dot, norm, sub};
 use crate::mold::tuning::TUNING;
 use std::collections::{HashMap, HashSet};
 
@@ -66,10 +66,41 @@ impl Joined {
     }
 }
 
-fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
+pub(super) fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
     let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
     let double_area = norm(cross(sub(q, p), sub(r, p)));
     a != b && b != c && c != a && double_area > TUNING.needle * longest * longest
+}
+
+impl Joined {
+    /// Leaves out triangles that cap a vertex beside the middle of a side and are no higher than `least` (m), which is less than
+    /// the digits of files tell: they face anywhere. The vertex then divides the side, once both are stitched.
+    pub fn leave_out_caps(&mut self, least: f64, report: &mut MeshReport) {
+        let is_cap = |corners: &[u32; 3]| {
+            let points = corners.map(|n| self.vertices[n as usize]);
+            (0..3).any(|k| {
+                let [a, b, c] = [0, 1, 2].map(|n| points[(k + n) % 3]);
+                let length = distance(a, b);
+                let along = dot(sub(c, a), sub(b, a)) / length;
+                let height = norm(cross(sub(b, a), sub(c, a))) / length;
+                let inside = TUNING.cap_flatness * least;
+                height <= least && along > inside && length - along > inside
+            })
+        };
+        let caps: Vec<bool> = self.triangles.iter().map(is_cap).collect();
+        // nothing is left of a strip that is as narrow
+        if caps.iter().all(|cap| *cap) {
+            return;
+        }
+        for (n, _) in caps.iter().enumerate().filter(|(_, cap)| **cap) {
+            let points = self.triangles[n].map(|n| self.vertices[n as usize]);
+            report.degenerate.note(self.numbers[n], points[0]);
+        }
+        let mut cap = caps.iter();
+        self.triangles.retain(|_| cap.next() != Some(&true));
+        let mut cap = caps.iter();
+        self.numbers.retain(|_| cap.next() != Some(&true));
+    }
 }
 
 fn middle([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {

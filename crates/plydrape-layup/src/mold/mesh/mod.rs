@@ -1,7 +1,7 @@
 //! A mold given by triangles.
 //!
-//! Triangles are taken as they come ([`Soup`]), vertices are merged, its triangles turned to face one way
-//! and its boundaries found; what was repaired stands in the [`MeshReport`]. The mesh then answers
+//! Triangles are taken as they come ([`Soup`]), vertices are merged, faces that all but meet are stitched, triangles turned to
+//! face one way and boundaries found; what was repaired stands in the [`MeshReport`]. The mesh then answers
 //! what any mold is asked: the closest point and which side it is on, a smooth normal, curvatures, lines along
 //! it in a vertical plane, and its highest point at a place.
 
@@ -9,6 +9,8 @@ mod boundary;
 mod build;
 mod closest_point;
 mod curvature;
+mod detail;
+mod gap;
 mod highest_point;
 mod join;
 mod normals;
@@ -17,14 +19,18 @@ mod orient;
 mod report;
 mod section;
 mod sharp;
+mod side;
 mod soup;
+mod stitch;
 mod tree;
 mod triangle;
 
 pub use boundary::Boundary;
-pub use report::{Finding, MeshReport};
+pub use detail::{Detail, DetailKind};
+pub use gap::Gaps;
+pub use report::{Finding, MeshReport, Stitches};
 pub use sharp::SharpEdge;
-pub use soup::Soup;
+pub use soup::{Role, Skipped, Soup};
 
 use std::fmt;
 use std::sync::OnceLock;

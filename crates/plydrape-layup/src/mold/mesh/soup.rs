@@ -13,8 +13,37 @@ pub struct Soup {
     pub numbers: Vec<u64>,
     /// What the file calls these.
     pub noun: &'static str,
-    /// What the file holds beside the surface: kind and count.
-    pub skipped: Vec<(String, usize)>,
+    /// What the file holds beside the surface.
+    pub skipped: Vec<Skipped>,
+}
+
+/// Elements of a file that were left out, of one type.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Skipped {
+    /// Their type, as the file has it.
+    pub kind: String,
+    /// What is known of the type.
+    pub role: Role,
+    /// How many there are.
+    pub count: usize,
+    /// How many of them share an edge with the surface, so that it has a hole in their place.
+    pub beside: usize,
+    /// The middle of the first one beside the surface, or else of the first one: in the unit of the file until the mesh is
+    /// placed, then in m. None of a type that is no surface.
+    pub place: Option<[f64; 3]>,
+}
+
+/// What elements that were left out are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+pub enum Role {
+    /// Solids, lines and points: no surface.
+    NoSurface,
+    /// Shells with a thickness of their own, and so with two surfaces.
+    Thick,
+    /// Nothing is known of them.
+    Unknown,
 }
 
 impl Soup {
