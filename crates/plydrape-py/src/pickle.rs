@@ -326,6 +326,7 @@ impl SceneState {
             input,
             files: Vec::new(),
             mesh: None,
+            drawn: None,
             cell: None,
             thickness: self.thickness,
             plan_refusal: self.refusal,

@@ -3,6 +3,7 @@
 mod bodies;
 mod book;
 mod cell;
+mod drawing;
 mod limits;
 mod mold;
 mod rules;
@@ -60,11 +61,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 /// The nouns of a scene, each in a line.
 fn summary(scene: &SceneFile) -> Vec<Line> {
     let ply = &scene.layup.ply;
-    let mut lines = vec![
-        ("ply", shown::ply(ply)),
-        ("material", material(&ply.material)),
-        ("", ply.material.source.clone()),
-    ];
+    let mut lines = vec![("ply", shown::ply(ply))];
+    lines.extend(scene.drawn.iter().flat_map(drawing::drawing).map(|text| ("", text)));
+    lines.push(("material", material(&ply.material)));
+    lines.push(("", ply.material.source.clone()));
     lines.extend(weight(ply).map(|text| ("", text)));
     lines.extend(scatter(&ply.material).map(|text| ("", format!("scatter: {text}"))));
     lines.extend(mold::mold(scene));

@@ -198,7 +198,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     let first = &readings[0];
     let (mold, mesh) = {
         let grippers = first.keys.grippers.as_ref().map(|table| &table.value);
-        let ply = check::ply(&first.keys.ply, grippers, &first.document, &first.base)
+        let (ply, _) = check::ply(&first.keys.ply, grippers, &first.document, &first.base)
             .map_err(|fault| in_ply(fault, &first.name))?;
         mold::mold(&head.mold.value, &ply, document, base)?
     };

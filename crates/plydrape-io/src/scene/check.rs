@@ -17,6 +17,7 @@ use super::source::Document;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
 use crate::Error;
+use crate::read::outline::Drawn;
 use crate::store::shown;
 use crate::store::size;
 use plydrape::layup::{Layup, Target};
@@ -38,7 +39,7 @@ pub(super) fn scene(
     base: &Path,
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let ply = ply(&file.ply, grippers, document, base)?;
+    let (ply, drawn) = ply(&file.ply, grippers, document, base)?;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
             let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
@@ -103,6 +104,7 @@ pub(super) fn scene(
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
+        drawn,
         cell: named_cell.map(|named| named.name),
         thickness,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
@@ -138,13 +140,13 @@ pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String
     }
 }
 
-/// The ply; `grippers` is the table that says how large their pads are.
+/// The ply, and what was read of its drawing if it has one; `grippers` is the table that says how large their pads are.
 pub(super) fn ply(
     ply: &Located<PlyTable>,
     grippers: Option<&GrippersTable>,
     document: &Document,
     base: &Path,
-) -> Result<Ply, Error> {
+) -> Result<(Ply, Option<Drawn>), Error> {
     let table = &ply.value;
     let material = material::material(&table.material, document, base)?;
     if cut::is_cut(table) {
@@ -152,16 +154,9 @@ pub(super) fn ply(
             Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => 0.0,
         };
-        let cut::Shape { grid, cell, warp, cut } = cut::shape(ply, radius, document, base)?;
-        return Ok(Ply {
-            grid,
-            cell,
-            material,
-            warp,
-            length_factor: 1.0,
-            cut: Some(cut),
-            found: FoundLines::default(),
-        });
+        let cut::Shape { grid, cell, warp, cut, drawn } = cut::shape(ply, radius, document, base)?;
+        let (cut, found) = (Some(cut), FoundLines::default());
+        return Ok((Ply { grid, cell, material, warp, length_factor: 1.0, cut, found }, drawn));
     }
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {
@@ -175,7 +170,7 @@ pub(super) fn ply(
             ));
         }
     };
-    Ok(Ply {
+    let ply = Ply {
         grid: grid(ply, document)?,
         cell: [a.size(document, &usual::CELL)?, b.size(document, &usual::CELL)?],
         material,
@@ -183,7 +178,8 @@ pub(super) fn ply(
         length_factor: 1.0,
         cut: None,
         found: FoundLines::default(),
-    })
+    };
+    Ok((ply, None))
 }
 
 /// Grippers along u and v.

@@ -40,7 +40,7 @@ pub(super) fn ideal_drape(
     base: &Path,
 ) -> Result<IdealDrape, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let ply = ply(&file.ply, grippers, document, base)?;
+    let (ply, _) = ply(&file.ply, grippers, document, base)?;
     let Some(table) = &file.mold else {
         return Err(document.error_anywhere(
             "the scene has no [mold] to lay the ply on",

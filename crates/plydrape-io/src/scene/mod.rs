@@ -67,6 +67,7 @@ pub use schema::schema;
 
 use crate::Error;
 use crate::error::Diagnostic;
+use crate::read::outline::Drawn;
 use crate::store::file_kind::FileKind;
 use crate::store::{input, shown};
 use located::Located;
@@ -192,7 +193,8 @@ pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, Error> {
 pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, Error> {
     let document = source::Document::new(name, text);
     let keys = keys(&document)?;
-    check::ply(&keys.ply, keys.grippers.as_ref().map(|table| &table.value), &document, base)
+    let grippers = keys.grippers.as_ref().map(|table| &table.value);
+    check::ply(&keys.ply, grippers, &document, base).map(|(ply, _)| ply)
 }
 
 /// As [`parse`], on a mold that a program has made if one is given, the text having no `[mold]` then, and for models as [`read_for`].
@@ -273,6 +275,8 @@ pub struct SceneFile {
     pub files: Vec<PathBuf>,
     /// What was found and repaired while the mold was read, if it is a mesh.
     pub mesh: Option<MeshReport>,
+    /// What was read of the drawing of the ply, if it has one.
+    pub drawn: Option<Drawn>,
     /// The name of its cell, or that cell's file, if it has one.
     pub cell: Option<String>,
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.
