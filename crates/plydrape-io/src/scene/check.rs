@@ -100,7 +100,15 @@ pub(super) fn scene(
     let thickness =
         thickness.map(|thickness| thickness.size(document, &usual::THICKNESS)).transpose()?;
     Ok(SceneFile {
-        scene: Scene { title, layup, limits, plan, errors, also: models.has_also() },
+        scene: Scene {
+            title,
+            layup,
+            limits,
+            plan,
+            errors,
+            also: models.has_also(),
+            book_ply: None,
+        },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,

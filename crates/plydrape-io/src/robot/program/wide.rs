@@ -14,7 +14,7 @@ use super::context::rejected;
 use super::sampling::nearest;
 use super::{Event, EventKind, Program};
 use crate::Error;
-use crate::write::csv::{number, text as text_of};
+use crate::write::csv::{cell, comment, number, text as text_of};
 use ::csv::Writer;
 use plydrape::geometry::Pose;
 use plydrape::ply::gripper_name;
@@ -33,7 +33,7 @@ pub fn text(program: &Program) -> Result<String, Error> {
             ["x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"].map(|c| format!("flange {c}")),
         );
     }
-    header.extend(program.axes.iter().map(|axis| format!("{} (m)", axis.name)));
+    header.extend(program.axes.iter().map(|axis| cell(&format!("{} (m)", axis.name))));
     header.extend(program.grippers().iter().map(|name| format!("{name} vacuum")));
     header.extend(program.grippers().iter().map(|name| format!("{name} tilt (deg)")));
     let mut table = Writer::from_writer(Vec::new());
@@ -56,13 +56,13 @@ pub fn text(program: &Program) -> Result<String, Error> {
 
 /// A comment that says that the motion is not accepted, if it is not: readers of tables expect the header first.
 pub(crate) fn head(program: &Program) -> String {
-    if program.accepted { String::new() } else { format!("# {}\n", rejected(program)) }
+    if program.accepted { String::new() } else { comment(&rejected(program)) }
 }
 
 /// The verdict as a comment.
 pub(crate) fn verdict(program: &Program) -> String {
     match program.accepted {
-        true => format!("# Verdict: {}\n", program.verdict),
+        true => comment(&format!("Verdict: {}", program.verdict)),
         false => head(program),
     }
 }
