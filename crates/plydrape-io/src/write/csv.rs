@@ -325,7 +325,8 @@ mod tests {
             let rows = rows(&steps(&result).unwrap());
             assert!(rows[0].iter().any(|cell| *cell == format!("'{name}")), "{name}");
             assert!(rows[0].iter().any(|cell| cell == "-1.25"));
-            for cell in rows.iter().flatten().filter(|cell| cell.starts_with(['=', '+', '-', '@'])) {
+            for cell in rows.iter().flatten().filter(|cell| cell.starts_with(['=', '+', '-', '@']))
+            {
                 assert!(cell.parse::<f64>().is_ok(), "{cell}");
             }
         }

@@ -314,7 +314,7 @@ fn head(
             ));
             lines.push(format!(
                 "their own controller follows {}, from the time when array_start is set.",
-                wide::FILE
+                wide::beside(name)
             ));
             lines.push(
                 "Both keep time by themselves; nothing holds them together on the way".into(),

@@ -6,7 +6,7 @@
 use super::blocks::Blocks;
 use super::context::contexts;
 use super::sampling::Track;
-use super::{Program, Tolerance, wide};
+use super::{Program, Tolerance, names, wide};
 use crate::store::folder::Files;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
@@ -197,7 +197,8 @@ pub fn files(
         }
     }
     if separate {
-        files.push((wide::FILE.into(), wide::text(program)?.into_bytes()));
+        let name = names::name(&program.name, program.book_ply.as_ref());
+        files.push((wide::beside(&name), wide::text(program)?.into_bytes()));
     }
     Ok(files)
 }

@@ -1,4 +1,4 @@
-//! The program as one table, `motion_wide.csv`: a row a time, a column a number.
+//! The program as one table, `motion_wide.csv`, or `NAME_wide.csv` beside a program `NAME` of a robot: a row a time, a column a number.
 //!
 //! | columns | |
 //! |---|---|
@@ -21,6 +21,11 @@ use plydrape::ply::gripper_name;
 
 /// Name of the file.
 pub const FILE: &str = "motion_wide.csv";
+
+/// Name of the file beside the program of a robot, by the name of that.
+pub(super) fn beside(program: &str) -> String {
+    format!("{program}_{}", FILE.trim_start_matches("motion_"))
+}
 
 /// The table. Of a motion that is not accepted, a comment above the header says so.
 ///
