@@ -34,6 +34,8 @@ pub struct Open {
     pub place: Place,
     /// Whether more than two curves end there.
     pub is_crowded: bool,
+    /// Counts the ends of curves in the order of the file.
+    order: usize,
 }
 
 /// Curves that were joined as far as they join.
@@ -57,7 +59,7 @@ pub struct Reach {
 impl Chained {
     /// What to say of an open end, in a drawing of a size (m).
     pub fn fault(&self, open: &Open, reach: Reach, file: &str, size: f64) -> Fault {
-        let Open { place, is_crowded } = open;
+        let Open { place, is_crowded, .. } = open;
         let others = |crowded: bool| {
             let same = move |other: &&Open| other.is_crowded == crowded;
             self.open.iter().filter(same).map(|other| other.place.at)
@@ -279,9 +281,10 @@ fn trace(curves: &[Curve], joints: &[Joint], found: &mut Chained) {
         found.open.extend([end, back].map(|end| Open {
             place: end.place(curves),
             is_crowded: joints[end.index()] != Joint::Alone,
+            order: end.index(),
         }));
     }
-    found.open.sort_by_key(|open| !open.is_crowded);
+    found.open.sort_by_key(|open| (!open.is_crowded, open.order));
 }
 
 /// The end that an end joins, and that joins it.

@@ -360,7 +360,7 @@ fn a_line_that_is_drawn_twice_is_refused_with_its_place() {
         + &line("0", [100.0, 80.0], [0.0, 0.0]);
     let twice = sides + &line("0", [100.0, 0.0], [0.0, 0.0]);
     let (message, remedy) = refused(&millimetres(&twice));
-    assert!(message.contains("3 curves end at (100.000, 0.000) mm"), "{message}");
+    assert!(message.contains("3 curves end at (0.000, 0.000) mm"), "{message}");
     assert!(remedy.contains("drawn twice"));
 }
 
