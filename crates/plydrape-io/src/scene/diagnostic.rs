@@ -132,7 +132,12 @@ fn curly(document: &Document, at: usize) -> Option<Error> {
         let end = open + letter.len_utf8() + length + close.len_utf8();
         return Some(refused(start + open..start + end, &format!("{quote}{text}{quote}")));
     }
-    let right: String = line.chars().map(|c| if CURLY.contains(c) { '"' } else { c }).collect();
+    let straight = |letter| match letter {
+        _ if !CURLY.contains(letter) => letter,
+        '‘' | '’' | '‚' | '‛' => '\'',
+        _ => '"',
+    };
+    let right: String = line.chars().map(straight).collect();
     let is_right = right != line && DeTable::parse(&right).is_ok();
     is_right.then(|| refused(start..start + line.len(), right.trim()))
 }
@@ -267,7 +272,7 @@ mod tests {
             ("height = «75 mm»", "write \"75 mm\", with"),
             ("height = “75 mm\"", "write \"75 mm\", with"),
             ("height = \"75 mm”", "write height = \"75 mm\", with"),
-            ("height = '75 mm’", ""),
+            ("height = '75 mm’", "write height = '75 mm', with"),
             ("kind = ‘plane’", "write \"plane\", with"),
             ("title = “A, B # c: Bob’s ply”", "write \"A, B # c: Bob’s ply\", with"),
             ("file = “C:\\molds\\new.stl”", "write 'C:\\molds\\new.stl', with"),
