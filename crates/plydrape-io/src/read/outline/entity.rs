@@ -93,6 +93,7 @@ pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves,
         visited: 0,
         places: 0,
         placed: Placed::default(),
+        last_placed: Placed::default(),
         found: Curves { curves: Vec::new(), others: BTreeSet::new(), texts: Vec::new(), meshes: 0 },
     };
     for entity in drawing.entities().filter(|entity| !entity.common.is_in_paper_space) {
@@ -128,6 +129,8 @@ struct Reader<'a> {
     places: usize,
     /// The block that is read.
     placed: Placed,
+    /// The block that was placed last, which the attributes behind it are of.
+    last_placed: Placed,
     found: Curves,
 }
 
@@ -157,7 +160,9 @@ impl Reader<'_> {
             let at = outer.after(&own).of(plane(&text.location));
             let lines = plain(&text.value);
             if !lines.is_empty() && at.iter().all(|c| c.is_finite()) {
-                self.found.texts.push(Text { lines, at, placed: self.placed.clone() });
+                let is_beside = depth == 0 && text.text_style_name == "ATTRIB";
+                let placed = if is_beside { &self.last_placed } else { &self.placed };
+                self.found.texts.push(Text { lines, at, placed: placed.clone() });
             }
             return Ok(());
         }
@@ -333,10 +338,11 @@ impl Reader<'_> {
                 }
             }
         }
-        self.placed.blocks.pop();
         if depth == 0 {
+            self.last_placed = self.placed.clone();
             self.placed.number = 0;
         }
+        self.placed.blocks.pop();
         Ok(())
     }
 }

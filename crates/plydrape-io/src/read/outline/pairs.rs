@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 const VARIABLES: [&[u8]; 3] = [b"$ACADVER", b"$DWGCODEPAGE", b"$INSUNITS"];
 /// The sections that are kept.
 const SECTIONS: [&[u8]; 4] = [b"HEADER", b"TABLES", b"BLOCKS", b"ENTITIES"];
-/// Texts, which name the pieces of a nest. All are kept as `TEXT`: what the library does for the others is not needed.
+/// Texts, which name the pieces of a nest. All are kept as `TEXT`, with their type as their style: what the library does for the
+/// others is not needed.
 const TEXTS: [&[u8]; 3] = [b"TEXT", b"MTEXT", b"ATTRIB"];
 /// What is kept of blocks and entities beside texts.
 const ENTITIES: [&[u8]; 12] = [
@@ -181,6 +182,8 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
                 keeps = is_text || ENTITIES.contains(&entity);
                 if is_text {
                     kept.push(line, code, TEXTS[0]);
+                    // its own type stands where the name of its style would
+                    kept.push(line, b"7", entity);
                 } else if keeps {
                     kept.push(line, code, value);
                 }

@@ -603,7 +603,7 @@ fn blocks_are_pieces_of_their_own_wherever_they_are_placed() {
     assert!(absent.help().contains("`P2`"), "{}", absent.help());
 }
 
-/// An attribute stands in the drawing beside its block, and in the table of the pieces as any text.
+/// An attribute stands in the drawing beside its block, behind the place of that; so it is of that block wherever it stands.
 #[test]
 fn an_attribute_of_a_block_is_a_label() {
     let shape = square("1", [0.0, 0.0], 100.0);
@@ -618,6 +618,20 @@ fn an_attribute_of_a_block_is_a_label() {
     );
     let found = piece(&text, Piece::Label("a-2".into())).unwrap();
     assert!((found.outline.bounds()[0][0] - 0.2).abs() < 1e-12);
+    // two blocks over one another, each with its attribute at the same place
+    let small = square("1", [10.0, 10.0], 60.0);
+    let both = blocks(&[("P", &shape, [0.0, 0.0]), ("Q", &small, [0.0, 0.0])]);
+    let at = both.rfind("0\nINSERT").unwrap();
+    let end = both.rfind("0\nENDSEC").unwrap();
+    let text = both[..at].to_owned()
+        + &named("A-1", 30.0)
+        + &both[at..end]
+        + &named("A-2", 30.0)
+        + &both[end..];
+    for (label, area) in [("A-1", 0.01), ("A-2", 0.0036)] {
+        let found = piece(&text, Piece::Label(label.into())).unwrap();
+        assert!((found.outline.area() - area).abs() < 1e-12, "{label}");
+    }
 }
 
 /// A piece within a hole of another one is a piece, and a fault of another piece is no matter of the one that is chosen.
