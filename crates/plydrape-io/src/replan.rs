@@ -57,6 +57,7 @@ impl PlannedResult {
             },
             errors: echo.errors,
             also: false,
+            book_ply: echo.book_ply.clone(),
         };
         let kept = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
         let sheet = kept.map(|kept| shapes(&result, kept)).transpose()?;

@@ -305,6 +305,7 @@ impl SceneState {
     fn scene(self) -> Scene {
         let SceneEcho {
             title,
+            book_ply,
             input,
             ply,
             mold: _,
@@ -319,14 +320,15 @@ impl SceneState {
         let motion = Motion { times: self.times, positions: self.positions };
         let layup =
             Layup { ply, mold: self.mold.mold(), motion, target, settings, bodies, tool, release };
-        let scene =
-            scenes::Scene { title, layup, limits, plan: self.plan, errors, also: self.also };
+        let (plan, also) = (self.plan, self.also);
+        let scene = scenes::Scene { title, layup, limits, plan, errors, also, book_ply };
         let file = SceneFile {
             scene,
             input,
             files: Vec::new(),
             mesh: None,
             cups: None,
+            drawn: None,
             cell: None,
             thickness: self.thickness,
             plan_refusal: self.refusal,

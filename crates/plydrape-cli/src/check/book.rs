@@ -1,6 +1,6 @@
 //! What was understood of a plybook.
 
-use super::{mold, warnings};
+use super::{drawing, mold, warnings};
 use crate::failure::Done;
 use crate::numbers::degrees;
 use crate::outcome;
@@ -61,10 +61,10 @@ fn lines(ply: &BookPly) -> Vec<String> {
             degrees(net.report.largest_shear.map_or(0.0, |(shear, _)| shear.abs())),
         )
     });
-    let mut lines = vec![
-        format!("{}, {}", shown::ply(&scene.layup.ply), scene.layup.ply.material.name),
-        format!("{thickness}, lies on {below}"),
-    ];
+    let mut lines =
+        vec![format!("{}, {}", shown::ply(&scene.layup.ply), scene.layup.ply.material.name)];
+    lines.extend(scene.drawn.iter().flat_map(drawing::drawing));
+    lines.push(format!("{thickness}, lies on {below}"));
     lines.extend(heading);
     lines
 }

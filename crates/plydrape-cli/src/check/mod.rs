@@ -4,6 +4,7 @@ mod bodies;
 mod book;
 mod cell;
 mod cups;
+mod drawing;
 mod limits;
 mod mold;
 mod rules;
@@ -112,6 +113,7 @@ fn page(
 fn summary(scene: &SceneFile) -> Vec<Line> {
     let ply = &scene.layup.ply;
     let mut lines = vec![("ply", shown::ply(ply))];
+    lines.extend(scene.drawn.iter().flat_map(drawing::drawing).map(|text| ("", text)));
     lines.extend(cups::cups(scene));
     lines.push(("material", material(&ply.material)));
     lines.push(("", ply.material.source.clone()));

@@ -6,6 +6,7 @@ mod check;
 mod commands;
 mod common;
 mod compare;
+mod drawing;
 mod errors;
 mod export;
 mod net;

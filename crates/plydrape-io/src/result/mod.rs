@@ -28,7 +28,7 @@ use plydrape::motion::{Attitudes, TimedMotion};
 use plydrape::outcome::{Outcome, Step, Summary, attitudes};
 use plydrape::planner::{PlanRecord, Planned};
 use plydrape::ply::Ply;
-use plydrape::scene::Scene;
+use plydrape::scene::{BookPly, Scene};
 use plydrape::sheet::Event;
 use plydrape::tool::Tool;
 use serde::{Deserialize, Serialize};
@@ -82,6 +82,9 @@ pub struct Turned {
 pub struct SceneEcho {
     /// Its title.
     pub title: String,
+    /// Which ply of a plybook it is; `None` of a scene by itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub book_ply: Option<BookPly>,
     /// The scene file; none of a scene that was made in a program.
     pub input: Option<Arc<str>>,
     /// The ply.
@@ -116,6 +119,7 @@ impl SceneEcho {
         let layup = &scene.layup;
         SceneEcho {
             title: scene.title.clone(),
+            book_ply: scene.book_ply.clone(),
             input,
             ply: layup.ply.clone(),
             mold: layup.mold.clone(),

@@ -16,6 +16,7 @@ use super::tree::{Fault, read_table};
 use super::{SceneFile, mold, named, open, read, settings};
 use crate::Error;
 use plydrape::mold::{Layer, Layers, MeshReport, Mold, Raised, overlap};
+use plydrape::scene;
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -440,6 +441,7 @@ fn laid(
         (scene, region)
     };
     scene.scene.title = format!("{title}: {name}");
+    scene.scene.book_ply = Some(scene::BookPly { number: below.len() + 1, name: name.clone() });
     Ok(BookPly { name: name.clone(), scene, lies_on, region })
 }
 

@@ -18,6 +18,7 @@ use super::source::Document;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
 use crate::Error;
+use crate::read::outline::Drawn;
 use crate::store::shown;
 use crate::store::size;
 use plydrape::layup::{Layup, Target};
@@ -40,7 +41,7 @@ pub(super) fn scene(
     base: &Path,
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let (ply, cups) = ply(&file.ply, grippers, document, base)?;
+    let (ply, CutRead { cups, drawn }) = ply(&file.ply, grippers, document, base)?;
     let tolerance = settings::contact(file, &ply, document)?.tolerance;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
@@ -104,11 +105,20 @@ pub(super) fn scene(
     let thickness =
         thickness.map(|thickness| thickness.size(document, &usual::THICKNESS)).transpose()?;
     Ok(SceneFile {
-        scene: Scene { title, layup, limits, plan, errors, also: models.has_also() },
+        scene: Scene {
+            title,
+            layup,
+            limits,
+            plan,
+            errors,
+            also: models.has_also(),
+            book_ply: None,
+        },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
         cups,
+        drawn,
         cell: named_cell.map(|named| named.name),
         thickness,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
@@ -168,13 +178,22 @@ pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String
     }
 }
 
-/// The ply, and of one that is cut the array of cups over it; `grippers` is the table that says how large their pads are.
+/// What was read of a ply that is cut, beside the ply; nothing of another one.
+#[derive(Default)]
+pub(super) struct CutRead {
+    /// The array of cups over it.
+    cups: Option<CupArray>,
+    /// Its drawing.
+    drawn: Option<Drawn>,
+}
+
+/// The ply, and what else was read of one that is cut; `grippers` is the table that says how large their pads are.
 pub(super) fn ply(
     ply: &Located<PlyTable>,
     grippers: Option<&GrippersTable>,
     document: &Document,
     base: &Path,
-) -> Result<(Ply, Option<CupArray>), Error> {
+) -> Result<(Ply, CutRead), Error> {
     let table = &ply.value;
     let material = material::material(&table.material, document, base)?;
     if cut::is_cut(table) {
@@ -182,17 +201,11 @@ pub(super) fn ply(
             Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => 0.0,
         };
-        let cut::Shape { grid, cell, warp, cut, array } = cut::shape(ply, radius, document, base)?;
-        let ply = Ply {
-            grid,
-            cell,
-            material,
-            warp,
-            length_factor: 1.0,
-            cut: Some(cut),
-            found: FoundLines::default(),
-        };
-        return Ok((ply, array));
+        let cut::Shape { grid, cell, warp, cut, array: cups, drawn } =
+            cut::shape(ply, radius, document, base)?;
+        let (cut, found) = (Some(cut), FoundLines::default());
+        let ply = Ply { grid, cell, material, warp, length_factor: 1.0, cut, found };
+        return Ok((ply, CutRead { cups, drawn }));
     }
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {
@@ -215,7 +228,7 @@ pub(super) fn ply(
         cut: None,
         found: FoundLines::default(),
     };
-    Ok((ply, None))
+    Ok((ply, CutRead::default()))
 }
 
 /// Grippers along u and v.

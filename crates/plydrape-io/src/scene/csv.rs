@@ -139,7 +139,8 @@ fn unit_size(document: &Document, title: Range<usize>, dimension: Dimension) -> 
     let Some((_, tail)) = text.split_once('(') else {
         return Ok(1.0);
     };
-    let written = tail.trim_end().trim_end_matches(')');
+    let written = tail.trim_end();
+    let written = written.strip_suffix(')').unwrap_or(written);
     match units::unit(written) {
         Ok((size, found)) if found == dimension => Ok(size),
         Ok((_, found)) => Err(document.error(

@@ -11,6 +11,7 @@ use super::located::{Fixed, Located};
 use super::source::Document;
 use super::usual;
 use crate::Error;
+use crate::read::outline::Drawn;
 use crate::store::shown::millimetres;
 use plydrape::LayupError;
 use plydrape::ply::{Cut, Direction, Grid, GripperId, Held, Outline, Ply, Ring, gripper_name};
@@ -32,6 +33,8 @@ pub(super) struct Shape {
     pub warp: Direction,
     pub cut: Cut,
     pub array: Option<CupArray>,
+    /// What was read of its drawing, if it has one.
+    pub drawn: Option<Drawn>,
 }
 
 /// An array of cups over a ply that is cut.
@@ -89,6 +92,7 @@ pub(super) fn is_cut(table: &PlyTable) -> bool {
         || table.holes.is_some()
         || table.array.is_some()
         || table.points.is_some()
+        || table.piece.is_some()
 }
 
 /// Angle from the warp to u (rad) where the scene gives the warp as an angle in the drawing, so that headings are those of the
@@ -118,7 +122,7 @@ pub(super) fn shape(
             "remove `overhang`: the outline says where the ply ends",
         ));
     }
-    let outline = outline(ply, document, base)?;
+    let (outline, drawn) = outline(ply, document, base)?;
     let warp = match &table.warp {
         None | Some(Located { value: WarpChoice::U, .. }) => 0.0,
         Some(Located { value: WarpChoice::V, .. }) => FRAC_PI_2,
@@ -126,20 +130,28 @@ pub(super) fn shape(
             heading(&Located { value: angle.clone(), span: span.clone() }, document)?
         }
     };
-    match &table.points {
-        Some(points) => listed(points, ply, &outline, warp, radius, document),
-        None => array(ply, &outline, warp, radius, document),
-    }
+    let shape = match &table.points {
+        Some(points) => listed(points, ply, &outline, warp, radius, document)?,
+        None => array(ply, &outline, warp, radius, document)?,
+    };
+    Ok(Shape { drawn, ..shape })
 }
 
-/// The outline in the drawing.
-fn outline(ply: &Located<PlyTable>, document: &Document, base: &Path) -> Result<Outline, Error> {
+/// The outline in the drawing, and what was read of that if it is a file.
+fn outline(
+    ply: &Located<PlyTable>,
+    document: &Document,
+    base: &Path,
+) -> Result<(Outline, Option<Drawn>), Error> {
     let table = &ply.value;
+    let drawn = super::dxf::drawn(table, document, base)?;
     let (boundary, mut holes, span) = match (&table.outline, &table.size) {
         (Some(outline), None) => {
             let span = outline.span.clone();
-            match (&outline.value, super::dxf::outline(outline, document, base)?) {
-                (_, Some(drawn)) => (drawn.boundary().to_vec(), drawn.holes().to_vec(), span),
+            match (&outline.value, &drawn) {
+                (_, Some(Drawn { outline, .. })) => {
+                    (outline.boundary().to_vec(), outline.holes().to_vec(), span)
+                }
                 (OutlineChoice::Points(points), None) => {
                     (polygon(points, document)?, Vec::new(), span)
                 }
@@ -181,7 +193,7 @@ fn outline(ply: &Located<PlyTable>, document: &Document, base: &Path) -> Result<
             HoleChoice::Circle(circle) => disc(circle, document)?,
         });
     }
-    Outline::new(boundary, holes).map_err(|error| {
+    let outline = Outline::new(boundary, holes).map_err(|error| {
         let ring = match error {
             LayupError::OutlineCrosses { a, b, .. } => a.max(b),
             LayupError::OutlineHoleOutside { ring, .. }
@@ -201,7 +213,8 @@ fn outline(ply: &Located<PlyTable>, document: &Document, base: &Path) -> Result<
         };
         let span = spans.get(ring).unwrap_or(&span).clone();
         document.error(span, error.to_string(), help)
-    })
+    })?;
+    Ok((outline, drawn))
 }
 
 fn polygon(points: &Polygon, document: &Document) -> Result<Ring, Error> {
@@ -438,5 +451,5 @@ fn shaped(
         let held = |cup: &Cup| Held { id: cup.id, place: cut.fabric(cup.place) };
         cut.held = cups.iter().map(held).collect();
     }
-    Shape { grid, cell, warp, cut, array: None }
+    Shape { grid, cell, warp, cut, array: None, drawn: None }
 }

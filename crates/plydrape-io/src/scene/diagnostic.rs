@@ -4,9 +4,11 @@ use super::choice::MIDDLE;
 use super::read::BACKSLASHES;
 use super::source::{Document, excerpt};
 use super::tree::{Fault, WORD_WANTED};
+use super::units::CURLY;
 use crate::Error;
 use crate::store::file_kind::edits;
 use std::ops::Range;
+use toml::de::DeTable;
 
 /// A diagnostic of the TOML reader or of serde as an [`Error`].
 pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error {
@@ -59,6 +61,8 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
             format!("the key `{}` stands here twice", document.excerpt(&span)),
             "keep one of the two".into(),
         )
+    } else if let Some(error) = curly(document, span.start) {
+        return error;
     } else {
         let fault = document.text.get(span.start..).unwrap_or_default();
         let before = document.text.get(..span.start).unwrap_or_default();
@@ -95,6 +99,47 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
         (format!("this is not TOML: {}", text.replace('\n', ", ")), remedy.into())
     };
     document.error(span, message, help)
+}
+
+/// The refusal of a line whose text stands in curly quotes; `None` if that is not what is wrong there.
+fn curly(document: &Document, at: usize) -> Option<Error> {
+    let before = document.text.get(..at)?;
+    let start = before.rfind('\n').map_or(0, |end| end + 1);
+    let line = document.text.get(start..)?.lines().next()?;
+    let refused = |span: Range<usize>, right: &str| {
+        let written = document.excerpt(&span);
+        document.error(
+            span,
+            format!("`{written}` has curly quotes, as text processors make them"),
+            format!("write {right}, with straight quotes"),
+        )
+    };
+    // a value that begins with one, up to the one that fits
+    let begins = |(at, letter): &(usize, char)| {
+        let value = line[..*at].trim_end().chars().next_back();
+        CURLY.contains(*letter) && value.is_none_or(|letter| "=,[{".contains(letter))
+    };
+    if let Some((open, letter)) = line.char_indices().find(begins) {
+        let inner = &line[open + letter.len_utf8()..];
+        let closes = |close: char| match letter {
+            '‘' | '’' | '‚' | '‛' => "‘’'".contains(close),
+            _ => close == '"' || CURLY.contains(close) && !"‘’‚‛".contains(close),
+        };
+        let (length, close) = inner.char_indices().find(|(_, close)| closes(*close))?;
+        let text = inner[..length].trim();
+        // a path with backslashes is copied as it is in single quotes
+        let quote = if text.contains(['\\', '"']) { '\'' } else { '"' };
+        let end = open + letter.len_utf8() + length + close.len_utf8();
+        return Some(refused(start + open..start + end, &format!("{quote}{text}{quote}")));
+    }
+    let straight = |letter| match letter {
+        _ if !CURLY.contains(letter) => letter,
+        '‘' | '’' | '‚' | '‛' => '\'',
+        _ => '"',
+    };
+    let right: String = line.chars().map(straight).collect();
+    let is_right = right != line && DeTable::parse(&right).is_ok();
+    is_right.then(|| refused(start..start + line.len(), right.trim()))
 }
 
 /// The value without its quotes at a span, in ticks: it ends with its line, its array or its table.
@@ -217,6 +262,32 @@ fn every_tick(text: &str) -> Vec<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a message proposes in place of curly quotes is TOML, and the text that was meant.
+    #[test]
+    fn a_text_in_curly_quotes_is_proposed_in_straight_ones() {
+        for (line, right) in [
+            ("height = “75 mm”", "write \"75 mm\", with"),
+            ("height = „75 mm“", "write \"75 mm\", with"),
+            ("height = «75 mm»", "write \"75 mm\", with"),
+            ("height = “75 mm\"", "write \"75 mm\", with"),
+            ("height = \"75 mm”", "write height = \"75 mm\", with"),
+            ("height = '75 mm’", "write height = '75 mm', with"),
+            ("kind = ‘plane’", "write \"plane\", with"),
+            ("title = “A, B # c: Bob’s ply”", "write \"A, B # c: Bob’s ply\", with"),
+            ("file = “C:\\molds\\new.stl”", "write 'C:\\molds\\new.stl', with"),
+            ("cell = [“100 mm”, “90 mm”]", "write \"100 mm\", with"),
+            ("cell = [\"100 mm”, \"90 mm”]", "write cell = [\"100 mm\", \"90 mm\"], with"),
+            ("table = { a = “x” }", "write \"x\", with"),
+            ("height = 75 mm # “this”", "write \"75 mm\""),
+        ] {
+            let text = format!("title = \"“this” is well\"\n{line}\n");
+            let document = Document::new("scene", &text);
+            let fault = DeTable::parse(&text).unwrap_err();
+            let error = scene_error(&document, fault);
+            assert!(error.help().starts_with(right), "{line}: {}", error.help());
+        }
+    }
 
     #[test]
     fn the_nearest_word_is_the_one_with_the_fewest_edits() {

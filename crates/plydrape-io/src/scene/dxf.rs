@@ -1,38 +1,72 @@
-//! The outline of a ply from a drawing that the scene names.
+//! The outline of a ply from a drawing that the scene names, and which of its pieces it is.
 
 use super::drawing::OutlineChoice;
-use super::file::DrawingTable;
+use super::file::{DrawingTable, PieceTable, PlyTable};
+use super::heading::coordinates;
 use super::located::Located;
 use super::read;
 use super::source::Document;
 use super::units::{self, Dimension};
 use super::usual;
 use crate::Error;
-use crate::read::outline::{self, Options};
-use plydrape::ply::Outline;
+use crate::read::outline::{self, Drawn, Options, Piece};
 use std::path::Path;
 
-/// How far a curve may be from the lines that stand for it (m), unless given: what a cutter keeps.
+/// How far a curve may be from the lines that stand for it, and the widest gap that is closed (m), unless given: what a cutter keeps.
 const TOLERANCE: f64 = 1e-4;
 
 /// Reads the file that an outline names; none of an outline that is points.
-pub(super) fn outline(
-    key: &Located<OutlineChoice>,
+pub(super) fn drawn(
+    ply: &PlyTable,
     document: &Document,
     base: &Path,
-) -> Result<Option<Outline>, Error> {
-    let (name, span, options) = match &key.value {
-        OutlineChoice::Points(_) => return Ok(None),
-        OutlineChoice::File(name) => (name, &key.span, Options::new(TOLERANCE)),
-        OutlineChoice::Drawing(table) => {
+) -> Result<Option<Drawn>, Error> {
+    let choice = ply.outline.as_ref().map(|key| (&key.value, &key.span));
+    let (name, span, mut options) = match choice {
+        None | Some((OutlineChoice::Points(_), _)) => {
+            return match &ply.piece {
+                None => Ok(None),
+                Some(piece) => Err(document.error(
+                    piece.span.clone(),
+                    "`piece` chooses one of the pieces of a drawing, and the ply has none",
+                    "remove `piece`, or give the drawing, as in outline = \"nest.dxf\"",
+                )),
+            };
+        }
+        Some((OutlineChoice::File(name), span)) => (name, span, Options::new(TOLERANCE)),
+        Some((OutlineChoice::Drawing(table), _)) => {
             (&table.file.value, &table.file.span, options(table, document)?)
         }
     };
+    options.piece = ply.piece.as_ref().map(|table| piece(table, document)).transpose()?;
     let bytes = read::bytes(&base.join(name), name, outline::LARGEST)
         .map_err(|error| document.error_of_named(span, error, "scene"))?;
     outline::read_dxf(name, &bytes, &options)
         .map(Some)
         .map_err(|error| document.error(span.clone(), error.to_string(), error.help()))
+}
+
+/// The piece that a table chooses.
+fn piece(table: &Located<PieceTable>, document: &Document) -> Result<Piece, Error> {
+    let refused = |message: &str| {
+        document.error(
+            table.span.clone(),
+            message,
+            "choose one piece: piece = { label = \"FRONT\" }, the text inside it, { block = \"P1\" }, or { point = [\"120 mm\", \"80 mm\"] }",
+        )
+    };
+    let PieceTable { block, label, point } = &table.value;
+    let blank = |name: &Located<String>| name.value.trim().is_empty();
+    if [block, label].into_iter().flatten().any(blank) {
+        return Err(refused("the name of the piece is empty"));
+    }
+    match (block, label, point) {
+        (Some(block), None, None) => Ok(Piece::Block(block.value.trim().into())),
+        (None, Some(label), None) => Ok(Piece::Label(label.value.trim().into())),
+        (None, None, Some(point)) => Ok(Piece::Point(coordinates(&point.value, document)?)),
+        (None, None, None) => Err(refused("`piece` chooses no piece")),
+        _ => Err(refused("`piece` chooses in more than one way")),
+    }
 }
 
 fn options(table: &DrawingTable, document: &Document) -> Result<Options, Error> {

@@ -264,7 +264,7 @@ fn title(text: &str) -> (String, Option<&str>) {
     let text = text.trim();
     let brackets = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
         let (name, unit) = text.strip_suffix(close)?.split_once(open)?;
-        (!unit.contains([open, close])).then_some((name, unit))
+        is_balanced(unit, [open, close]).then_some((name, unit))
     });
     let found = brackets
         .or_else(|| text.split_once('/'))
@@ -278,9 +278,23 @@ fn title(text: &str) -> (String, Option<&str>) {
     (words.join(" "), unit)
 }
 
+/// Whether each bracket in a text closes behind the one that opens it, as in `N/(m rad)`.
+fn is_balanced(text: &str, [open, close]: [char; 2]) -> bool {
+    let mut depth = 0;
+    text.chars().all(|letter| {
+        depth += i32::from(letter == open) - i32::from(letter == close);
+        depth >= 0
+    }) && depth == 0
+}
+
 /// A unit without brackets around it.
 fn bare(text: &str) -> &str {
-    text.trim().trim_start_matches(['(', '[']).trim_end_matches([')', ']']).trim()
+    let text = text.trim();
+    let inner = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
+        let inner = text.strip_prefix(open)?.strip_suffix(close)?;
+        is_balanced(inner, [open, close]).then_some(inner)
+    });
+    inner.map_or(text, bare)
 }
 
 /// The bytes of the fields of a line, without spaces and quotes around them; within quotes nothing separates.

@@ -67,6 +67,7 @@ pub use schema::schema;
 
 use crate::Error;
 use crate::error::Diagnostic;
+use crate::read::outline::Drawn;
 use crate::store::file_kind::FileKind;
 use crate::store::{input, shown};
 use located::Located;
@@ -277,6 +278,8 @@ pub struct SceneFile {
     pub mesh: Option<MeshReport>,
     /// The array of cups over a ply that is cut.
     pub cups: Option<CupArray>,
+    /// What was read of the drawing of the ply, if it has one.
+    pub drawn: Option<Drawn>,
     /// The name of its cell, or that cell's file, if it has one.
     pub cell: Option<String>,
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.

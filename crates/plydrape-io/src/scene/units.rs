@@ -2,11 +2,12 @@
 //! `"2e-4 Nm"`, `"4 N.m"`.
 //!
 //! A unit is a product and quotient of symbols with whole powers, read from left to right; a slash
-//! divides by the next symbol only, so that `N/m/s` is N/(m·s). Values come out in SI base units.
+//! divides by the next symbol or bracket only, so that `N/m/s` is N/(m·s), which may be written so too. Values come out in SI base units.
 //! An angle counts as a dimension of its own: a length in degrees is a mistake worth catching.
 
 use super::source::excerpt;
 use crate::error::Fault;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Powers of meter, kilogram, second and radian.
@@ -201,11 +202,24 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
     UNITS.iter().map(|(unit, ..)| *unit).chain(["Nm", "Nmm"]).find(|u| same(u))
 }
 
+/// Quotes that text processors write in place of straight ones.
+pub(super) const CURLY: &str = "“”„‟‘’‚‛«»‹›″′＂";
+
+/// What is between curly quotes at both ends of a text, or after one at its beginning; `None` without them.
+pub(super) fn without_curly_quotes(text: &str) -> Option<&str> {
+    let inner = text.strip_prefix(|c| CURLY.contains(c))?;
+    Some(inner.trim_matches(|c| CURLY.contains(c)).trim())
+}
+
 /// Reads a number with or without a unit: its value in SI base units, and its dimension.
 ///
 /// `None` as the dimension means that no unit was written.
 pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), Fault> {
     let text = text.trim();
+    if let Some(inner) = without_curly_quotes(text) {
+        let help = format!("write \"{inner}\"");
+        return Err(Fault::new("it stands in curly quotes", help));
+    }
     let (number, rest) = text.split_at(number_length(text));
     let value: f64 =
         number.parse().map_err(|_| Fault::new("it does not start with a number", ""))?;
@@ -224,35 +238,57 @@ pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), Fault> {
     Ok((value * size, Some(dimension)))
 }
 
+/// The size of a unit in SI base units, and its dimension.
+type Unit = (f64, Dimension);
+
 /// Reads a unit alone: its size in SI base units, and its dimension.
-pub(super) fn unit(text: &str) -> Result<(f64, Dimension), Fault> {
-    let mut total = (1.0, Dimension::NONE);
+pub(super) fn unit(text: &str) -> Result<Unit, Fault> {
+    let spelled = spelled(text);
+    match product(&spelled, 0)? {
+        (Some(unit), "") => Ok(unit),
+        (None, "") => Ok((1.0, Dimension::NONE)),
+        (_, rest) => Err(unknown(rest.get(..1).unwrap_or(rest))),
+    }
+}
+
+/// The products and quotients up to the end of a text, or up to the bracket that ends them; and what follows.
+fn product(text: &str, depth: usize) -> Result<(Option<Unit>, &str), Fault> {
+    let mut total = None;
     let mut rest = text.trim();
     let mut sign = 1;
     let mut operator = None;
     if let Some(tail) = rest.strip_prefix("1/") {
         (rest, sign, operator) = (tail.trim_start(), -1, Some('/'));
     }
-    while !rest.is_empty() {
-        // One symbol, up to an operator, a power or a space.
-        let end = rest.find(|c: char| is_separator(c) || is_power(c));
-        let (symbol, tail) = rest.split_at(end.unwrap_or(rest.len()));
-        if symbol.is_empty() {
-            let character = rest.chars().next().unwrap_or(' ');
-            return Err(match operator {
-                Some(operator) => dangling(operator),
-                None => unknown(&character.to_string()),
-            });
-        }
-        let [before, last] = joined(symbol).ok_or_else(|| unknown(symbol))?;
+    while !rest.is_empty() && !rest.starts_with(')') {
+        // one symbol, up to an operator, a power, a bracket or a space; or what is in brackets
+        let ([before, last], tail) = match rest.strip_prefix('(') {
+            Some(inner) => {
+                let (group, tail) = bracket(inner, depth + 1)?;
+                ([None, Some(group)], tail)
+            }
+            None => {
+                let end = rest.find(|c: char| is_separator(c) || is_power(c));
+                let (symbol, tail) = rest.split_at(end.unwrap_or(rest.len()));
+                if symbol.is_empty() {
+                    let character = rest.chars().next().unwrap_or(' ');
+                    return Err(match operator {
+                        Some(operator) => dangling(operator),
+                        None => unknown(&character.to_string()),
+                    });
+                }
+                (joined(symbol).ok_or_else(|| unknown(symbol))?, tail)
+            }
+        };
         let (power, tail) = power(tail)?;
 
         // Into the product, or under the slash before it. A power belongs to what stands beside it: Nm² is N·m².
+        let (value, of) = total.get_or_insert((1.0, Dimension::NONE));
         for ((size, dimension), power) in
             before.map(|unit| (unit, 1)).into_iter().chain(last.map(|unit| (unit, power)))
         {
-            total.0 *= size.powi(sign * power);
-            total.1 = total.1.times(dimension, sign * power);
+            *value *= f64::powi(size, sign * power);
+            *of = of.times(dimension, sign * power);
         }
         rest = tail.trim_start();
         (sign, operator) = (1, None);
@@ -264,13 +300,81 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), Fault> {
     }
     match operator {
         Some(operator) => Err(dangling(operator)),
-        None => Ok(total),
+        None => Ok((total, rest)),
     }
+}
+
+/// What is between a bracket that was opened and the one that closes it; and what follows.
+fn bracket(inner: &str, depth: usize) -> Result<(Unit, &str), Fault> {
+    let refused = |message: &str| Fault::new(message, "write brackets as in \"N/(m rad)\"");
+    if depth > MOST_BRACKETS {
+        return Err(refused("its unit has too many brackets within one another"));
+    }
+    match product(inner, depth)? {
+        (Some(group), rest) => match rest.strip_prefix(')') {
+            Some(tail) => Ok((group, tail)),
+            None => Err(refused("a bracket of its unit is not closed")),
+        },
+        (None, _) => Err(refused("there is no unit in its brackets")),
+    }
+}
+
+/// Most brackets within one another.
+const MOST_BRACKETS: usize = 8;
+
+/// Units that are one sign, as East Asian texts have them, and signs that are wider than others, written out.
+const SIGNS: [(char, &str); 27] = [
+    ('㎎', "mg"),
+    ('㎏', "kg"),
+    ('㎐', "Hz"),
+    ('㎑', "kHz"),
+    ('㎛', "um"),
+    ('㎜', "mm"),
+    ('㎝', "cm"),
+    ('㎟', "mm^2"),
+    ('㎠', "cm^2"),
+    ('㎡', "m^2"),
+    ('㎣', "mm^3"),
+    ('㎤', "cm^3"),
+    ('㎥', "m^3"),
+    ('㎧', "m/s"),
+    ('㎨', "m/s^2"),
+    ('㎩', "Pa"),
+    ('㎪', "kPa"),
+    ('㎫', "MPa"),
+    ('㎬', "GPa"),
+    ('㎭', "rad"),
+    ('㎮', "rad/s"),
+    ('㎯', "rad/s^2"),
+    ('㎳', "ms"),
+    ('（', "("),
+    ('）', ")"),
+    ('／', "/"),
+    ('％', "%"),
+];
+
+/// A text with units that are one sign written out, in brackets so that a power or a slash is of all of it.
+fn spelled(text: &str) -> Cow<'_, str> {
+    let long = |letter: char| SIGNS.iter().find(|(sign, _)| *sign == letter).map(|(_, long)| *long);
+    if !text.contains(|letter| long(letter).is_some()) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(2 * text.len());
+    for letter in text.chars() {
+        match long(letter) {
+            Some(long) if long.starts_with(char::is_alphabetic) => {
+                out.extend(["(", long, ")"]);
+            }
+            Some(long) => out.push_str(long),
+            None => out.push(letter),
+        }
+    }
+    Cow::Owned(out)
 }
 
 /// A symbol, or two that are written without a space: a force or a weighed mass and the length it acts over, as in `Nm` and
 /// `mgcm`. Of the two the first comes first.
-fn joined(symbol: &str) -> Option<[Option<(f64, Dimension)>; 2]> {
+fn joined(symbol: &str) -> Option<[Option<Unit>; 2]> {
     let of = |symbol: &str| {
         let found = UNITS.iter().find(|(known, ..)| *known == symbol);
         found.map(|(_, size, dimension)| (*size, *dimension))
@@ -295,7 +399,7 @@ const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷',
 const RAISED_MINUS: char = '⁻';
 
 fn is_separator(c: char) -> bool {
-    c.is_whitespace() || OPERATORS.contains(c)
+    c.is_whitespace() || OPERATORS.contains(c) || matches!(c, '(' | ')')
 }
 
 fn is_power(c: char) -> bool {
@@ -424,6 +528,29 @@ mod tests {
             ("2 lbf", 8.896_443_230_521, Dimension::FORCE),
             ("45°", std::f64::consts::FRAC_PI_4, Dimension::ANGLE),
             ("90 °/s", std::f64::consts::FRAC_PI_2, Dimension::ANGULAR_RATE),
+            ("314 g/㎡", 0.314, Dimension::AREAL_MASS),
+            ("314 g/(m²)", 0.314, Dimension::AREAL_MASS),
+            ("0.3 ㎏/㎡", 0.3, Dimension::AREAL_MASS),
+            ("0.2 N㎜", 2e-4, Dimension::MOMENT),
+            ("9.81㎨", 9.81, Dimension::ACCELERATION),
+            ("5 N/(m rad)", 5.0, Dimension::SHEAR_SLOPE),
+            ("5 N/(m*rad)", 5.0, Dimension::SHEAR_SLOPE),
+            ("5 N （m·rad）^-1", 5.0, Dimension::SHEAR_SLOPE),
+            ("0.5 N/(m (deg))", 90.0 / std::f64::consts::PI, Dimension::SHEAR_SLOPE),
+            ("9.81 (m/s)/s", 9.81, Dimension::ACCELERATION),
+            ("3 (m/s)²/m", 3.0, Dimension::ACCELERATION),
+            ("20 1/(m)", 20.0, Dimension::CURVATURE),
+            // a gram-force over a centimeter is 0.980665 N/m, and a radian has 180/π degrees
+            (
+                "0.8 gf/(cm deg)",
+                0.8 * 0.980_665 * 180.0 / std::f64::consts::PI,
+                Dimension::SHEAR_SLOPE,
+            ),
+            (
+                "0.8 gf/cm/deg",
+                0.8 * 0.980_665 * 180.0 / std::f64::consts::PI,
+                Dimension::SHEAR_SLOPE,
+            ),
         ];
         for (text, value, dimension) in cases {
             let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
@@ -457,6 +584,14 @@ mod tests {
         refused("9 kg/", "a unit is missing after `/`", "products and quotients");
         refused("9 kg//m", "a unit is missing after `/`", "products and quotients");
         refused("9 m^x", "`^x` is no whole power from -9 to 9", "m^2");
+        refused("9 N/(m rad", "a bracket of its unit is not closed", "N/(m rad)");
+        refused("9 N/()", "there is no unit in its brackets", "N/(m rad)");
+        refused("9 N/m)", "`)` is no unit known here", "");
+        refused("9 N/(m/)", "a unit is missing after `/`", "");
+        refused(&format!("9 {}m", "(".repeat(1000)), "too many brackets", "");
+        for text in ["“75 mm”", "„75 mm“", "«75 mm»", "‘75 mm’"] {
+            refused(text, "curly quotes", "write \"75 mm\"");
+        }
     }
 
     proptest! {
@@ -474,7 +609,7 @@ mod tests {
 
         /// No text makes the reader panic, be it random or nearly right.
         #[test]
-        fn any_text_is_read_or_refused(text in "\\PC*", near in "[0-9.e+\\-]{0,6} ?[a-zµ°%]{0,4}[\\^/²·* ]?[\\-0-9a-z]{0,3}") {
+        fn any_text_is_read_or_refused(text in "\\PC*", near in "[0-9.e+\\-]{0,6} ?[a-zµ°%㎡(]{0,4}[\\^/²·*( )]{0,2}[\\-0-9a-z)]{0,4}") {
             let _ = quantity(&text);
             let _ = quantity(&near);
             let _ = unit(&text);

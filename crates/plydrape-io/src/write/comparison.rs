@@ -36,7 +36,7 @@ pub fn table(rows: &[Row]) -> Result<String, Error> {
     table.write_record(&header)?;
     for row in rows {
         let time = row.time_s.map(csv::number).unwrap_or_default();
-        let note = row.note.clone().unwrap_or_default();
+        let note = csv::cell(row.note.as_deref().unwrap_or_default());
         let mut cells = vec![row.strategy.to_string(), row.accepted.to_string(), time, note];
         for (name, _) in &columns {
             match row.limit(*name) {
@@ -44,7 +44,7 @@ pub fn table(rows: &[Row]) -> Result<String, Error> {
                     csv::number(v.value),
                     csv::number(v.limit),
                     v.step.map(|step| step.to_string()).unwrap_or_default(),
-                    v.at.clone(),
+                    csv::cell(&v.at),
                 ]),
                 None => cells.extend([const { String::new() }; 4]),
             }

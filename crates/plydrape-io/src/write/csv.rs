@@ -47,7 +47,7 @@ fn step_row(measured: &[Name], step: &Step) -> Vec<String> {
     for name in measured {
         let worst = step.measures.get(*name);
         row.push(worst.map(|w| number(w.value)).unwrap_or_default());
-        row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
+        row.push(worst.map(|w| cell(&w.at)).unwrap_or_default());
     }
     if let Some(CatenaryStep { solver, .. }) = &step.catenaries {
         row.push(solver.status.name().to_owned());
@@ -249,6 +249,21 @@ fn load_row(load: Option<&Load>, mount: Option<&Stiffness>) -> Vec<String> {
 }
 
 /// The shortest decimal that reads back to the same double.
+/// A text of a scene as a cell: one that a spreadsheet would take for a formula begins with an apostrophe, which it takes for text.
+pub(crate) fn cell(text: &str) -> String {
+    if is_formula(text) { format!("'{text}") } else { text.to_owned() }
+}
+
+/// A text as a comment, the parts of which between commas no spreadsheet takes for formulas.
+pub(crate) fn comment(text: &str) -> String {
+    let parts: Vec<String> = text.split(',').map(cell).collect();
+    format!("# {}\n", parts.join(","))
+}
+
+fn is_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r'])
+}
+
 pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
 }
@@ -298,6 +313,24 @@ mod tests {
             }
         }
         assert!(rows.next().is_none());
+    }
+
+    /// A body may be called `=1+1`, and places name it; numbers stay numbers, whatever their sign.
+    #[test]
+    fn a_text_of_the_scene_is_no_formula_of_a_spreadsheet() {
+        for name in ["=1+1", "+1", "-x", "@SUM(A1)", "=HYPERLINK(\"a\",\"b\")"] {
+            let mut result = sample::draped(4, 2, 3);
+            let worst = Worst { value: -1.25, at: name.into(), place: None };
+            result.steps[0].measures.set(Name::Slack, Some(worst));
+            let rows = rows(&steps(&result).unwrap());
+            assert!(rows[0].iter().any(|cell| *cell == format!("'{name}")), "{name}");
+            assert!(rows[0].iter().any(|cell| cell == "-1.25"));
+            for cell in rows.iter().flatten().filter(|cell| cell.starts_with(['=', '+', '-', '@']))
+            {
+                assert!(cell.parse::<f64>().is_ok(), "{cell}");
+            }
+        }
+        assert_eq!(comment("near a,=1+1, -2 mm"), "# near a,'=1+1, -2 mm\n");
     }
 
     /// A place is words and may hold commas, as "edge …, second span"; an unknown measure is an empty cell.

@@ -243,8 +243,8 @@ fn a_cut_ply_is_written_to_every_file() {
     let pattern = export::files(&read, Format::Pattern, &any).unwrap();
     let options = Options::new(1e-4);
     let layers = Some(vec!["CUT".into(), "HOLES".into()]);
-    let again =
-        outline::read_dxf("pattern.dxf", &pattern[0].1, &Options { layers, ..options }).unwrap();
+    let options = Options { layers, ..options };
+    let again = outline::read_dxf("pattern.dxf", &pattern[0].1, &options).unwrap().outline;
     let cut = scene.layup.ply.cut.as_ref().unwrap();
     assert!((again.area() - cut.outline.area()).abs() < 1e-9);
     assert!((again.bounds()[1][0] - 0.22).abs() < 1e-9 && again.holes().len() == 1);

@@ -53,7 +53,7 @@ fn a_pattern_is_read_back_as_its_outline() {
     let text = dxf::text(&pattern);
     let layers = Some(vec!["CUT".to_owned(), "HOLES".to_owned()]);
     let options = Options { layers, ..Options::new(1e-6) };
-    let read = outline::read_dxf("pattern.dxf", text.as_bytes(), &options).unwrap();
+    let read = outline::read_dxf("pattern.dxf", text.as_bytes(), &options).unwrap().outline;
     assert_eq!(read.holes().len(), 1);
     for (a, b) in read.lines().zip(outline.lines()) {
         for n in 0..2 {

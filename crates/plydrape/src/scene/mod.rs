@@ -33,6 +33,19 @@ pub struct Scene {
     pub errors: Option<Errors>,
     /// Whether the model that does not decide drapes too, to be shown beside.
     pub also: bool,
+    /// Which ply of a plybook it is; `None` of a scene by itself.
+    pub book_ply: Option<BookPly>,
+}
+
+/// A ply among those of one part.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct BookPly {
+    /// Its place in the order of laying, from 1.
+    pub number: usize,
+    /// Its name, which no other ply of the part has.
+    pub name: String,
 }
 
 impl Scene {
@@ -48,6 +61,7 @@ impl Scene {
             plan: Plan::default(),
             errors: None,
             also: false,
+            book_ply: None,
         }
     }
 }

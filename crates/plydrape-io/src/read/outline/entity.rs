@@ -9,6 +9,7 @@ use ::dxf::Drawing;
 use ::dxf::entities::{Entity, EntityType, Insert, Polyline, Spline};
 use ::dxf::{Point, Vector};
 use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
 
 /// Most points of all curves: crossings of all lines are sought.
 pub const MOST_POINTS: usize = 50_000;
@@ -30,6 +31,35 @@ pub struct Curve {
     pub entity: &'static str,
     /// Its layer.
     pub layer: String,
+    /// The block that it is of.
+    pub placed: Placed,
+}
+
+/// A block that a drawing places, and which of its places that is.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Placed {
+    /// Counts the places of blocks in the drawing from 1; 0 is what is in no block.
+    pub number: usize,
+    /// The block, and those within it, from the outermost.
+    pub blocks: Vec<Rc<str>>,
+}
+
+impl Placed {
+    /// Whether it is of a block, or of a block in that.
+    pub fn is_of(&self, block: &str) -> bool {
+        self.blocks.iter().any(|name| key(name) == key(block))
+    }
+}
+
+/// A text.
+#[derive(Debug, Clone)]
+pub struct Text {
+    /// What it says, line by line.
+    pub lines: Vec<String>,
+    /// Where it stands (m).
+    pub at: [f64; 2],
+    /// The block that it is of.
+    pub placed: Placed,
 }
 
 impl Curve {
@@ -45,6 +75,10 @@ pub struct Curves {
     pub curves: Vec<Curve>,
     /// Layers of the others.
     pub others: BTreeSet<String>,
+    /// The texts of all layers.
+    pub texts: Vec<Text>,
+    /// Meshes that are written as polylines, on the layers that are wanted.
+    pub meshes: usize,
 }
 
 /// All curves of a drawing; a unit of the drawing in meters.
@@ -57,7 +91,10 @@ pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves,
         tolerance: options.tolerance,
         points: 0,
         visited: 0,
-        found: Curves { curves: Vec::new(), others: BTreeSet::new() },
+        places: 0,
+        placed: Placed::default(),
+        last_placed: Placed::default(),
+        found: Curves { curves: Vec::new(), others: BTreeSet::new(), texts: Vec::new(), meshes: 0 },
     };
     for entity in drawing.entities().filter(|entity| !entity.common.is_in_paper_space) {
         reader.read(entity, None, &Transform::scale(unit), 0)?;
@@ -88,6 +125,12 @@ struct Reader<'a> {
     tolerance: f64,
     points: usize,
     visited: usize,
+    /// How many blocks the drawing has placed so far.
+    places: usize,
+    /// The block that is read.
+    placed: Placed,
+    /// The block that was placed last, which the attributes behind it are of.
+    last_placed: Placed,
     found: Curves,
 }
 
@@ -111,7 +154,23 @@ impl Reader<'_> {
             (_, layer) => layer,
         };
         self.visited += 1;
-        let Some((kind, origin, normal)) = sort(&entity.specific) else { return Ok(()) };
+        if let EntityType::Text(text) = &entity.specific {
+            let mirror = mirrored(&text.normal) == Some(true);
+            let own = if mirror { Transform::mirror() } else { Transform::scale(1.0) };
+            let at = outer.after(&own).of(plane(&text.location));
+            let lines = plain(&text.value);
+            if !lines.is_empty() && at.iter().all(|c| c.is_finite()) {
+                let is_beside = depth == 0 && text.text_style_name == "ATTRIB";
+                let placed = if is_beside { &self.last_placed } else { &self.placed };
+                self.found.texts.push(Text { lines, at, placed: placed.clone() });
+            }
+            return Ok(());
+        }
+        let Some((kind, origin, normal)) = sort(&entity.specific) else {
+            let mesh = matches!(&entity.specific, EntityType::Polyline(_));
+            self.found.meshes += usize::from(mesh && self.is_wanted(layer, entity));
+            return Ok(());
+        };
         let z_unit = flatten::stretch(outer.x, outer.y);
         let place =
             Place { entity: kind, layer: layer.to_owned(), at: outer.of([origin.x, origin.y]) };
@@ -121,12 +180,7 @@ impl Reader<'_> {
         if let EntityType::Insert(insert) = &entity.specific {
             return self.place(insert, layer, &place, outer, depth);
         }
-        let name = key(layer);
-        let wanted = match &self.wanted {
-            Some(wanted) => wanted.contains(&name),
-            None => !self.hidden.contains(&name) && entity.common.is_visible,
-        };
-        if !wanted {
+        if !self.is_wanted(layer, entity) {
             self.found.others.insert(layer.to_owned());
             return Ok(());
         }
@@ -215,9 +269,23 @@ impl Reader<'_> {
             return Ok(());
         }
         self.points += points.len();
-        let curve = Curve { points, closed: flat.closed, entity: kind, layer: layer.to_owned() };
-        self.found.curves.push(curve);
+        self.found.curves.push(Curve {
+            points,
+            closed: flat.closed,
+            entity: kind,
+            layer: layer.to_owned(),
+            placed: self.placed.clone(),
+        });
         Ok(())
+    }
+
+    /// Whether an entity is to be read: its layer is named, or none is and it is visible.
+    fn is_wanted(&self, layer: &str, entity: &Entity) -> bool {
+        let name = key(layer);
+        match &self.wanted {
+            Some(wanted) => wanted.contains(&name),
+            None => !self.hidden.contains(&name) && entity.common.is_visible,
+        }
     }
 
     /// Adds the curves of a block where it is placed, in rows and columns.
@@ -248,6 +316,7 @@ impl Reader<'_> {
             y: [0.0, insert.y_scale_factor],
             origin: [0.0; 2],
         };
+        self.placed.blocks.push(block.name.as_str().into());
         for row in 0..insert.row_count.max(1) {
             for column in 0..insert.column_count.max(1) {
                 let shift = [
@@ -260,13 +329,49 @@ impl Reader<'_> {
                     .after(&Transform::shift(base));
                 // an empty block in many rows takes time too
                 self.visited += 1;
+                if depth == 0 {
+                    self.places += 1;
+                    self.placed.number = self.places;
+                }
                 for entity in &block.entities {
                     self.read(entity, Some(layer), &inner, depth + 1)?;
                 }
             }
         }
+        if depth == 0 {
+            self.last_placed = self.placed.clone();
+            self.placed.number = 0;
+        }
+        self.placed.blocks.pop();
         Ok(())
     }
+}
+
+/// The lines of a text, without the marks that say how it looks: `\\P` ends a line, `\\f…;` and the like change the font, `%%u` underlines.
+fn plain(value: &str) -> Vec<String> {
+    let mut text = String::with_capacity(value.len());
+    let mut letters = value.chars();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '\\' => match letters.next() {
+                Some('P' | 'X' | 'N') => text.push('\n'),
+                Some('~') => text.push(' '),
+                Some(mark) if mark.is_ascii_alphabetic() && !"LlOoKk".contains(mark) => {
+                    letters.by_ref().find(|letter| *letter == ';');
+                }
+                Some(mark) if mark.is_ascii_alphabetic() => {}
+                Some(letter) => text.push(letter),
+                None => {}
+            },
+            '{' | '}' => {}
+            letter => text.push(letter),
+        }
+    }
+    for mark in ["%%u", "%%U", "%%o", "%%O", "%%k", "%%K"] {
+        text = text.replace(mark, "");
+    }
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.split('\n').map(words).filter(|line| !line.is_empty()).collect()
 }
 
 /// What an entity is called, a point of it, and the normal of its plane; none for what is no curve.

@@ -7,12 +7,16 @@
 
 use super::INCOMPLETE;
 use crate::error::Fault;
+use std::collections::BTreeMap;
 
 /// The variables of the header that are kept.
 const VARIABLES: [&[u8]; 3] = [b"$ACADVER", b"$DWGCODEPAGE", b"$INSUNITS"];
 /// The sections that are kept.
 const SECTIONS: [&[u8]; 4] = [b"HEADER", b"TABLES", b"BLOCKS", b"ENTITIES"];
-/// What is kept of blocks and entities.
+/// Texts, which name the pieces of a nest. All are kept as `TEXT`, with their type as their style: what the library does for the
+/// others is not needed.
+const TEXTS: [&[u8]; 3] = [b"TEXT", b"MTEXT", b"ATTRIB"];
+/// What is kept of blocks and entities beside texts.
 const ENTITIES: [&[u8]; 12] = [
     b"BLOCK",
     b"ENDBLK",
@@ -40,6 +44,8 @@ pub struct Kept<'a> {
     pub text: Vec<u8>,
     /// How many entities and vertices of polylines it has.
     pub entities: usize,
+    /// How many entities of each type and layer are no curves.
+    pub skipped: BTreeMap<[String; 2], usize>,
     /// The lines of the values in the file, counted from 1, each with its code and value.
     lines: Vec<(usize, &'a [u8], &'a [u8])>,
 }
@@ -84,12 +90,16 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
             return Err(Fault::new(message, "save the drawing as ASCII DXF"));
         }
     }
-    let mut kept = Kept { text: Vec::new(), entities: 0, lines: Vec::new() };
+    let mut kept =
+        Kept { text: Vec::new(), entities: 0, skipped: BTreeMap::new(), lines: Vec::new() };
     let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii_end).enumerate();
     let mut last = 1;
     let mut state = State::Outside;
     // whether what is under way is kept: a variable, a table, an entity
     let mut keeps = false;
+    let mut is_text = false;
+    // the type of an entity that is no curve, until its layer is known
+    let mut skipped = None;
     let mut groups = 0_usize;
     let mut frozen = false;
     loop {
@@ -168,13 +178,37 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
                 frozen |= number == 70 && flags.is_some_and(|flags: i64| flags & 1 == 1);
             }
             (State::In(b"BLOCKS" | b"ENTITIES"), 0, entity) => {
-                keeps = ENTITIES.contains(&entity);
-                if keeps {
+                is_text = TEXTS.contains(&entity);
+                keeps = is_text || ENTITIES.contains(&entity);
+                if is_text {
+                    kept.push(line, code, TEXTS[0]);
+                    // its own type stands where the name of its style would
+                    kept.push(line, b"7", entity);
+                } else if keeps {
                     kept.push(line, code, value);
+                }
+                if keeps {
                     kept.entities +=
                         usize::from(!matches!(entity, b"BLOCK" | b"ENDBLK" | b"SEQEND"));
                 }
+                skipped = (is_text || !keeps).then(|| shown(entity));
             }
+            (State::In(b"BLOCKS" | b"ENTITIES"), 8, layer) if skipped.is_some() => {
+                let kind = skipped.take().unwrap_or_default();
+                let layer = String::from_utf8_lossy(layer).into_owned();
+                *kept.skipped.entry([kind, layer]).or_default() += 1;
+                if keeps {
+                    kept.push(line, code, value);
+                }
+            }
+            // of a text its words, its place, its plane and whether it is on the paper
+            (State::In(b"BLOCKS" | b"ENTITIES"), ..) if is_text => match number {
+                1 => kept.push(line, code, value),
+                10 | 20 | 30 | 67 | 210 | 220 | 230 | GROUP => {
+                    push_outside(&mut kept, &mut groups, (line, number, code, value))?;
+                }
+                _ => {}
+            },
             (State::In(b"BLOCKS" | b"ENTITIES"), ..) if keeps => {
                 push_outside(&mut kept, &mut groups, (line, number, code, value))?;
             }

@@ -1,6 +1,6 @@
 //! Curves, points and layers of a drawing, as messages show them.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 /// A curve of a drawing, for messages: what it is, its layer, and a point of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,4 +32,19 @@ pub(super) fn listed(layers: &[impl AsRef<str>]) -> String {
     let names: Vec<String> = layers.iter().take(MOST).map(name).collect();
     let more = if layers.len() > MOST { ", …" } else { "" };
     format!("{}{more}", names.join(", "))
+}
+
+/// A text of a drawing as a TOML file has it, so that it can be copied into a scene.
+pub(super) fn toml(text: &str) -> String {
+    let mut out = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => out.extend(['\\', letter]),
+            _ if letter.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(letter));
+            }
+            _ => out.push(letter),
+        }
+    }
+    out + "\""
 }

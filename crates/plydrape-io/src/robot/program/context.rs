@@ -1,6 +1,7 @@
 //! The variables that a template sees. All lengths are in meters, times in seconds and angles in radians; filters change units.
 
 use super::blocks::{Block, Blocks, Passed};
+use super::names;
 use super::pose::{angle, euler_zyx, quaternion, rotation_vector};
 use super::sampling::Track;
 use super::template::Robot;
@@ -130,7 +131,7 @@ pub(super) struct PointOf {
 pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Context> {
     let program = track.program;
     let limits = robot.limits();
-    let name = identifier(&program.name);
+    let name = names::name(&program.name, program.book_ply.as_ref());
     let split = blocks.parts(limits.points);
     let parts: Vec<String> = match split.len() {
         1 => vec![name.clone()],
@@ -170,7 +171,7 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
             parts: parts.clone(),
             accepted: program.accepted,
             verdict: ascii(&program.verdict),
-            head: head(track, blocks, robot, [n, split.len()]),
+            head: head(track, blocks, robot, [n, split.len()], [&name, &parts[n]]),
             duration: program.times.last().copied().unwrap_or_default(),
             mold: PoseOf::of(&program.frames.mold),
             tool: PoseOf::of(&program.frames.tool),
@@ -251,8 +252,14 @@ impl Maker<'_> {
     }
 }
 
-/// What every file says at its beginning.
-fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2]) -> Vec<String> {
+/// What every file says at its beginning; `names` are those of the program and of this part.
+fn head(
+    track: &Track,
+    blocks: &Blocks,
+    robot: Robot,
+    [part, parts]: [usize; 2],
+    names: [&str; 2],
+) -> Vec<String> {
     let program = track.program;
     let limits = robot.limits();
     let mut lines = vec![format!("{}, made by {}", program.name, crate::PROGRAM)];
@@ -288,8 +295,10 @@ fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2])
     } else {
         lines.push("The robot stops where the vacuum switches".into());
     }
-    lines.push(format!("Frames: world > mold ({}) > tool", limits.mold));
-    lines.push(format!("        flange > tool ({})", limits.tool));
+    let [name, own] = names;
+    let named = |pattern: &str| pattern.replace("NAME", name).replace("PART", own);
+    lines.push(format!("Frames: world > mold ({}) > tool", named(limits.mold)));
+    lines.push(format!("        flange > tool ({})", named(limits.tool)));
     lines.push(limits.units.into());
     match program.axes.len() {
         0 => {}
@@ -305,7 +314,7 @@ fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2])
             ));
             lines.push(format!(
                 "their own controller follows {}, from the time when array_start is set.",
-                wide::FILE
+                wide::beside(name)
             ));
             lines.push(
                 "Both keep time by themselves; nothing holds them together on the way".into(),
@@ -318,11 +327,14 @@ fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2])
 /// Longest line of a head: that of KRL has 471 letters, and a head is there to be read.
 const WIDTH: usize = 100;
 
-/// A line in pieces of whole words, those behind the first indented.
+/// A line in pieces of whole words, those behind the first indented; a word that is longer than a line is cut.
 fn wrapped(line: &str) -> Vec<String> {
     let indent = &line[..line.len() - line.trim_start().len()];
+    let longest = WIDTH - indent.len().min(WIDTH / 2) - 2;
     let mut lines = vec![String::new()];
-    for word in line.split_whitespace() {
+    // a head is ASCII, so that every byte is a letter
+    let words = line.split_whitespace().flat_map(|word| word.as_bytes().chunks(longest));
+    for word in words.map(String::from_utf8_lossy) {
         let last = lines.len() - 1;
         let room = WIDTH.saturating_sub(lines[last].len() + 1);
         match lines[last].is_empty() {
@@ -339,34 +351,6 @@ pub(crate) fn rejected(program: &Program) -> String {
     let verdict = &program.verdict;
     format!("NOT ACCEPTED: {}", verdict.strip_prefix("not accepted ").unwrap_or(verdict))
 }
-
-/// Longest name, so that names of points behind it are still short enough for every controller.
-const LONGEST: usize = 16;
-
-/// A title as a name: letters, digits and `_`, a letter first.
-pub(super) fn identifier(title: &str) -> String {
-    let mut name = String::new();
-    for letter in ascii(title).to_ascii_lowercase().chars() {
-        match letter {
-            'a'..='z' | '0'..='9' => name.push(letter),
-            _ if name.ends_with('_') || name.is_empty() => {}
-            _ => name.push('_'),
-        }
-    }
-    if !name.starts_with(|letter: char| letter.is_ascii_lowercase()) {
-        name.insert_str(0, "ply_");
-    }
-    name.truncate(LONGEST);
-    let name = name.trim_end_matches('_');
-    // what is left must be no word of a controller's language
-    if name.len() < 4 || WORDS.contains(&name) { format!("ply_{name}") } else { name.into() }
-}
-
-/// Words of the languages that a title may well be, of four letters and more.
-const WORDS: [&str; 20] = [
-    "module", "proc", "main", "move", "movel", "movej", "test", "wait", "stop", "trap", "func",
-    "local", "spline", "signal", "global", "frame", "tool", "base", "thread", "world",
-];
 
 /// A text of printable ASCII, with what comes near to other letters.
 pub(super) fn ascii(text: &str) -> String {
@@ -400,21 +384,6 @@ pub(super) fn ascii(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Names are short, in small letters, and no word of a language.
-    #[test]
-    fn a_title_becomes_a_name_that_controllers_take() {
-        for (title, name) in [
-            ("Flat mold, sheared target", "flat_mold_sheare"),
-            ("3rd ply", "ply_3rd_ply"),
-            ("", "ply_ply"),
-            ("Main", "ply_main"),
-            ("Über-Form", "uber_form"),
-            ("a", "ply_a"),
-        ] {
-            assert_eq!(identifier(title), name);
-        }
-    }
 
     #[test]
     fn a_head_is_plain_ascii() {

@@ -6,10 +6,12 @@
 //! 4. `blocks` parts what is kept at its stops, and says with which zone each point is passed;
 //! 5. [`template`] writes a [`Robot`]'s files from templates, the shipped ones or a user's copies, with the variables of
 //!    `context`;
-//! 6. [`wide`] is the program as one table.
+//! 6. `names` makes the names of these files, and of what is in them, from the scene's title;
+//! 7. [`wide`] is the program as one table.
 
 mod blocks;
 mod context;
+mod names;
 pub(crate) mod pose;
 pub mod sampling;
 pub mod template;
@@ -28,6 +30,7 @@ use plydrape::geometry::Pose;
 use plydrape::geometry::vector::{cross, dot, norm};
 use plydrape::measure::Name;
 use plydrape::ply::{GripperId, gripper_name};
+use plydrape::scene::BookPly;
 pub use plydrape::sheet::{Event, EventKind};
 use plydrape::tool::{Posture, Tool};
 
@@ -36,6 +39,8 @@ use plydrape::tool::{Posture, Tool};
 pub struct Program {
     /// Title of the scene.
     pub name: String,
+    /// Which ply of a plybook it lays; `None` of a scene by itself.
+    pub book_ply: Option<BookPly>,
     /// Whether the motion keeps all limits.
     pub accepted: bool,
     /// The verdict, in one line.
@@ -137,6 +142,7 @@ impl Program {
 
         let program = Program {
             name: result.scene.title.clone(),
+            book_ply: result.scene.book_ply.clone(),
             accepted: result.summary.accepted(),
             verdict: Program::verdict(result),
             times,

@@ -6,7 +6,7 @@
 use super::blocks::Blocks;
 use super::context::contexts;
 use super::sampling::Track;
-use super::{Program, Tolerance, wide};
+use super::{Program, Tolerance, names, wide};
 use crate::store::folder::Files;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
@@ -48,7 +48,7 @@ pub(super) struct Limits {
     pub radii: &'static [f64],
     /// Whether points are passed in zones.
     pub zones: bool,
-    /// What the frames are called in the program.
+    /// What the frames are called in the program, whose name is NAME, and that of its part PART.
     pub mold: &'static str,
     pub tool: &'static str,
     /// The units, in a line.
@@ -103,8 +103,8 @@ impl Robot {
                 outputs: None,
                 radii: &ZONES,
                 zones: true,
-                mold: "work object ply_mold",
-                tool: "ply_tool",
+                mold: "work object mold_NAME",
+                tool: "tool_NAME",
                 units: "Units: mm, degrees per second, seconds; quaternions begin with w",
             },
             Robot::Krl => Limits {
@@ -117,8 +117,8 @@ impl Robot {
                 outputs: Some(4096),
                 radii: &[],
                 zones: false,
-                mold: "$BASE = PLY_MOLD",
-                tool: "$TOOL = PLY_TOOL",
+                mold: "$BASE = mold_NAME",
+                tool: "$TOOL = tool_NAME",
                 units: "Units: mm, degrees (A about Z, B about Y, C about X), seconds",
             },
             Robot::Urscript => Limits {
@@ -130,7 +130,7 @@ impl Robot {
                 outputs: Some(18),
                 radii: &[],
                 zones: false,
-                mold: "ply_mold, in the base of the robot",
+                mold: "mold_PART, in the base of the robot",
                 tool: "the TCP",
                 units: "Units: m, rad (rotation vectors), seconds",
             },
@@ -197,7 +197,8 @@ pub fn files(
         }
     }
     if separate {
-        files.push((wide::FILE.into(), wide::text(program)?.into_bytes()));
+        let name = names::name(&program.name, program.book_ply.as_ref());
+        files.push((wide::beside(&name), wide::text(program)?.into_bytes()));
     }
     Ok(files)
 }

@@ -1,4 +1,4 @@
-//! The program as one table, `motion_wide.csv`: a row a time, a column a number.
+//! The program as one table, `motion_wide.csv`, or `NAME_wide.csv` beside a program `NAME` of a robot: a row a time, a column a number.
 //!
 //! | columns | |
 //! |---|---|
@@ -14,13 +14,18 @@ use super::context::rejected;
 use super::sampling::nearest;
 use super::{Event, EventKind, Program};
 use crate::Error;
-use crate::write::csv::{number, text as text_of};
+use crate::write::csv::{cell, comment, number, text as text_of};
 use ::csv::Writer;
 use plydrape::geometry::Pose;
 use plydrape::ply::gripper_name;
 
 /// Name of the file.
 pub const FILE: &str = "motion_wide.csv";
+
+/// Name of the file beside the program of a robot, by the name of that.
+pub(super) fn beside(program: &str) -> String {
+    format!("{program}_{}", FILE.trim_start_matches("motion_"))
+}
 
 /// The table. Of a motion that is not accepted, a comment above the header says so.
 ///
@@ -33,7 +38,7 @@ pub fn text(program: &Program) -> Result<String, Error> {
             ["x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"].map(|c| format!("flange {c}")),
         );
     }
-    header.extend(program.axes.iter().map(|axis| format!("{} (m)", axis.name)));
+    header.extend(program.axes.iter().map(|axis| cell(&format!("{} (m)", axis.name))));
     header.extend(program.grippers().iter().map(|name| format!("{name} vacuum")));
     header.extend(program.grippers().iter().map(|name| format!("{name} tilt (deg)")));
     let mut table = Writer::from_writer(Vec::new());
@@ -56,13 +61,13 @@ pub fn text(program: &Program) -> Result<String, Error> {
 
 /// A comment that says that the motion is not accepted, if it is not: readers of tables expect the header first.
 pub(crate) fn head(program: &Program) -> String {
-    if program.accepted { String::new() } else { format!("# {}\n", rejected(program)) }
+    if program.accepted { String::new() } else { comment(&rejected(program)) }
 }
 
 /// The verdict as a comment.
 pub(crate) fn verdict(program: &Program) -> String {
     match program.accepted {
-        true => format!("# Verdict: {}\n", program.verdict),
+        true => comment(&format!("Verdict: {}", program.verdict)),
         false => head(program),
     }
 }

@@ -108,6 +108,8 @@ pub(super) struct PlyTable {
     /// Its boundary: points [x, y] of a drawing (m), or a DXF file. Unless given, the ply is the rectangle between its
     /// outermost grippers and its `overhang`.
     pub outline: Option<Located<OutlineChoice>>,
+    /// Which piece of the drawing it is, where that has several, as a nest for a cutter has.
+    pub piece: Option<Located<PieceTable>>,
     /// A rectangle from the drawing's origin (m), in place of an `outline`.
     pub size: Option<Located<Fixed<Quantity<Length>, 2>>>,
     /// Holes of the ply: each points [x, y] of the drawing (m), or a circle.
@@ -135,12 +137,27 @@ pub(super) struct PlyTable {
 pub(super) struct DrawingTable {
     /// The file, relative to the scene.
     pub file: Located<String>,
-    /// The layers with boundary and holes; all that are visible unless given.
+    /// The layers with boundary and holes. Unless given, the only visible layer with closed lines: where several have some, they
+    /// must be named.
     pub layers: Option<Located<Vec<Located<String>>>>,
     /// The unit of its coordinates, as "mm"; that of the file unless given.
     pub unit: Option<Located<String>>,
-    /// How far a curve may be from the lines that stand for it (m); a thousandth of the drawing's size unless given.
+    /// How far a curve may be from the lines that stand for it, and the widest gap between ends of lines that is closed (m), 0.1 mm
+    /// unless given.
     pub tolerance: Option<Quantity<Length>>,
+}
+
+/// A piece of a drawing, by one of its keys.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Piece")]
+pub(super) struct PieceTable {
+    /// The name of its block, in small or capital letters.
+    pub block: Option<Located<String>>,
+    /// A text inside it or in its block, in small or capital letters.
+    pub label: Option<Located<String>>,
+    /// A point [x, y] of the drawing inside it (m).
+    pub point: Option<Located<Fixed<Quantity<Length>, 2>>>,
 }
 
 /// A round hole.

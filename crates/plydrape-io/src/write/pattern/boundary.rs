@@ -3,7 +3,7 @@
 use super::Line;
 use super::dxf_text::Text;
 use crate::Error;
-use crate::write::csv::{number, text};
+use crate::write::csv::{cell, number, text};
 use ::csv::Writer;
 
 /// One row a point (m): the line, the number of the point from 1, x, y, z. A closed line ends with its first point once more.
@@ -17,7 +17,7 @@ pub fn csv(lines: &[Line]) -> Result<String, Error> {
         let again = line.points.first().filter(|_| line.closed);
         for (n, point) in line.points.iter().chain(again).enumerate() {
             let [x, y, z] = point.map(number);
-            table.write_record([&line.name, &(n + 1).to_string(), &x, &y, &z])?;
+            table.write_record([&cell(&line.name), &(n + 1).to_string(), &x, &y, &z])?;
         }
     }
     text(table)

@@ -56,6 +56,7 @@ pub fn cell(axes: usize, samples: usize) -> Program {
     let event = |time, kind, ids: &[[usize; 2]]| Event { time, kind, grippers: ids.to_vec() };
     Program {
         name: "Cell of the tést".into(),
+        book_ply: None,
         accepted: true,
         verdict: "accepted: tilt 12° against 40°".into(),
         flange: Some(times.iter().map(|t| flange(*t)).collect()),

@@ -142,7 +142,13 @@ fn aggregate(line: &mut Reader) -> (Pose, Vec<f64>) {
 
 fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, time: &mut f64) {
     let (source, data) = &all[name];
-    let frames = Frames { mold: data.frames["PLY_MOLD"], tool: data.frames["PLY_TOOL"] };
+    let [mold, tool] = ["MOLD_", "TOOL_"].map(|kind| {
+        let mut names = data.frames.keys().filter(|name| name.starts_with(kind));
+        let found = names.next().unwrap();
+        assert!(names.next().is_none() && name.starts_with(&found[kind.len()..]), "{found}");
+        found.as_str()
+    });
+    let frames = Frames { mold: data.frames[mold], tool: data.frames[tool] };
     assert!(played.frames.is_none_or(|other| other == frames));
     played.frames = Some(frames);
     let mut lines = code(source);
@@ -171,8 +177,8 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
             line.expect(&["="]);
             match name.as_str() {
                 "IPO_MODE" => line.expect(&["#", "BASE"]),
-                "BASE" => line.expect(&["PLY_MOLD"]),
-                "TOOL" => line.expect(&["PLY_TOOL"]),
+                "BASE" => line.expect(&[mold]),
+                "TOOL" => line.expect(&[tool]),
                 // slow up to the start, and as fast as they go behind it
                 "VEL_AXIS" | "ACC_AXIS" | "VEL_EXTAX" | "ACC_EXTAX" => {
                     let percent = line.number();

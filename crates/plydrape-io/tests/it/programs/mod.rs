@@ -12,8 +12,10 @@ mod urscript;
 
 use cell::{Played, cell, rejected, text};
 use plydrape::mold::Pose;
+use plydrape::scene::BookPly;
 use plydrape_io::Files;
 use plydrape_io::robot::program::{Pad, Program, Robot, Template, Tolerance, template, wide};
+use std::collections::BTreeSet;
 
 fn files(program: &Program, robot: Robot, position: f64) -> Files {
     let tolerance = Tolerance { position, ..Tolerance::default() };
@@ -59,7 +61,8 @@ fn axes_beyond_a_controllers_own_go_to_a_table_beside_it() {
     for (robot, axes) in [(Robot::Rapid, 7), (Robot::Krl, 12), (Robot::Urscript, 4)] {
         let program = cell::still(cell(axes, 1001));
         let files = files(&program, robot, 1e-4);
-        assert_eq!(names(&files).last(), Some(&wide::FILE));
+        let program_file = names(&files)[0].split('.').next().unwrap();
+        assert_eq!(*names(&files).last().unwrap(), format!("{program_file}_wide.csv"));
         let head = text(&files, 0);
         assert!(head.contains("nothing holds them together on the way"), "{head}");
         let played = played(robot, &files);
@@ -169,6 +172,98 @@ fn a_program_of_too_many_points_is_split() {
     }
 }
 
+/// Titles that are words of a language or names of what a program declares, that are long, or that have no letter of ASCII; the
+/// plies of two books; verdicts that quote any name. Every program is read back and plays its motion, all of them can be loaded
+/// beside one another, and each fits its controller.
+#[test]
+fn programs_of_all_titles_can_be_loaded_beside_one_another() {
+    let long = "Verkleidung".repeat(40);
+    let quotes = "\"; END ! } # { ; MODULE x";
+    let mut titles: Vec<(String, Option<BookPly>)> = [
+        "Tool",
+        "Stop",
+        "Go",
+        "At",
+        "Mold",
+        "Floor",
+        "Servoj",
+        "Error",
+        "While",
+        "Halt",
+        "Module",
+        "Main",
+        "VAC_G0_0",
+        "array_start",
+        "XP1",
+        "I",
+        "BAS",
+        "run",
+        "",
+        " ",
+        "3rd",
+        "007",
+        "Größe",
+        "Grösse",
+        "左前",
+        "右前",
+        "=1+1",
+        "ply",
+        "ply tool",
+        "tool",
+        "front fender left: a",
+        "front fender left: b",
+        quotes,
+        &long,
+        &format!("{long} 2"),
+    ]
+    .map(|title| (title.to_owned(), None))
+    .into();
+    for book in ["Front fender left", "Front fender right", &long] {
+        for (n, ply) in ["base", "patch", "Base!", "基"].into_iter().enumerate() {
+            let of_book = BookPly { number: n + 1, name: ply.into() };
+            titles.push((format!("{book}: {ply}"), Some(of_book)));
+        }
+    }
+    for robot in Robot::ALL {
+        let mut found: BTreeSet<String> = BTreeSet::new();
+        let mut names_of_files: BTreeSet<String> = BTreeSet::new();
+        for (title, book_ply) in &titles {
+            let plain = cell::still(cell(7, 201));
+            let verdict = format!("not accepted: clearance of \"{quotes}\" and {long}");
+            let (name, book_ply) = (title.clone(), book_ply.clone());
+            let program = Program { name, book_ply, verdict, accepted: false, ..plain };
+            let files = files(&program, robot, 1e-3);
+            let played = played(robot, &files);
+            assert!(played.starts_array);
+            played.compare(&program, cell::stated(&files));
+            for (file, bytes) in &files {
+                assert!(names_of_files.insert(file.to_lowercase()), "{file} of {title}");
+                let stem = file.split('.').next().unwrap();
+                assert!(
+                    stem.trim_end_matches("_wide").len() <= 24
+                        && stem.starts_with('p')
+                        && stem.contains('_'),
+                    "{file}"
+                );
+                let text = std::str::from_utf8(bytes).unwrap();
+                // KRL takes 471 letters, and RAPID 255 of a line in its editor
+                let is_short = |line: &str| line.is_ascii() && line.len() <= 255;
+                assert!(file.ends_with(".csv") || text.lines().all(is_short), "{title}");
+            }
+            let global = match robot {
+                Robot::Rapid => rapid::global_names(&files),
+                Robot::Urscript => urscript::global_names(&files),
+                // data of KRL is local to its file, which has the name of its program
+                Robot::Krl => names(&files)[..1].iter().map(|name| (*name).to_owned()).collect(),
+            };
+            assert!(!global.is_empty());
+            for name in global {
+                assert!(name.len() <= 32 && found.insert(name.to_lowercase()), "{name} of {title}");
+            }
+        }
+    }
+}
+
 /// The head of a motion that is not accepted says so first.
 #[test]
 fn a_rejected_motion_says_so_in_its_head() {
@@ -242,12 +337,14 @@ fn templates_of_the_user_are_used() {
     assert_eq!(text(&copy, 0), text(&files(&program, Robot::Rapid, 1e-4), 0).replace("v50", "v20"));
 
     let both = made(Robot::Krl, "my.dat.j2", "{{ part }}\n").unwrap();
-    assert_eq!(names(&both), ["cell_of_the_test.src", "cell_of_the_test.dat"]);
-    assert_eq!(text(&both, 1), "cell_of_the_test\n");
+    let name = names(&both)[0].strip_suffix(".src").unwrap();
+    assert!(name.starts_with("ply_cell_of_th"), "{name}");
+    assert_eq!(names(&both)[1], format!("{name}.dat"));
+    assert_eq!(text(&both, 1), format!("{name}\n"));
 
     let other = "{% for block in blocks %}{% for p in block.points %}{{ p.position|mm(1)|join(' ') }}\n{% endfor %}{% endfor %}";
     let other = made(Robot::Krl, "cell.ls.j2", other).unwrap();
-    assert_eq!(names(&other), ["cell_of_the_test.ls"]);
+    assert_eq!(names(&other), [format!("{name}.ls")]);
     assert!(text(&other, 0).lines().all(|line| line.split(' ').count() == 3));
 }
 

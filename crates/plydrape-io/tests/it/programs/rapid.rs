@@ -30,6 +30,31 @@ enum Statement {
     Monitor(bool),
 }
 
+/// The names of the tool and of the work object in a module with this name, or in one of its parts.
+fn of_program(module: &str) -> [String; 2] {
+    // the name ends with its check sum, and a part's number may follow
+    let parts: Vec<&str> = module.split('_').collect();
+    let end = parts.iter().rposition(|part| part.len() == 4).unwrap();
+    ["tool", "mold"].map(|kind| format!("{kind}_{}", parts[..=end].join("_")))
+}
+
+/// Names that a controller with these modules knows everywhere: modules, procedures and data that is not local.
+pub fn global_names(files: &Files) -> Vec<String> {
+    let mut names = Vec::new();
+    for (_, bytes) in files.iter().filter(|(name, _)| name.ends_with(".mod")) {
+        for line in std::str::from_utf8(bytes).unwrap().lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            match words[..] {
+                ["MODULE", name] => names.push(name.to_owned()),
+                ["PROC", name] => names.push(name.trim_end_matches("()").to_owned()),
+                ["PERS", _, name, ..] => names.push(name.to_owned()),
+                _ => {}
+            }
+        }
+    }
+    names
+}
+
 /// Reads all modules and plays the procedure that calls the others, or the only one.
 pub fn play(files: &Files) -> Played {
     let mut frames = None;
@@ -43,7 +68,7 @@ pub fn play(files: &Files) -> Played {
         assert_eq!(format!("{module}.mod"), *name);
         if matches!(reader.peek(), Token::Word(word) if word == "PERS") {
             assert!(frames.is_none());
-            frames = Some(data(&mut reader));
+            frames = Some(data(&mut reader, &of_program(&module)));
         }
         reader.expect(&["PROC"]);
         let procedure = identifier(&mut reader);
@@ -51,7 +76,7 @@ pub fn play(files: &Files) -> Played {
         reader.expect(&["(", ")"]);
         let mut statements = Vec::new();
         while !reader.takes("ENDPROC") {
-            statements.extend(statement(&mut reader));
+            statements.extend(statement(&mut reader, &of_program(&module)));
         }
         reader.expect(&["ENDMODULE"]);
         reader.end();
@@ -138,8 +163,8 @@ fn parts(reader: &mut Reader) -> Pose {
 }
 
 /// The tool, which the robot holds, and the work object, which stands still.
-fn data(reader: &mut Reader) -> Frames {
-    reader.expect(&["PERS", "tooldata", "ply_tool", ":=", "[", "TRUE", ","]);
+fn data(reader: &mut Reader, [tool_name, mold_name]: &[String; 2]) -> Frames {
+    reader.expect(&["PERS", "tooldata", tool_name, ":=", "[", "TRUE", ","]);
     let tool = pose(reader);
     reader.expect(&[",", "["]);
     let mass = reader.number();
@@ -151,7 +176,7 @@ fn data(reader: &mut Reader) -> Frames {
     let _inertia = reader.numbers::<3>();
     reader.expect(&["]", "]", ";"]);
     assert!(mass > 0.0);
-    reader.expect(&["PERS", "wobjdata", "ply_mold", ":=", "[", "FALSE", ",", "TRUE", ","]);
+    reader.expect(&["PERS", "wobjdata", mold_name, ":=", "[", "FALSE", ",", "TRUE", ","]);
     assert_eq!(reader.next(), Token::Text(String::new()));
     reader.expect(&[","]);
     let mold = pose(reader);
@@ -162,7 +187,7 @@ fn data(reader: &mut Reader) -> Frames {
     Frames { mold, tool }
 }
 
-fn statement(reader: &mut Reader) -> Option<Statement> {
+fn statement(reader: &mut Reader, names: &[String; 2]) -> Option<Statement> {
     let word = identifier(reader);
     let statement = match word.as_str() {
         "ConfJ" | "ConfL" => {
@@ -173,7 +198,7 @@ fn statement(reader: &mut Reader) -> Option<Statement> {
             }
             Statement::Monitor(on)
         }
-        "MoveJ" | "MoveL" => return Some(movement(reader, word == "MoveL")),
+        "MoveJ" | "MoveL" => return Some(movement(reader, word == "MoveL", names)),
         "SetDO" => {
             let signal = identifier(reader);
             reader.expect(&[","]);
@@ -194,7 +219,7 @@ fn statement(reader: &mut Reader) -> Option<Statement> {
     Some(statement)
 }
 
-fn movement(reader: &mut Reader, linear: bool) -> Statement {
+fn movement(reader: &mut Reader, linear: bool, [tool, mold]: &[String; 2]) -> Statement {
     // robtarget: place, orientation, configuration, external axes
     reader.expect(&["["]);
     let pose = parts(reader);
@@ -222,6 +247,6 @@ fn movement(reader: &mut Reader, linear: bool) -> Statement {
     reader.expect(&[","]);
     let zone = identifier(reader);
     assert!(ZONES.contains(&zone.as_str()), "{zone}");
-    reader.expect(&[",", "ply_tool", "\\", "WObj", ":=", "ply_mold", ";"]);
+    reader.expect(&[",", tool, "\\", "WObj", ":=", mold, ";"]);
     Statement::Move { linear, pose, axes, duration, fine: zone == "fine" }
 }

@@ -37,6 +37,19 @@ pub fn play(files: &Files) -> Played {
     played
 }
 
+/// Names that all scripts of a controller share: functions and global variables.
+pub fn global_names(files: &Files) -> Vec<String> {
+    let mut names = Vec::new();
+    for (_, bytes) in files.iter().filter(|(name, _)| name.ends_with(".script")) {
+        for line in std::str::from_utf8(bytes).unwrap().lines() {
+            let word = line.trim().strip_prefix("def ").or(line.trim().strip_prefix("global "));
+            let letters = |letter: char| !(letter.is_ascii_alphanumeric() || letter == '_');
+            names.extend(word.and_then(|word| word.split(letters).next()).map(str::to_owned));
+        }
+    }
+    names
+}
+
 /// `p[x, y, z, rx, ry, rz]`
 fn pose(reader: &mut Reader) -> Pose {
     reader.expect(&["p"]);
@@ -59,6 +72,8 @@ fn outputs(text: &str) -> BTreeMap<(String, usize), String> {
 
 fn script(name: &str, text: &str, played: &mut Played) {
     let outputs = outputs(text);
+    let [mold_name, at_name, go, stop] =
+        ["mold", "at", "go", "stop"].map(|kind| format!("{kind}_{name}"));
     let mut own: BTreeSet<String> = BTreeSet::new();
     let mut tool = None;
     let mut mold = None;
@@ -117,16 +132,16 @@ fn script(name: &str, text: &str, played: &mut Played) {
                 tool = Some(pose(&mut reader));
                 reader.expect(&[")"]);
             }
-            "global" if reader.takes("ply_mold") => {
+            "global" if reader.takes(&mold_name) => {
                 reader.expect(&["="]);
                 mold = Some(pose(&mut reader));
             }
             "global" => {
-                reader.expect(&["ply_at", "="]);
+                reader.expect(&[&at_name, "="]);
                 start = Some(pose(&mut reader));
             }
             "movel" => {
-                reader.expect(&["(", "pose_trans", "(", "ply_mold", ",", "ply_at", ")", ","]);
+                reader.expect(&["(", "pose_trans", "(", &mold_name, ",", &at_name, ")", ","]);
                 reader.expect(&["a", "="]);
                 assert!(reader.number() <= 0.5);
                 reader.expect(&[",", "v", "="]);
@@ -141,7 +156,7 @@ fn script(name: &str, text: &str, played: &mut Played) {
                     }
                 }
             }
-            "ply_go" => {
+            called if called == go => {
                 reader.expect(&["("]);
                 let pose = pose(&mut reader);
                 reader.expect(&[","]);
@@ -151,7 +166,7 @@ fn script(name: &str, text: &str, played: &mut Played) {
                 time = ends;
                 played.points.push(Point { time, pose, axes: Vec::new() });
             }
-            "ply_stop" => reader.expect(&["(", ")"]),
+            called if called == stop => reader.expect(&["(", ")"]),
             "sleep" => {
                 reader.expect(&["("]);
                 time += reader.number();
