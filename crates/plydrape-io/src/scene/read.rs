@@ -23,8 +23,11 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Er
     let nothing = Document::new(name, "");
     let name = shown::excerpt(name, LONGEST_PATH);
     if path.is_dir() {
-        return Err(nothing
-            .error_anywhere(format!("`{name}` is a folder, not a file"), "name a file inside it"));
+        let fault =
+            nothing.fault(format!("`{name}` is a folder, not a file"), "name a file inside it");
+        return Err(
+            Diagnostic { unread: Some((path.into(), ErrorKind::IsADirectory)), ..fault }.into()
+        );
     }
     input::bytes(path, largest).map_err(|error| match error.kind() {
         ErrorKind::FileTooLarge => nothing.error_anywhere(
@@ -106,50 +109,122 @@ pub(super) const BACKSLASHES: &str =
 
 /// Reads a text file, named `name` in messages.
 pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
-    decoded(bytes(path, name, largest)?, name)
+    decoded(bytes(path, name, largest)?, name, Old::Refused)
 }
 
-/// Reads a table of a laboratory: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.
-pub(super) fn lab_text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
-    let bytes = bytes(path, name, largest)?;
-    let is_table = matches!(FileKind::of(&bytes), None | Some(FileKind::Table));
-    let marked = [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| bytes.starts_with(*mark));
-    if std::str::from_utf8(&bytes).is_err() && is_table && !marked && !bytes.contains(&0) {
-        let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
-        return Ok(Document::new(name, &text));
-    }
-    decoded(bytes, name)
+/// Reads a table, named `name` in messages: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.
+pub(super) fn table(path: &Path, name: &str) -> Result<Document, Error> {
+    decoded(bytes(path, name, LARGEST_CSV)?, name, Old::Latin1)
 }
 
-/// A text from its bytes.
-fn decoded(bytes: Vec<u8>, name: &str) -> Result<Document, Error> {
-    match String::from_utf8(bytes) {
-        // Spreadsheets and some editors put a byte order mark first.
-        Ok(text) => Ok(Document::new(name, text.trim_start_matches('\u{feff}'))),
-        Err(error) if [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| error.as_bytes().starts_with(*mark)) => {
-            Err(Document::new(name, "").error_anywhere(
-                format!("`{name}` is UTF-16 text"),
+/// What a text may be that is no Unicode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Old {
+    /// Nothing.
+    Refused,
+    /// ISO 8859-1.
+    Latin1,
+}
+
+/// A text from its bytes: UTF-8, UTF-16, or an old encoding where that may be. Line ends of old Macintoshes become those of today.
+fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
+    let shown = short(name);
+    let refused =
+        |message: String, help: &str| Err(Document::new(name, "").error_anywhere(message, help));
+    if let Some(text) = wide(&bytes) {
+        return match text {
+            Some(text) => lines_ended(text, name),
+            None => refused(
+                format!("`{shown}` is UTF-16 text, and damaged"),
                 "save the file with the encoding UTF-8, which Windows' Notepad and PowerShell offer too",
-            ))
-        }
-        Err(error) if FileKind::of(error.as_bytes()).is_some_and(|kind| kind != FileKind::Scene) => {
-            let kind = FileKind::of(error.as_bytes()).map_or("", FileKind::name);
-            Err(Document::new(name, "").error_anywhere(
-                format!("`{name}` is {kind}, not a text"),
-                "save a table as CSV, with the encoding UTF-8",
-            ))
-        }
+            ),
+        };
+    }
+    if let Some(kind) = FileKind::of(&bytes)
+        && !matches!(kind, FileKind::Scene | FileKind::Table)
+        && (std::str::from_utf8(&bytes).is_err() || bytes.contains(&0))
+    {
+        return refused(
+            format!("`{shown}` is {}, not a text", kind.name()),
+            "save a table as CSV, with the encoding UTF-8",
+        );
+    }
+    let nul = bytes.iter().position(|byte| *byte == 0);
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
         Err(error) => {
+            let bytes = error.as_bytes();
             let at = error.utf8_error().valid_up_to();
-            let byte = error.as_bytes().get(at).copied().unwrap_or_default();
-            let lossy = Document::new(name, &String::from_utf8_lossy(error.as_bytes()));
-            Err(lossy.error(
-                at..at + char::REPLACEMENT_CHARACTER.len_utf8(),
-                format!("`{name}` is not UTF-8 text: byte {at} is 0x{byte:02x}"),
+            let strange = bytes.iter().position(|byte| (0x7f..0xa0).contains(byte) || *byte == 0);
+            let (at, what) = match (old, strange) {
+                (Old::Latin1, None) => {
+                    return lines_ended(bytes.iter().map(|byte| char::from(*byte)).collect(), name);
+                }
+                (Old::Latin1, Some(strange)) => (strange, "neither UTF-8 nor Latin-1 text"),
+                (Old::Refused, _) => (at, "not UTF-8 text"),
+            };
+            let byte = bytes.get(at).copied().unwrap_or_default();
+            // the lossy text has three bytes for each that is none
+            let before = String::from_utf8_lossy(&bytes[..at]).len();
+            let lossy = Document::new(name, &String::from_utf8_lossy(bytes));
+            let width = lossy.text.get(before..).and_then(|tail| tail.chars().next());
+            return Err(lossy.error(
+                before..before + width.map_or(0, char::len_utf8),
+                format!("`{shown}` is {what}: byte {at} is 0x{byte:02x}"),
                 "save the file with the encoding UTF-8",
-            ))
+            ));
+        }
+    };
+    // the mark of UTF-8, which spreadsheets and some editors put first
+    let mark = text.len() - text.trim_start_matches('\u{feff}').len();
+    if let Some(at) = nul {
+        let document = Document::new(name, &text);
+        return Err(document.error(
+            at..at + 1,
+            format!("`{shown}` is no plain text: byte {at} is a NUL byte"),
+            "remove the NUL bytes, or save the file anew with the encoding UTF-8",
+        ));
+    }
+    lines_ended(text[mark..].to_owned(), name)
+}
+
+/// The text of bytes that are UTF-16, by their mark or because every other byte of their beginning is zero; within, none where it is damaged.
+fn wide(bytes: &[u8]) -> Option<Option<String>> {
+    // as many bytes as tell a text from a file that begins with zeros
+    const HEAD: usize = 64;
+    let zeros = |odd: usize| {
+        let head = &bytes[..bytes.len().min(HEAD)];
+        bytes.len() >= 4
+            && bytes.len().is_multiple_of(2)
+            && head.iter().enumerate().all(|(n, byte)| (*byte == 0) == (n % 2 == odd))
+    };
+    let (body, little) = match bytes {
+        [0xff, 0xfe, 0, 0, ..] => return Some(None),
+        [0xff, 0xfe, body @ ..] => (body, true),
+        [0xfe, 0xff, body @ ..] => (body, false),
+        _ if zeros(1) => (bytes, true),
+        _ if zeros(0) => (bytes, false),
+        _ => return None,
+    };
+    let (pairs, rest) = body.as_chunks::<2>();
+    let units: Vec<u16> = pairs
+        .iter()
+        .map(|pair| if little { u16::from_le_bytes(*pair) } else { u16::from_be_bytes(*pair) })
+        .collect();
+    let text = String::from_utf16(&units).ok();
+    Some(text.filter(|text| rest.is_empty() && !text.contains('\0')))
+}
+
+/// A document whose lines end as those of Unix and Windows do.
+fn lines_ended(text: String, name: &str) -> Result<Document, Error> {
+    let mut bytes = text.into_bytes();
+    for n in 0..bytes.len() {
+        if bytes[n] == b'\r' && bytes.get(n + 1) != Some(&b'\n') {
+            bytes[n] = b'\n';
         }
     }
+    let text = String::from_utf8(bytes).map_err(|error| Error::Internal(error.to_string()))?;
+    Ok(Document::new(name, &text))
 }
 
 fn reason(error: &std::io::Error) -> String {

@@ -1,0 +1,87 @@
+//! Titles of columns: names and units.
+//!
+//! Names are compared in small letters, without accents, bars and numbers behind them, so that `Deplacement`, `Déplacement_` and
+//! `DEPLACEMENT 1` are one. A unit stands behind the name, as in `Force (N)`, `Kraft [N]`, `force / N`, `Kraft in N`, `Weg, mm` and
+//! `force_N`.
+
+use super::Column;
+use crate::scene::units;
+
+impl Column {
+    /// Whether a title, as [`title`] has it, is one of this column.
+    pub(super) fn is_called(&self, title: &str) -> bool {
+        let bare = title.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
+        let ends = |word: &&str| {
+            bare.strip_suffix(*word).is_some_and(|rest| rest.is_empty() || rest.ends_with(' '))
+        };
+        self.names.iter().any(|name| *name == title || (name.len() > 1 && *name == bare))
+            || self.last_words.iter().any(ends)
+            || self.endings.iter().any(|ending| bare.ends_with(ending))
+    }
+}
+
+/// The name of a column, and its unit where the title says one.
+pub(in crate::scene) fn title(text: &str) -> (String, Option<&str>) {
+    let text = text.trim();
+    let known = |unit: &&str| units::unit(unit).is_ok() && !unit.trim().is_empty();
+    let brackets = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
+        let (name, tail) = text.rsplit_once(open)?;
+        let (unit, rest) = tail.split_once(close)?;
+        Some((format!("{name} {rest}"), unit))
+    });
+    let behind = |mark: char| {
+        let (name, unit) = text.rsplit_once(mark)?;
+        known(&unit).then(|| (name.to_owned(), unit))
+    };
+    let found = brackets
+        .or_else(|| text.split_once('/').map(|(name, unit)| (name.to_owned(), unit)))
+        .or_else(|| text.split_once(" in ").map(|(name, unit)| (name.to_owned(), unit)))
+        .or_else(|| behind('_'))
+        .or_else(|| behind(','))
+        .or_else(|| behind(' '));
+    match found {
+        Some((name, unit)) => (words(&name), Some(bare(unit))),
+        None => (words(text), None),
+    }
+}
+
+/// The words of a name in small letters, between single spaces.
+pub(in crate::scene) fn words(name: &str) -> String {
+    let mut found = String::new();
+    let mut before = ' ';
+    for c in name.chars().filter(|c| !COMBINING.contains(c)) {
+        // `TensileExtension` has two words
+        if !c.is_alphanumeric() || (c.is_uppercase() && before.is_lowercase()) {
+            found.push(' ');
+        }
+        if c.is_alphanumeric() {
+            found.extend(c.to_lowercase().map(plain));
+        }
+        before = c;
+    }
+    let words: Vec<&str> = found.split_whitespace().collect();
+    words.join(" ")
+}
+
+/// Accents that are characters of their own.
+const COMBINING: std::ops::RangeInclusive<char> = '\u{300}'..='\u{36f}';
+
+/// A small letter without its accent.
+fn plain(c: char) -> char {
+    match c {
+        'à'..='å' => 'a',
+        'ç' => 'c',
+        'è'..='ë' => 'e',
+        'ì'..='ï' => 'i',
+        'ñ' => 'n',
+        'ò'..='ö' | 'ø' => 'o',
+        'ù'..='ü' => 'u',
+        'ý' | 'ÿ' => 'y',
+        other => other,
+    }
+}
+
+/// A unit without brackets around it.
+pub(super) fn bare(text: &str) -> &str {
+    text.trim().trim_start_matches(['(', '[']).trim_end_matches([')', ']']).trim()
+}
