@@ -304,7 +304,7 @@ impl From<Cause> for Error {
             Cause::FitTooFew { .. } => "record more points, over a larger range of the test",
             Cause::FitPoint { fault, .. } => fault.remedy(),
             Cause::FitReach { .. } => {
-                "let the displacement begin at zero where the loading begins; it may be the place of the crosshead: subtract the first one from all; see whether the sizes of the specimen and the unit are right"
+                "let the displacement begin at zero where the loading begins; it may be the place of the crosshead: subtract the first one from all; see whether its sign, its unit and the sizes of the specimen are right"
             }
             Cause::FitRange { .. } => "see whether the units in the headers and options are right",
             Cause::FitNoStrip { .. } => {

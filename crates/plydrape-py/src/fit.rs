@@ -47,14 +47,15 @@ use std::path::PathBuf;
 /// Returns
 /// -------
 /// dict
-///     What was fitted, with standard errors and 95 % intervals, and `toml`, the lines of a material file.
+///     What was fitted, with standard errors and 95 % intervals, `notes` of what the files show beside it, and `toml`, the lines of a
+///     material file.
 ///
 /// Raises
 /// ------
 /// SceneError
-///     If a table is broken.
+///     If a table is broken, states no measure that is not given either, or shows what no specimen does.
 /// ValueError
-///     If a measure is missing or the points say no law.
+///     If the points say no law.
 ///
 /// Examples
 /// --------

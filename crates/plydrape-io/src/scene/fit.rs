@@ -59,7 +59,7 @@ impl Table {
             let value = example(key);
             self.document.error(
                 self.header.clone(),
-                format!("the {key} of the specimen is given nowhere"),
+                format!("the {key} of the specimens is given nowhere"),
                 format!("give --{key} \"{value}\", or a line `# {key} = {value}` at the top of this file"),
             )
         })
@@ -135,6 +135,8 @@ const SPECIMENS: [&str; 9] = [
     "eprouvette",
     "test",
 ];
+/// Titles of columns that tell warp and weft apart.
+const DIRECTIONS: [&str; 4] = ["direction", "richtung", "orientation", "yarn"];
 
 const DISPLACEMENT: Column = Column {
     names: &["displacement", "crosshead", "stroke"],
@@ -261,15 +263,15 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
     }
     csv.check_plain()?;
     if reading != Reading::Overhang {
-        one_specimen(&csv)?;
+        of_one_value(&csv, &SPECIMENS, "give each specimen, and each cycle, a file of its own")?;
     }
+    of_one_value(&csv, &DIRECTIONS, "give strips along warp and weft files of their own")?;
     Ok(Table { rows, places, header, stated, document })
 }
 
-/// Refuses a table with a column that tells several specimens or cycles apart.
-fn one_specimen(csv: &Csv) -> Result<(), Error> {
-    let Some((name, index)) = csv.titles().find(|(name, _)| SPECIMENS.contains(&name.as_str()))
-    else {
+/// Refuses a table with a column of one of these names that has several values.
+fn of_one_value(csv: &Csv, names: &[&str], help: &str) -> Result<(), Error> {
+    let Some((name, index)) = csv.titles().find(|(name, _)| names.contains(&name.as_str())) else {
         return Ok(());
     };
     let mut first = None;
@@ -279,7 +281,7 @@ fn one_specimen(csv: &Csv) -> Result<(), Error> {
             return Err(row.fault(
                 0,
                 format!("the column `{name}` has more than one value, and another one begins here"),
-                "give each specimen, and each cycle, a file of its own",
+                help,
             ));
         }
     }

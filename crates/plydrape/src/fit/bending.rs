@@ -175,12 +175,21 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
     }
 }
 
-/// Refuses a strip that no weight bends so, at its farthest point behind the edge or below the chord to its tip.
+/// Refuses points of several strips, and a strip that no weight bends so: behind the edge, or below the chord to its tip.
 fn signs(hang: &Hang, [x, z]: [f64; 2]) -> Result<(), (usize, PointFault)> {
     let noise = NOISE * hang.length;
     let behind = hang.points.iter().position(|point| point[0] < -noise);
     if let Some(n) = behind {
         return Err((n, PointFault::BehindEdge));
+    }
+    // points in order, but for a return to the edge
+    let fall = |n: &usize| hang.points[n - 1][0] - hang.points[*n][0];
+    let falls: Vec<usize> = (1..hang.points.len()).filter(|n| fall(n) > 0.0).collect();
+    let again = falls.iter().find(|n| fall(n) > 0.5 * x);
+    if let Some(n) = again
+        && 4 * falls.len() < hang.points.len()
+    {
+        return Err((*n, PointFault::Returns));
     }
     // the weight bends every strip to above the chord from edge to tip
     let above = |p: &[f64; 2]| (x * p[1] - z * p[0]) / x.hypot(z);

@@ -193,14 +193,16 @@ fn forth(points: &[[f64; 2]]) -> Result<(usize, Vec<Remark>), (usize, PointFault
         }
         highest = highest.max(*x);
     }
-    let mut lowest = most;
+    let mut lowest = turn;
     for (n, x) in way.iter().enumerate().skip(turn) {
-        if *x > lowest + noise {
-            return Err((n, PointFault::Returns));
+        if *x > way[lowest] + noise {
+            return Err((lowest, PointFault::Returns));
         }
-        lowest = lowest.min(*x);
+        if *x < way[lowest] {
+            lowest = n;
+        }
     }
-    if lowest < most - noise {
+    if way[lowest] < most - noise {
         let points = [turn + 1, way.len() - 1];
         return Ok((turn + 1, vec![Remark::Unloading { points }]));
     }

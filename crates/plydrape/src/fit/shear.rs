@@ -176,6 +176,10 @@ impl ShearSpecimen {
                 largest: self.test.largest(),
             }
         };
+        if self.points.len() < 3 {
+            let (what, found) = (self.name.clone(), self.points.len());
+            return Err(Error::FitTooFew { what, found, wanted: 3 });
+        }
         let shears = |displacement: f64| {
             self.test.angle(displacement).is_some_and(|angle| angle > 0.0 && angle <= LARGEST)
         };

@@ -158,7 +158,7 @@ fn tests_that_say_nothing_are_refused() {
     assert!(matches!(short.check(), Err(Error::FitRange { what: "the length", .. })));
     let test = ShearTest::Frame(PictureFrame { side: 0.2, fabric: 0.2 });
     let specimen = ShearSpecimen { name: "a".into(), test, points: vec![[0.001, 1.0]] };
-    assert!(matches!(fit_shear(&[specimen]), Err(Error::FitReach { .. })));
+    assert!(matches!(fit_shear(&[specimen]), Err(Error::FitTooFew { .. })));
     let mut strip = seen(1e-3, 0.0, 1);
     strip.points.truncate(3);
     assert!(matches!(fit_hang(&[("a".into(), strip)]), Err(Error::FitTooFew { .. })));
@@ -309,4 +309,13 @@ fn a_strip_whose_axes_are_turned_over_is_refused() {
         let error = fit_hang(&[("a".into(), strip)]).unwrap_err();
         assert!(matches!(error, Error::FitPoint { fault: found, .. } if found == fault), "{error}");
     }
+    // two strips in one table
+    let mut strip = seen(1e-3, 0.0, 1);
+    strip.points.extend(seen(3e-4, 0.0, 1).points);
+    let error = fit_hang(&[("a".into(), strip)]).unwrap_err();
+    let returns = PointFault::Returns;
+    assert!(
+        matches!(error, Error::FitPoint { point: 24, fault, .. } if fault == returns),
+        "{error}"
+    );
 }

@@ -58,6 +58,11 @@ fn faults_have_a_place_and_a_remedy() {
             Reading::Pull,
             "the column `specimen` has more than one value, and another one begins here",
         ),
+        (
+            "Direction,Overhang (mm)\nwarp,62\nweft,57\n",
+            Reading::Overhang,
+            "the column `direction` has more than one value, and another one begins here",
+        ),
     ] {
         let error = of(text, reading).unwrap_err();
         assert_eq!(error.message(), message);
