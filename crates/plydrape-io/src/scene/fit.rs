@@ -5,7 +5,7 @@
 
 use super::read;
 use super::source::Document;
-use super::table::{Column, Plain, Table as Csv, title};
+use super::table::{Column, Plain, Table as Csv, Title, title};
 use super::units::{self, Dimension};
 use crate::Error;
 use crate::store::file_kind::edits;
@@ -239,7 +239,7 @@ pub fn read_fit(path: &Path, reading: Reading, chosen: &[Option<&str>]) -> Resul
 
 fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Result<Table, Error> {
     let csv = Csv::new(&document, reading.columns(), chosen)?;
-    let stated = stated(&document, &csv.header())?;
+    let mut stated = stated(&document, &csv.header())?;
     let (mut rows, mut places) = (Vec::new(), Vec::new());
     for row in csv.rows() {
         let first = row.number(0)?;
@@ -266,14 +266,16 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
         of_one_value(&csv, &SPECIMENS, "give each specimen, and each cycle, a file of its own")?;
     }
     of_one_value(&csv, &DIRECTIONS, "give strips along warp and weft files of their own")?;
+    in_columns(&document, &csv, reading, &mut stated)?;
     Ok(Table { rows, places, header, stated, document })
 }
 
 /// Refuses a table with a column of one of these names that has several values.
 fn of_one_value(csv: &Csv, names: &[&str], help: &str) -> Result<(), Error> {
-    let Some((name, index)) = csv.titles().find(|(name, _)| names.contains(&name.as_str())) else {
-        return Ok(());
-    };
+    let titles = csv.titles();
+    let named = |title: &Title| names.contains(&title.name.as_str());
+    let Some(index) = titles.iter().position(named) else { return Ok(()) };
+    let name = &titles[index].name;
     let mut first = None;
     for row in csv.rows() {
         let value = row.field(index).to_owned();
@@ -283,6 +285,51 @@ fn of_one_value(csv: &Csv, names: &[&str], help: &str) -> Result<(), Error> {
                 format!("the column `{name}` has more than one value, and another one begins here"),
                 help,
             ));
+        }
+    }
+    Ok(())
+}
+
+/// Measures of the specimen in columns of their own, which have one value.
+fn in_columns(
+    document: &Document,
+    csv: &Csv,
+    reading: Reading,
+    stated: &mut Vec<Stated>,
+) -> Result<(), Error> {
+    for (index, Title { name, unit, place }) in csv.titles().into_iter().enumerate() {
+        // of a strip the length may be that along its points
+        let known = STATED
+            .iter()
+            .find(|(key, _)| *key == name && (*key != "length" || reading == Reading::Pull));
+        let Some((key, dimension)) = known else { continue };
+        let size = unit.as_deref().and_then(|unit| units::unit(unit).ok());
+        let mut values = csv.rows().map(|row| row.value(index));
+        let first = values.next().flatten();
+        let value = match (first, size) {
+            (Some(first), Some((size, of)))
+                if of == *dimension && values.all(|value| value == Some(first)) =>
+            {
+                first * size
+            }
+            _ => {
+                return Err(document.error(
+                    place,
+                    format!("the column `{key}` is no measure of one specimen: it has several values, or no unit"),
+                    format!("remove the column, and write a line `# {key} = {}` at the top of the file of each specimen", example(key)),
+                ));
+            }
+        };
+        match stated.iter().find(|stated| stated.key == *key) {
+            Some(before) if differ(before.value, value) => {
+                return Err(document.error(
+                    place,
+                    format!("the file states another `{key}` before"),
+                    "remove the column, or correct the line above",
+                ));
+            }
+            Some(_) => {}
+            None => stated.push(Stated { key, value, place }),
         }
     }
     Ok(())

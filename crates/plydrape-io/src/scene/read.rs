@@ -239,3 +239,53 @@ fn reason(error: &std::io::Error) -> String {
 pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, Error> {
     tree::read(&document.text).map_err(|fault| diagnostic::scene_error(document, fault))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "Weg (mm);Dehnung (µm)\n4;5\n";
+
+    fn of(bytes: &[u8], old: Old) -> Result<String, Error> {
+        decoded(bytes.to_vec(), "a.csv", old).map(|document| document.text.to_string())
+    }
+
+    fn wide(text: &str, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
+        text.encode_utf16().flat_map(bytes).collect()
+    }
+
+    #[test]
+    fn a_text_is_the_same_in_every_encoding() {
+        let old: Vec<u8> = TEXT.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect();
+        let marked = format!("\u{feff}{TEXT}");
+        for bytes in [
+            TEXT.as_bytes().to_vec(),
+            marked.as_bytes().to_vec(),
+            wide(&marked, u16::to_le_bytes),
+            wide(&marked, u16::to_be_bytes),
+            TEXT.replace('\n', "\r").into_bytes(),
+            old.clone(),
+        ] {
+            assert_eq!(of(&bytes, Old::Latin1).unwrap(), TEXT, "{bytes:?}");
+        }
+        assert_eq!(of(&wide("a = 1\n", u16::to_le_bytes), Old::Refused).unwrap(), "a = 1\n");
+        let error = of(&old, Old::Refused).unwrap_err();
+        assert_eq!(error.message(), "`a.csv` is not UTF-8 text: byte 18 is 0xb5");
+        assert_eq!(error.diagnostic().unwrap().line_column(), Some((1, 19)));
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_at_its_byte() {
+        for (bytes, message) in [
+            (&b"x,y\n1,\0\n"[..], "`a.csv` is no plain text: byte 6 is a NUL byte"),
+            (b"\xff\xfex\0,", "`a.csv` is UTF-16 text, and damaged"),
+            (b"\xff\xfe\0\0x\0\0\0", "`a.csv` is UTF-16 text, and damaged"),
+            (b"D\x82p (mm)\n1\n", "`a.csv` is neither UTF-8 nor Latin-1 text: byte 1 is 0x82"),
+            (b"PK\x03\x04\0\xff", "`a.csv` is a ZIP archive or a spreadsheet, not a text"),
+        ] {
+            let error = of(bytes, Old::Latin1).unwrap_err();
+            assert_eq!(error.message(), message);
+            assert!(error.help().contains("UTF-8"), "{}", error.help());
+        }
+    }
+}

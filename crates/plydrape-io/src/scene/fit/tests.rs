@@ -28,8 +28,13 @@ fn a_file_states_its_measures_in_comments_and_lines_of_machines() {
         "Width: 50 mm",
         "\"Width\";\"50,0\";\"mm\"",
         "Width (mm);50",
+        "Width (mm);Weg (mm);Kraft (N)\n50;2;1",
     ] {
-        let table = of(&format!("{line}\nWeg (mm);Kraft (N)\n2;1\n"), Reading::Pull).unwrap();
+        let text = match line.contains("Weg") {
+            true => line.to_owned(),
+            false => format!("{line}\nWeg (mm);Kraft (N)\n2;1\n"),
+        };
+        let table = of(&text, Reading::Pull).unwrap();
         assert_eq!(table.measure("width", None).unwrap(), 0.05, "{line}");
         let other = table.measure("width", Some(0.1)).unwrap_err();
         assert_eq!(other.message(), "the file states another width than --width");
@@ -57,6 +62,11 @@ fn faults_have_a_place_and_a_remedy() {
             "Specimen,Weg (mm),Kraft (N)\n1,2,1\n1,3,2\n2,2,1\n",
             Reading::Pull,
             "the column `specimen` has more than one value, and another one begins here",
+        ),
+        (
+            "overhang (mm),mass (g/m^2)\n62,300\n63,400\n",
+            Reading::Overhang,
+            "the column `mass` is no measure of one specimen: it has several values, or no unit",
         ),
         (
             "Direction,Overhang (mm)\nwarp,62\nweft,57\n",

@@ -189,11 +189,13 @@ fn one(
             Some(_) => "give each specimen a file of its own".into(),
             None => "give each table one column of a name".into(),
         };
-        return Err(document.error(
-            second,
-            format!("the columns `{first}` and `{other}` may both be the column `{name}`"),
-            help,
-        ));
+        let message = match first == other {
+            true => format!("two columns are called `{first}`"),
+            false => {
+                format!("the columns `{first}` and `{other}` may both be the column `{name}`")
+            }
+        };
+        return Err(document.error(second, message, help));
     }
     let unit = titles.titles[index].1;
     let said = chosen.and_then(|chosen| title(chosen).1);

@@ -73,6 +73,16 @@ pub(super) struct Table<'a> {
     found: Header,
 }
 
+/// The title of a column.
+pub(super) struct Title {
+    /// Its name as names are compared.
+    pub name: String,
+    /// Its unit, where the title says one.
+    pub unit: Option<String>,
+    /// Its bytes.
+    pub place: Range<usize>,
+}
+
 /// One row: its bytes, and those of its fields.
 pub(super) struct Row<'a> {
     table: &'a Table<'a>,
@@ -107,14 +117,15 @@ impl<'a> Table<'a> {
         self.found.span.clone()
     }
 
-    /// The titles of all columns, with the fields below them.
-    pub fn titles(&self) -> impl Iterator<Item = (String, usize)> {
-        let fields =
-            fields(&mut reader(self.found.separator), &self.document.text, &self.found.span);
-        fields
-            .into_iter()
-            .enumerate()
-            .map(|(n, field)| (title::title(&self.document.text[field]).0, n))
+    /// The title of each column.
+    pub fn titles(&self) -> Vec<Title> {
+        let text = &self.document.text;
+        let fields = fields(&mut reader(self.found.separator), text, &self.found.span);
+        let of = |place: Range<usize>| {
+            let (name, unit) = title::title(&text[place.clone()]);
+            Title { name, unit: unit.map(str::to_owned), place }
+        };
+        fields.into_iter().map(of).collect()
     }
 
     /// The lines of rows that say something.
@@ -183,6 +194,11 @@ impl Row<'_> {
     /// The text in any column.
     pub fn field(&self, index: usize) -> &str {
         self.fields.get(index).map_or("", |field| &self.table.document.text[field.clone()])
+    }
+
+    /// The number in any column, in the unit of that.
+    pub fn value(&self, index: usize) -> Option<f64> {
+        mark::number(self.field(index))
     }
 
     /// The text in an expected column.
