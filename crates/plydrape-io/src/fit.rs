@@ -206,7 +206,10 @@ fn placed(tables: &[Specimen], cause: Cause) -> Error {
                 | PointFault::Returns
                 | PointFault::Falls
                 | PointFault::BehindEdge => 0,
-                PointFault::BelowZero | PointFault::NotZero | PointFault::Upwards => 1,
+                PointFault::BelowZero
+                | PointFault::NotZero
+                | PointFault::FallsEarly
+                | PointFault::Upwards => 1,
             };
             Some(([*point, column], fault.to_string()))
         }

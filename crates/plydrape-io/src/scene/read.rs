@@ -5,7 +5,7 @@ use super::{diagnostic, tree};
 use crate::Error;
 use crate::error::{Diagnostic, Fault};
 use crate::store::file_kind::{self, FileKind};
-use crate::store::{input, shown};
+use crate::store::{encoding, input, shown};
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -131,9 +131,9 @@ fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
     let shown = short(name);
     let refused =
         |message: String, help: &str| Err(Document::new(name, "").error_anywhere(message, help));
-    if let Some(text) = wide(&bytes) {
+    if let Some(text) = encoding::wide(&bytes) {
         return match text {
-            Some(text) => lines_ended(text, name),
+            Some(text) => Ok(lines_ended(text, name)),
             None => refused(
                 format!("`{shown}` is UTF-16 text, and damaged"),
                 "save the file with the encoding UTF-8, which Windows' Notepad and PowerShell offer too",
@@ -158,7 +158,8 @@ fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
             let strange = bytes.iter().position(|byte| (0x7f..0xa0).contains(byte) || *byte == 0);
             let (at, what) = match (old, strange) {
                 (Old::Latin1, None) => {
-                    return lines_ended(bytes.iter().map(|byte| char::from(*byte)).collect(), name);
+                    let text = bytes.iter().map(|byte| char::from(*byte)).collect();
+                    return Ok(lines_ended(text, name));
                 }
                 (Old::Latin1, Some(strange)) => (strange, "neither UTF-8 nor Latin-1 text"),
                 (Old::Refused, _) => (at, "not UTF-8 text"),
@@ -185,46 +186,12 @@ fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
             "remove the NUL bytes, or save the file anew with the encoding UTF-8",
         ));
     }
-    lines_ended(text[mark..].to_owned(), name)
-}
-
-/// The text of bytes that are UTF-16, by their mark or because every other byte of their beginning is zero; within, none where it is damaged.
-fn wide(bytes: &[u8]) -> Option<Option<String>> {
-    // as many bytes as tell a text from a file that begins with zeros
-    const HEAD: usize = 64;
-    let zeros = |odd: usize| {
-        let head = &bytes[..bytes.len().min(HEAD)];
-        bytes.len() >= 4
-            && bytes.len().is_multiple_of(2)
-            && head.iter().enumerate().all(|(n, byte)| (*byte == 0) == (n % 2 == odd))
-    };
-    let (body, little) = match bytes {
-        [0xff, 0xfe, 0, 0, ..] => return Some(None),
-        [0xff, 0xfe, body @ ..] => (body, true),
-        [0xfe, 0xff, body @ ..] => (body, false),
-        _ if zeros(1) => (bytes, true),
-        _ if zeros(0) => (bytes, false),
-        _ => return None,
-    };
-    let (pairs, rest) = body.as_chunks::<2>();
-    let units: Vec<u16> = pairs
-        .iter()
-        .map(|pair| if little { u16::from_le_bytes(*pair) } else { u16::from_be_bytes(*pair) })
-        .collect();
-    let text = String::from_utf16(&units).ok();
-    Some(text.filter(|text| rest.is_empty() && !text.contains('\0')))
+    Ok(lines_ended(text[mark..].to_owned(), name))
 }
 
 /// A document whose lines end as those of Unix and Windows do.
-fn lines_ended(text: String, name: &str) -> Result<Document, Error> {
-    let mut bytes = text.into_bytes();
-    for n in 0..bytes.len() {
-        if bytes[n] == b'\r' && bytes.get(n + 1) != Some(&b'\n') {
-            bytes[n] = b'\n';
-        }
-    }
-    let text = String::from_utf8(bytes).map_err(|error| Error::Internal(error.to_string()))?;
-    Ok(Document::new(name, &text))
+fn lines_ended(text: String, name: &str) -> Document {
+    Document::new(name, &encoding::line_feeds(text))
 }
 
 fn reason(error: &std::io::Error) -> String {

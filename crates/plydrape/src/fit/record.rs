@@ -10,7 +10,9 @@ use std::ops::Range;
 /// A way back that is noise, as a share of the range of a record.
 const TURN: f64 = 0.01;
 /// A fall of the force behind its peak that ends a test, as a share of the peak.
-const FALL: f64 = 0.1;
+const FALL: f64 = 0.05;
+/// Fewest points of a loading.
+const FEWEST: usize = 3;
 /// What is noise of a force whatever its scatter, as a share of the largest.
 const LEAST: f64 = 0.01;
 /// How many standard deviations of its scatter a force may be off.
@@ -35,6 +37,8 @@ pub enum PointFault {
     Returns,
     /// The displacement or curvature falls from the first point on.
     Falls,
+    /// The force or moment falls from a peak before which there are fewer than three points.
+    FallsEarly,
     /// A point of a hanging strip is behind its edge.
     BehindEdge,
     /// A strip bends upwards.
@@ -49,6 +53,9 @@ impl fmt::Display for PointFault {
             PointFault::NotZero => "there is a load where nothing is deformed yet",
             PointFault::Returns => "the record goes back and begins to rise again",
             PointFault::Falls => "the displacement falls from the first point on",
+            PointFault::FallsEarly => {
+                "the load falls here from a peak, and fewer than three points are before it"
+            }
             PointFault::BehindEdge => "a point of the strip lies behind the edge",
             PointFault::Upwards => "the strip bends upwards",
         })
@@ -74,6 +81,9 @@ impl PointFault {
             }
             PointFault::Falls => {
                 "give the rows of the loading in the order of time; see whether the sign of the displacement is right"
+            }
+            PointFault::FallsEarly => {
+                "remove the rows that are no part of the loading, such as a jump of the load cell at the start"
             }
             PointFault::BehindEdge => "x goes away from the edge: change the sign of the column",
             PointFault::Upwards => {
@@ -149,6 +159,9 @@ pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault
         let fall = highest - force;
         if highest > START.1 * largest && fall > noise.max(LEAST * largest).max(FALL * highest) {
             stop = peak + 1;
+            if stop < FEWEST {
+                return Err((n, PointFault::FallsEarly));
+            }
             remarks.insert(0, Remark::AfterPeak { points: [stop, end - 1], peak: highest });
             break;
         }

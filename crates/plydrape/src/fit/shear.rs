@@ -232,7 +232,12 @@ pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
     let shared = reach.iter().copied().fold(f64::INFINITY, f64::min);
     let whole = (shared / SPACING + 1e-9).floor() as usize;
     if whole < 2 || curves.is_empty() {
-        let what = "the shear that all specimens reach, in points every 5 deg,".to_string();
+        let shortest = specimens.iter().zip(&reach).find(|(_, own)| **own == shared);
+        let name = shortest.map_or("", |(specimen, _)| &specimen.name);
+        let what = format!(
+            "the shear that all specimens reach, up to {:.1} deg of {name}, in points every 5 deg,",
+            shared.to_degrees()
+        );
         return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
     }
     let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();

@@ -236,12 +236,15 @@ fn what_no_specimen_does_is_refused_at_its_point() {
         loaded.iter().map(|[x, f]| change(*x, *f)).collect()
     };
     let twice = [loaded.clone(), loaded.clone()].concat();
+    let mut jump = loaded.clone();
+    jump[1][1] = 3.0;
     let preloaded = [vec![[0.0, 2.0]], changed(|x, f| [x, f + 2.0])].concat();
     for (points, point, fault) in [
         (changed(|x, f| [x, -f]), 0, PointFault::BelowZero),
         (changed(|x, f| [x, f - 2.0]), 0, PointFault::BelowZero),
         (changed(|x, f| [x, f - 0.3]), 0, PointFault::BelowZero),
         (preloaded, 0, PointFault::NotZero),
+        (jump, 2, PointFault::FallsEarly),
         (twice, 22, PointFault::Returns),
         (changed(|x, f| [x - 0.02, f]), 0, PointFault::Backwards),
     ] {
