@@ -13,9 +13,18 @@ fn columns_have_units_and_comments_state_measures() {
     assert_eq!(table.stated("length", None).unwrap(), None);
     let text = "curvature (1/mm),moment (N mm/mm)\n0.02,0.1\n";
     assert_eq!(of(text, Reading::Moment).unwrap().rows, [[20.0, 0.1]]);
-    let text = "K (1/cm),M (gf cm/cm)\n0.5,0.1\n";
-    let [curvature, moment] = of(text, Reading::Moment).unwrap().rows[0];
-    assert!((curvature - 50.0).abs() < 1e-12 && (moment - 9.80665e-4).abs() < 1e-15);
+    for header in [
+        "K (1/cm),M (gf cm/cm)",
+        "K 1/cm,M gf cm/cm",
+        "Curvature / 1/cm;Bending moment / gf cm/cm",
+        "K,M\n1/cm,gf.cm/cm",
+        "Krümmung [cm^-1]\tBiegemoment [gf·cm/cm]",
+    ] {
+        let separator = header.chars().find(|c| ",;\t".contains(*c)).unwrap_or(',');
+        let text = format!("{header}\n0.5{separator}0.1\n");
+        let [curvature, moment] = of(&text, Reading::Moment).unwrap().rows[0];
+        assert!((curvature - 50.0).abs() < 1e-12 && (moment - 9.80665e-4).abs() < 1e-15);
+    }
 }
 
 /// A comment as people write it, as a spreadsheet saves it again, and a line of a machine.

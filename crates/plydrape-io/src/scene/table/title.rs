@@ -29,16 +29,23 @@ pub(in crate::scene) fn title(text: &str) -> (String, Option<&str>) {
         let (unit, rest) = tail.split_once(close)?;
         Some((format!("{name} {rest}"), unit))
     });
+    let after = |mark: &str| {
+        let (name, unit) = text.split_once(mark)?;
+        Some((name.to_owned(), unit))
+    };
+    // the longest end that is a unit
     let behind = |mark: char| {
-        let (name, unit) = text.rsplit_once(mark)?;
-        known(&unit).then(|| (name.to_owned(), unit))
+        let mut pairs = text.match_indices(mark).map(|(at, _)| (&text[..at], &text[at + 1..]));
+        let (name, unit) = pairs.find(|(_, unit)| known(unit))?;
+        Some((name.to_owned(), unit))
     };
     let found = brackets
-        .or_else(|| text.split_once('/').map(|(name, unit)| (name.to_owned(), unit)))
-        .or_else(|| text.split_once(" in ").map(|(name, unit)| (name.to_owned(), unit)))
+        .or_else(|| after(" / "))
+        .or_else(|| after(" in "))
         .or_else(|| behind('_'))
         .or_else(|| behind(','))
-        .or_else(|| behind(' '));
+        .or_else(|| behind(' '))
+        .or_else(|| after("/"));
     match found {
         Some((name, unit)) => (words(&name), Some(bare(unit))),
         None => (words(text), None),
