@@ -265,7 +265,9 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
     if reading != Reading::Overhang {
         of_one_value(&csv, &SPECIMENS, "give each specimen, and each cycle, a file of its own")?;
     }
-    of_one_value(&csv, &DIRECTIONS, "give strips along warp and weft files of their own")?;
+    if matches!(reading, Reading::Overhang | Reading::Points) {
+        of_one_value(&csv, &DIRECTIONS, "give strips along warp and weft files of their own")?;
+    }
     in_columns(&document, &csv, reading, &mut stated)?;
     Ok(Table { rows, places, header, stated, document })
 }
@@ -375,7 +377,10 @@ fn in_comment(
     let Some((key, value)) = comment.split_once(['=', ':']) else { return Ok(None) };
     let written = title::words(key);
     let Some((key, dimension)) = STATED.iter().find(|(known, _)| *known == written) else {
-        let near = STATED.iter().find(|(known, _)| edits(known, &written) == 1);
+        // a site is no side unless it has a length
+        let found = units::quantity(value.trim()).ok().and_then(|(_, found)| found);
+        let near =
+            STATED.iter().find(|(known, unit)| edits(known, &written) == 1 && found == Some(*unit));
         return match near {
             Some((known, _)) => Err(document.error(
                 place.clone(),

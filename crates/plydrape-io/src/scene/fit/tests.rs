@@ -33,7 +33,7 @@ fn a_file_states_its_measures_in_comments_and_lines_of_machines() {
     for line in [
         "# Width: 50 mm",
         "\"# width = 50 mm\";;",
-        "#width=0.05 m",
+        "#width=0.05 m\n# site: Hamburg\n# mask = 3",
         "Width: 50 mm",
         "\"Width\";\"50,0\";\"mm\"",
         "Width (mm);50",
