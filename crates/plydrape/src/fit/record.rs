@@ -11,6 +11,10 @@ use std::ops::Range;
 const TURN: f64 = 0.01;
 /// A fall of the force behind its peak that ends a test, as a share of the peak.
 const FALL: f64 = 0.05;
+/// Windows of the running median in a record.
+const WINDOWS: usize = 50;
+/// Points of a window that are enough, however many there are.
+const WIDEST: usize = 101;
 /// Fewest points of a loading.
 const FEWEST: usize = 3;
 /// What is noise of a force whatever its scatter, as a share of the largest.
@@ -151,24 +155,29 @@ pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault
         return Err((first_below(), PointFault::BelowZero));
     }
 
-    // up to the first fall that is more than noise
-    let noise = DEVIATIONS * scatter(&forces);
+    // up to the first fall that is more than noise, which of many points is seen in their running median
+    let deviation = scatter(&forces);
+    let noise = DEVIATIONS * deviation;
+    let calm = medians(&forces, (forces.len() / WINDOWS).min(WIDEST));
     let (mut peak, mut stop) = (0, end);
-    for (n, force) in forces.iter().copied().enumerate() {
-        let highest = forces[peak].max(0.0);
+    for (n, force) in calm.iter().copied().enumerate() {
+        let highest = calm[peak].max(0.0);
         let fall = highest - force;
         if highest > START.1 * largest && fall > noise.max(LEAST * largest).max(FALL * highest) {
-            stop = peak + 1;
+            let last = (peak..n).max_by(|a, b| forces[*a].total_cmp(&forces[*b]));
+            let last = last.unwrap_or(peak);
+            stop = last + 1;
             if stop < FEWEST {
                 return Err((n, PointFault::FallsEarly));
             }
-            remarks.insert(0, Remark::AfterPeak { points: [stop, end - 1], peak: highest });
+            let (points, peak) = ([stop, end - 1], forces[last]);
+            remarks.insert(0, Remark::AfterPeak { points, peak });
             break;
         }
         if -force > noise && (n >= START.0 || -force > START.1 * largest) {
             return Err((first_below(), PointFault::BelowZero));
         }
-        if force > forces[peak] {
+        if force > calm[peak] {
             peak = n;
         }
     }
@@ -182,7 +191,7 @@ pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault
         return Err((n, PointFault::NotZero));
     }
     remarks.extend(begins_late(loading));
-    remarks.extend(load_at_rest(loading, ZERO[1] * highest));
+    remarks.extend(load_at_rest(loading, (ZERO[1] * highest).max(2.0 * deviation)));
     Ok(Loading { points: 0..stop, remarks })
 }
 
@@ -234,14 +243,28 @@ fn scatter(values: &[f64]) -> f64 {
     differences[differences.len() / 2] / (0.6745 * 20.0_f64.sqrt())
 }
 
+/// The median of the values around each, as many to both sides; the values themselves where the window is of less than three.
+fn medians(values: &[f64], window: usize) -> Vec<f64> {
+    let half = window / 2;
+    let around = |n: usize| {
+        let side = half.min(n).min(values.len() - 1 - n);
+        let mut near = values[n - side..=n + side].to_vec();
+        near.sort_by(f64::total_cmp);
+        near[side]
+    };
+    (0..values.len()).map(around).collect()
+}
+
 fn begins_late(points: &[[f64; 2]]) -> Option<Remark> {
     let [first, last] = [points.first()?[0], points.last()?[0]];
     let spacing = (last - first) / (points.len() - 1) as f64;
     (first > LATE[0] * spacing && first > LATE[1] * last).then_some(Remark::BeginsLate { first })
 }
 
-/// The load before anything is deformed, by the straight line through the first three points.
+/// The load before anything is deformed, by the straight line through the first points.
 fn load_at_rest(points: &[[f64; 2]], least: f64) -> Option<Remark> {
-    let (load, _) = line(points.get(..3)?)?;
-    (load > least && points[0][1] > least).then_some(Remark::LoadAtRest { load })
+    let first = points.get(..FEWEST.max(points.len() / WINDOWS))?;
+    let (load, _) = line(first)?;
+    let mean = first.iter().map(|point| point[1]).sum::<f64>() / first.len() as f64;
+    (load > least && mean > least).then_some(Remark::LoadAtRest { load })
 }
