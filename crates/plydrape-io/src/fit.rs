@@ -314,6 +314,11 @@ impl Fitted {
                         "{}, because no weave is a trellis beyond 65 deg of shear",
                         lines(points)
                     ),
+                    Remark::BeyondShear { points, angle } => format!(
+                        "{}, because the shear force falls beyond {} deg: the specimen slips",
+                        lines(points),
+                        short(angle.to_degrees())
+                    ),
                     Remark::BeyondPeak { curvature } => format!(
                         "points beyond {} 1/m are left out, because the {load} has fallen from its peak",
                         short(curvature)

@@ -117,6 +117,13 @@ pub enum Remark {
         /// First and last point.
         points: [usize; 2],
     },
+    /// Points from the first to the last index are left out: beyond this shear angle (rad) the shear force falls, though the force does not.
+    BeyondShear {
+        /// First and last point.
+        points: [usize; 2],
+        /// The angle.
+        angle: f64,
+    },
     /// The mean moment of a loop has fallen from its peak: points beyond this curvature (1/m) are left out.
     BeyondPeak {
         /// The curvature.
@@ -193,6 +200,14 @@ pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault
     remarks.extend(begins_late(loading));
     remarks.extend(load_at_rest(loading, (ZERO[1] * highest).max(2.0 * deviation)));
     Ok(Loading { points: 0..stop, remarks })
+}
+
+/// The index of the peak of loads that have fallen from it at their end, by more than noise; none where they have not.
+pub(super) fn peak_before_end(loads: &[f64]) -> Option<usize> {
+    let calm = medians(loads, (loads.len() / WINDOWS).min(WIDEST));
+    let peak = (0..calm.len()).max_by(|a, b| calm[*a].total_cmp(&calm[*b]))?;
+    let fall = calm[peak] - calm.last()?;
+    (fall > (FALL * calm[peak]).max(DEVIATIONS * scatter(loads))).then_some(peak)
 }
 
 /// The end of the way forth, and that of the points behind it.

@@ -5,7 +5,7 @@
 //! formula here is theirs for the bias extension.
 
 use super::positive;
-use super::record::{Remark, loading};
+use super::record::{Remark, loading, peak_before_end};
 use super::statistics::{between, line, mean_and_deviation, rising};
 use crate::Error;
 use crate::material::ShearCurve;
@@ -215,6 +215,16 @@ impl ShearSpecimen {
             let tau = self.test.tau(angle, force, &curve);
             curve[0].push(angle);
             curve[1].push(tau);
+        }
+        // a force that stays as the strip gets longer is a shear force that falls: the strip slips
+        if let Some(peak) = peak_before_end(&curve[1]) {
+            let last = curve[0][peak];
+            let behind = |point: &[f64; 2]| self.test.angle(point[0]).is_none_or(|own| own > last);
+            let points = [points.iter().position(behind), points.iter().rposition(behind)];
+            if let [Some(first), Some(end)] = points {
+                remarks.push(Remark::BeyondShear { points: [first, end], angle: last });
+            }
+            curve.iter_mut().for_each(|values| values.truncate(peak + 1));
         }
         Ok((curve, remarks))
     }

@@ -205,6 +205,17 @@ fn specimens_of_two_sizes_say_one_law() {
     }
 }
 
+/// A force that stays as it is while the strip gets longer: the shear force falls by the kinematics, and the law ends before.
+#[test]
+fn a_strip_that_slips_at_a_constant_force_ends_its_law() {
+    let mut points = pulled(SIZES[0], 22);
+    let [way, force] = points[21];
+    points.extend((1..15).map(|n| [way + 8e-4 * f64::from(n), force]));
+    let fit = fit_shear(&[bias(SIZES[0], points)]).expect("a law");
+    assert!(matches!(fit.remarks[0][..], [Remark::BeyondShear { points: [22, 35], .. }]));
+    assert!((fit.force.last().expect("a force") - 25.8).abs() < 0.3, "{:?}", fit.force);
+}
+
 /// What a machine records beside the loading changes nothing, and is said.
 #[test]
 fn a_law_comes_from_the_loading_alone() {
