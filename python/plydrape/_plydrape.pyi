@@ -2951,6 +2951,13 @@ def fit(
     fabric: float | str | None = None,
     mass: float | str | None = None,
     angle: float | str = ...,
+    displacement: str | None = None,
+    force: str | None = None,
+    overhang: str | None = None,
+    x: str | None = None,
+    z: str | None = None,
+    curvature: str | None = None,
+    moment: str | None = None,
 ) -> dict[str, Any]:
     """
     Fits laws of a material to tables of its tests, as `plydrape fit` does.
@@ -2977,18 +2984,29 @@ def fit(
         Mass per area (kg/m²).
     angle : float or str, default "41.5 deg"
         Angle of the chord of overhangs (rad).
+    displacement, force : str, optional
+        Titles of the columns of a shear test, where they have other names than usual.
+    overhang : str, optional
+        Title of the column of overhangs.
+    x, z : str, optional
+        Titles of the columns of points of a hanging strip.
+    curvature, moment : str, optional
+        Titles of the columns of a bending test.
+
+    What a file states of its own specimen is used for its rows; the measures that are given here are those of files that state none.
 
     Returns
     -------
     dict
-        What was fitted, with standard errors and 95 % intervals, and `toml`, the lines of a material file.
+        What was fitted, with standard errors and 95 % intervals, `notes` of what the files show beside it, and `toml`, the lines of a
+        material file.
 
     Raises
     ------
     SceneError
-        If a table is broken.
+        If a table is broken, states no measure that is not given either, or shows what no specimen does.
     ValueError
-        If a measure is missing or the points say no law.
+        If the points say no law.
 
     Examples
     --------

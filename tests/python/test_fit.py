@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -175,6 +176,156 @@ def test_decimal_commas_between_commas_are_refused(tmp_path: Path) -> None:
     words = " ".join(done.stderr.replace("│", " ").split())
     assert "this row has 4 fields and the header 2" in words
     assert "separate the columns by semicolons" in words
+
+
+def specimen(width: float, length: float) -> list[tuple[float, float]]:
+    """Displacement (mm) and force (N) of a bias extension of the law 10 g + 40 g^3 N/m."""
+
+    def law(g: float) -> float:
+        return 10 * g + 40 * g**3
+
+    d, rows = length - width, []
+    for degrees in range(2, 46, 2):
+        g = math.radians(degrees)
+        way = d * (math.sqrt(2) * math.cos(math.pi / 4 - g / 2) - 1)
+        rate = d / 2 * (math.cos(g / 2) - math.sin(g / 2))
+        power = width * (2 * length - 3 * width) / 2 * law(g) + width**2 * law(g / 2) / 2
+        rows.append((1e3 * way, power / rate))
+    return rows
+
+
+def pulled(path: Path, rows: list[tuple[float, float]], above: str = "") -> str:
+    """Writes a table of displacement and force and gives its path."""
+    lines = "".join(f"{way:.4f},{force:.6f}\n" for way, force in rows)
+    path.write_text(f"{above}displacement (mm),force (N)\n{lines}")
+    return str(path)
+
+
+SIZES = ("--width", "100 mm", "--length", "250 mm")
+ROWS = specimen(0.1, 0.25)
+
+
+def refused(*arguments: str) -> str:
+    """What is printed when `plydrape fit` refuses, in one line."""
+    done = subprocess.run(
+        [program.binary(), "fit", *arguments], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2, done.stdout
+    return " ".join(done.stderr.replace("│", " ").split())
+
+
+def at(shear: dict[str, Any], degrees: float) -> float:
+    """The shear force of a fitted curve at an angle (N/m)."""
+    return float(np.interp(math.radians(degrees), shear["angle"], shear["force"]))
+
+
+def test_every_file_is_fitted_by_the_sizes_that_it_states(tmp_path: Path) -> None:
+    """By hand, 10 g + 40 g^3 is 7.69 N/m at 25 deg and 25.8 N/m at 44 deg."""
+    sizes = [(0.1, 0.25), (0.05, 0.15)]
+    above = [f"# width = {1e3 * w} mm\n# length = {1e3 * h} mm\n" for w, h in sizes]
+    files = [
+        pulled(tmp_path / f"{n}.csv", specimen(*size), above[n]) for n, size in enumerate(sizes)
+    ]
+    for order in (files, files[::-1]):
+        shear = fit("bias", *order)["shear"]
+        assert at(shear, 25) == pytest.approx(7.69, rel=0.005)
+        assert at(shear, 44) == pytest.approx(25.8, rel=0.005)
+        assert shear["scatter"] < 0.002
+    assert "the file states another width than --width" in refused("bias", *files, *SIZES)
+    silent = pulled(tmp_path / "silent.csv", ROWS)
+    assert "the width of the specimens is given nowhere" in refused("bias", files[0], silent)
+
+
+def test_frames_and_strips_have_their_own_measures(tmp_path: Path) -> None:
+    """Frames of two sizes show one law; a strip of twice the mass is twice as stiff."""
+    law = [math.radians(degrees) for degrees in range(2, 46, 2)]
+    files = []
+    for side in (0.2, 0.1):
+        rows = []
+        for g in law:
+            half = (math.pi / 2 - g) / 2
+            way = 2 * side * (math.cos(half) - math.sqrt(0.5))
+            rows.append((1e3 * way, side * 20 * g / math.sin(half)))
+        files.append(pulled(tmp_path / f"{side}.csv", rows, f"# side = {side} m\n"))
+    shear = fit("frame", *files)["shear"]
+    assert at(shear, 25) == pytest.approx(20 * math.radians(25), rel=1e-3)
+    assert shear["scatter"] < 1e-4
+    for name, mass in (("warp", 300), ("weft", 600)):
+        (tmp_path / name).write_text(f"# mass = {mass} g/m^2\noverhang (mm)\n60\n")
+    found = fit("overhang", "--warp", str(tmp_path / "warp"), "--weft", str(tmp_path / "weft"))
+    stiff = [found[f"bending_{along}"]["rigidity"]["value"] for along in ("warp", "weft")]
+    assert stiff[1] == pytest.approx(2 * stiff[0])
+    assert "different masses" in found["notes"][0]
+
+
+def test_what_follows_the_loading_is_left_out_and_named(tmp_path: Path) -> None:
+    """The curve of the loading alone, and the lines that are no part of it."""
+    alone = fit("bias", pulled(tmp_path / "alone.csv", ROWS), *SIZES)
+    assert alone["notes"] == []
+    slipped = [(ROWS[-1][0] + 0.8 * n, 0.05) for n in range(1, 8)]
+    back = [(way, 0.3 * force) for way, force in ROWS[-2::-1]]
+    for rest, note in (
+        (slipped, "lines 24 to 30 are left out, because the force has fallen from its peak"),
+        (back, "lines 24 to 44 are left out, because the machine runs back there"),
+    ):
+        file = pulled(tmp_path / "record.csv", ROWS + rest)
+        found = fit("bias", file, *SIZES)
+        assert found["shear"] == alone["shear"]
+        assert note in found["notes"][0]
+        assert note in program.run("fit", "bias", file, *SIZES).stdout
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        ([(way, -force) for way, force in ROWS], "the load is below zero"),
+        ([(way, force - 2) for way, force in ROWS], "the load is below zero"),
+        ([(0, 2.0), *((way, force + 2) for way, force in ROWS)], "there is a load where nothing"),
+        (ROWS + ROWS, "the record goes back and begins to rise again"),
+        ([(way + 120, force) for way, force in ROWS], "shears between 0 and 62.1 mm"),
+        ([(-way, force) for way, force in ROWS], "are from -45.3 to -2.6 mm"),
+    ],
+)
+@pytest.mark.parametrize("test", [("bias", *SIZES), ("frame", "--side", "106 mm")])
+def test_what_no_specimen_does_is_refused(
+    tmp_path: Path, test: tuple[str, ...], rows: list[tuple[float, float]], message: str
+) -> None:
+    """A frame of 106 mm allows the same way as the strip, 62.1 mm."""
+    file = pulled(tmp_path / "record.csv", rows)
+    found = refused(*test, file)
+    assert message in found
+    assert "record.csv:" in found
+    assert "help:" in found
+
+
+@pytest.mark.parametrize(
+    ("header", "titles"),
+    [
+        ("Tensile extension (mm),Load (N)", ()),
+        ("Axial Displacement(mm),Axial Force(N)", ()),
+        ("Displacement_(mm),Force_(N)", ()),
+        ("Déplacement (mm),Force (N)", ()),
+        ("Channel 1 (mm),Channel 2", ("--displacement", "Channel 1", "--force", "Channel 2 (N)")),
+    ],
+)
+def test_titles_of_machines_are_read_and_others_are_named(
+    tmp_path: Path, header: str, titles: tuple[str, ...]
+) -> None:
+    """All of them say what the plain table says, in each encoding."""
+    file = tmp_path / "record.csv"
+    plain = fit("bias", pulled(file, ROWS), *SIZES)["shear"]
+    text = file.read_text().replace("displacement (mm),force (N)", header)
+    for data in (
+        text.encode(),
+        text.encode("utf-8-sig"),
+        text.encode("latin-1"),
+        text.encode("utf-16"),
+        text.replace("\n", "\r").encode(),
+    ):
+        file.write_bytes(data)
+        assert fit("bias", str(file), *SIZES, *titles)["shear"] == plain
+    file.write_bytes(text.encode() + b"\0")
+    assert "is a NUL byte" in refused("bias", str(file), *SIZES, *titles)
 
 
 def test_the_table_of_materials_is_current() -> None:

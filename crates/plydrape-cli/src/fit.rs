@@ -13,8 +13,8 @@ use std::process::ExitCode;
 /// Fit laws of a material to tables of its tests: shear, bending, with how sure they are.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-A table is a CSV file whose first line names its columns with their units, as in `displacement (mm),force (N)`. Lines such as \
-`# width = 100 mm` above it may state what the options state.
+A table is a CSV file that names its columns with their units above its numbers, as in `displacement (mm),force (N)`. Lines such as \
+`# width = 100 mm` above it state the measures of its own specimen; options state those of files that do not.
 
 The answer is the lines of a material file, on standard output or in a new file.")]
 pub struct Arguments {
@@ -43,6 +43,12 @@ enum Kind {
         /// Length between the clamps, two widths or more.
         #[arg(long, value_name = "LENGTH")]
         length: Option<String>,
+        /// Title of the column of displacements, where it has another name than usual.
+        #[arg(long, value_name = "TITLE")]
+        displacement: Option<String>,
+        /// Title of the column of forces.
+        #[arg(long, value_name = "TITLE")]
+        force: Option<String>,
     },
     /// A shear curve from a picture frame: displacement and force, one file a specimen.
     Frame {
@@ -55,6 +61,12 @@ enum Kind {
         /// Side of the fabric that shears in it; that of the frame unless given.
         #[arg(long, value_name = "LENGTH")]
         fabric: Option<String>,
+        /// Title of the column of displacements, where it has another name than usual.
+        #[arg(long, value_name = "TITLE")]
+        displacement: Option<String>,
+        /// Title of the column of forces.
+        #[arg(long, value_name = "TITLE")]
+        force: Option<String>,
     },
     /// Bending rigidities from overhangs at 41.5 deg (Peirce): a column `overhang`, one row a specimen.
     Overhang {
@@ -66,6 +78,9 @@ enum Kind {
         /// Angle of the chord from edge to tip below the level.
         #[arg(long, value_name = "ANGLE", default_value = "41.5 deg")]
         angle: String,
+        /// Title of the column of overhangs, where it has another name than usual.
+        #[arg(long, value_name = "TITLE")]
+        overhang: Option<String>,
     },
     /// Bending rigidities from points x, z of strips that hang over an edge, one file a strip.
     Hang {
@@ -77,11 +92,23 @@ enum Kind {
         /// Length of the overhang.
         #[arg(long, value_name = "LENGTH")]
         length: Option<String>,
+        /// Title of the column of x, where it has another name.
+        #[arg(long, value_name = "TITLE")]
+        x: Option<String>,
+        /// Title of the column of z.
+        #[arg(long, value_name = "TITLE")]
+        z: Option<String>,
     },
     /// Moment over curvature from bending tests: curvature and moment per width, one file a specimen.
     Moments {
         #[command(flatten)]
         strips: Strips,
+        /// Title of the column of curvatures, where it has another name than usual.
+        #[arg(long, value_name = "TITLE")]
+        curvature: Option<String>,
+        /// Title of the column of moments per width.
+        #[arg(long, value_name = "TITLE")]
+        moment: Option<String>,
     },
 }
 
@@ -114,7 +141,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let text = match &arguments.output {
         _ if arguments.json => format!("{:#}\n", fitted.json()),
         Some(_) if quiet => String::new(),
-        Some(file) => format!("{} is written\n", shown::path(file)),
+        Some(file) => {
+            let notes = fitted.notes.iter().map(|note| format!("  {note}\n"));
+            format!("{} is written\n{}", shown::path(file), notes.collect::<String>())
+        }
         None => toml,
     };
     out.write_all(text.as_bytes())
@@ -138,38 +168,44 @@ impl Kind {
                 .transpose()
         };
         Ok(match self {
-            Kind::Bias { files, width, length: l } => Request {
+            Kind::Bias { files, width, length: l, displacement, force } => Request {
                 test: Test::Bias {
                     width: length("--width", width)?,
                     length: length("--length", l)?,
                 },
                 warp: files.clone(),
                 weft: Vec::new(),
+                titles: [displacement.clone(), force.clone()],
             },
-            Kind::Frame { files, side, fabric } => Request {
+            Kind::Frame { files, side, fabric, displacement, force } => Request {
                 test: Test::Frame {
                     side: length("--side", side)?,
                     fabric: length("--fabric", fabric)?,
                 },
                 warp: files.clone(),
                 weft: Vec::new(),
+                titles: [displacement.clone(), force.clone()],
             },
-            Kind::Overhang { strips, mass, angle } => {
+            Kind::Overhang { strips, mass, angle, overhang } => {
                 let help = "an angle from 1 to 89 deg is wanted, e.g. \"41.5 deg\"";
                 let range = [1.0_f64, 89.0].map(f64::to_radians);
                 let angle = value("--angle", angle, Measured::Angle, range, help)?;
-                strips.request(Test::Overhang { mass: areal(mass)?, angle })
+                strips
+                    .request(Test::Overhang { mass: areal(mass)?, angle }, [overhang.clone(), None])
             }
-            Kind::Hang { strips, mass, length: l } => {
-                strips.request(Test::Hang { mass: areal(mass)?, length: length("--length", l)? })
+            Kind::Hang { strips, mass, length: l, x, z } => {
+                let test = Test::Hang { mass: areal(mass)?, length: length("--length", l)? };
+                strips.request(test, [x.clone(), z.clone()])
             }
-            Kind::Moments { strips } => strips.request(Test::Moments),
+            Kind::Moments { strips, curvature, moment } => {
+                strips.request(Test::Moments, [curvature.clone(), moment.clone()])
+            }
         })
     }
 }
 
 impl Strips {
-    fn request(&self, test: Test) -> Request {
-        Request { test, warp: self.warp.clone(), weft: self.weft.clone() }
+    fn request(&self, test: Test, titles: [Option<String>; 2]) -> Request {
+        Request { test, warp: self.warp.clone(), weft: self.weft.clone(), titles }
     }
 }

@@ -302,6 +302,10 @@ impl From<Cause> for Error {
                 "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
             }
             Cause::FitTooFew { .. } => "record more points, over a larger range of the test",
+            Cause::FitPoint { fault, .. } => fault.remedy(),
+            Cause::FitReach { .. } => {
+                "let the displacement begin at zero where the loading begins; it may be the place of the crosshead: subtract the first one from all; see whether its sign, its unit and the sizes of the specimen are right"
+            }
             Cause::FitRange { .. } => "see whether the units in the headers and options are right",
             Cause::FitNoStrip { .. } => {
                 "x points away from the edge, z up, both are 0 at the edge; moments and curvatures that go together have one sign"

@@ -2,11 +2,11 @@
 
 use crate::Error;
 use crate::scene::{FitTable, Reading, read_fit};
+use plydrape::Error as Cause;
 use plydrape::fit::{
-    BiasExtension, Estimate, Hang, Overhang, PictureFrame, ShearFit, ShearTest, Sure, fit_hang,
-    fit_moments,
+    BiasExtension, Estimate, Hang, MomentFit, Overhang, PictureFrame, PointFault, Remark, ShearFit,
+    ShearSpecimen, ShearTest, Sure, fit_hang, fit_moments, fit_shear,
 };
-use plydrape::material::MomentCurve;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Acceleration of gravity (m/s²), as in scenes.
 const GRAVITY: f64 = 9.81;
 
-/// A test of a material; what is not given is looked for in the comments of its files.
+/// A test of a material. Each measure is that which a file states of its own specimen, else the one that is given here for all of them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Test {
     /// Bias extension: width and length of the specimens (m).
@@ -58,6 +58,9 @@ pub struct Request {
     pub warp: Vec<PathBuf>,
     /// Tables of strips along the weft.
     pub weft: Vec<PathBuf>,
+    /// Titles of the columns of the test where they have other names than usual: displacement and force, overhang, x and z, or curvature
+    /// and moment.
+    pub titles: [Option<String>; 2],
 }
 
 /// Bending along one direction.
@@ -65,8 +68,8 @@ pub struct Request {
 pub enum BendingFit {
     /// A rigidity per width (N·m), and each strip's with its angle at the edge (rad) where points were fitted.
     Rigidity(Estimate, Vec<(String, [Estimate; 2])>),
-    /// A curve of the moment with the scatter between specimens.
-    Curve(MomentCurve, Option<f64>),
+    /// A curve of the moment.
+    Curve(MomentFit),
 }
 
 /// A fitted law.
@@ -76,13 +79,18 @@ pub struct Fitted {
     pub test: String,
     /// The files that it comes from.
     pub files: Vec<String>,
-    /// Mass per area that was used (kg/m²).
+    /// Mass per area that was used (kg/m²); the mean where files state different ones.
     pub mass: Option<f64>,
+    /// What is to be known of the files beside the law, as whole lines.
+    pub notes: Vec<String>,
     /// Bending along warp and weft.
     pub bending: [Option<BendingFit>; 2],
     /// Shear.
     pub shear: Option<ShearFit>,
 }
+
+/// A specimen: its name and its table.
+type Specimen = (String, FitTable);
 
 /// Fits a law.
 ///
@@ -94,65 +102,70 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         test: String::new(),
         files: all.map(|path| name(path)).collect(),
         mass: None,
+        notes: Vec::new(),
         bending: [None, None],
         shear: None,
     };
-    let of = |reading: Reading| -> Result<[Vec<(String, FitTable)>; 2], Error> {
+    let titles = [0, 1].map(|n| request.titles[n].as_deref());
+    let of = |reading: Reading| -> Result<[Vec<Specimen>; 2], Error> {
         let read = |paths: &[PathBuf]| -> Result<Vec<_>, Error> {
-            paths.iter().map(|path| Ok((name(path), read_fit(path, reading)?))).collect()
+            paths.iter().map(|path| Ok((name(path), read_fit(path, reading, &titles)?))).collect()
         };
         Ok([read(&request.warp)?, read(&request.weft)?])
     };
     match &request.test {
         Test::Bias { width, length } => {
             let [tables, _] = of(Reading::Pull)?;
-            let width = measure("width", *width, &tables)?;
-            let length = measure("length", *length, &tables)?;
-            let test = ShearTest::Bias(BiasExtension { width, length });
-            fitted.shear = Some(test.fit(&points(&tables))?);
-            let [w, l] = [width, length].map(|x| short(1e3 * x));
-            fitted.test = format!("bias extension, {} of {w} x {l} mm", specimens(tables.len()));
+            let test = |table: &FitTable| {
+                let width = table.measure("width", *width)?;
+                let length = table.measure("length", *length)?;
+                Ok(ShearTest::Bias(BiasExtension { width, length }))
+            };
+            let sizes = fitted.sheared(&tables, test)?;
+            let specimens = specimens(tables.len());
+            fitted.test = format!("bias extension, {specimens} of {sizes}");
         }
         Test::Frame { side, fabric } => {
             let [tables, _] = of(Reading::Pull)?;
-            let side = measure("side", *side, &tables)?;
-            let fabric = fabric.or_else(|| stated("fabric", &tables)).unwrap_or(side);
-            let test = ShearTest::Frame(PictureFrame { side, fabric });
-            fitted.shear = Some(test.fit(&points(&tables))?);
-            let side = short(1e3 * side);
-            fitted.test = format!("picture frame of {side} mm, {}", specimens(tables.len()));
+            let test = |table: &FitTable| {
+                let side = table.measure("side", *side)?;
+                let fabric = table.stated("fabric", *fabric)?.unwrap_or(side);
+                Ok(ShearTest::Frame(PictureFrame { side, fabric }))
+            };
+            let sizes = fitted.sheared(&tables, test)?;
+            fitted.test = format!("picture frame of {sizes}, {}", specimens(tables.len()));
         }
         Test::Overhang { mass, angle } => {
             let tables = of(Reading::Overhang)?;
-            let areal = mass_of(*mass, &tables)?;
-            fitted.mass = Some(areal);
-            let test = Overhang { weight: GRAVITY * areal, angle: *angle };
+            fitted.weigh(&tables, *mass)?;
             for (n, tables) in tables.iter().enumerate() {
-                let overhangs: Vec<f64> = tables
-                    .iter()
-                    .flat_map(|(_, table)| table.rows.iter().map(|row| row[0]))
-                    .collect();
-                if !tables.is_empty() {
-                    fitted.bending[n] =
-                        Some(BendingFit::Rigidity(test.fit(&overhangs)?, Vec::new()));
+                let mut rigidities = Vec::new();
+                for (_, table) in tables {
+                    let weight = GRAVITY * table.measure("mass", *mass)?;
+                    let test = Overhang { weight, angle: *angle };
+                    let overhangs: Vec<f64> = table.rows.iter().map(|row| row[0]).collect();
+                    rigidities.extend(test.rigidities(&overhangs)?);
+                }
+                if !rigidities.is_empty() {
+                    let estimate = Estimate::of_specimens(&rigidities);
+                    fitted.bending[n] = Some(BendingFit::Rigidity(estimate, Vec::new()));
                 }
             }
             fitted.test = format!("cantilever, chord at {} deg", short(angle.to_degrees()));
         }
         Test::Hang { mass, length } => {
             let tables = of(Reading::Points)?;
-            let areal = mass_of(*mass, &tables)?;
-            fitted.mass = Some(areal);
+            fitted.weigh(&tables, *mass)?;
             for (n, tables) in tables.iter().enumerate() {
                 let mut strips = Vec::with_capacity(tables.len());
                 for (name, table) in tables {
-                    let own = length.or(table.stated("length"));
-                    let length = own.ok_or_else(|| missing("length"))?;
-                    let points = table.rows.clone();
-                    strips.push((name.clone(), Hang { points, length, weight: GRAVITY * areal }));
+                    let length = table.measure("length", *length)?;
+                    let weight = GRAVITY * table.measure("mass", *mass)?;
+                    strips
+                        .push((name.clone(), Hang { points: table.rows.clone(), length, weight }));
                 }
                 if !strips.is_empty() {
-                    let (whole, each) = fit_hang(&strips)?;
+                    let (whole, each) = fit_hang(&strips).map_err(|cause| placed(tables, cause))?;
                     let names = strips.into_iter().map(|(name, _)| name);
                     fitted.bending[n] =
                         Some(BendingFit::Rigidity(whole, names.zip(each).collect()));
@@ -166,8 +179,10 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
                 if !tables.is_empty() {
                     let specimens: Vec<_> =
                         tables.iter().map(|(name, t)| (name.clone(), t.rows.clone())).collect();
-                    let (curve, scatter) = fit_moments(&specimens)?;
-                    fitted.bending[n] = Some(BendingFit::Curve(curve, scatter));
+                    let found = fit_moments(&specimens).map_err(|cause| placed(tables, cause))?;
+                    fitted.remark(tables, &found.remarks, &MOMENT);
+                    fitted.reached(tables, &found.reach, &MOMENT);
+                    fitted.bending[n] = Some(BendingFit::Curve(found));
                 }
             }
             fitted.test = "moment over curvature, mean of both sides and both ways".into();
@@ -176,40 +191,184 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
     Ok(fitted)
 }
 
+/// A fault of the points of a specimen at its row, and one of its record at its header.
+fn placed(tables: &[Specimen], cause: Cause) -> Error {
+    let (Cause::FitPoint { what, .. } | Cause::FitReach { what, .. }) = &cause else {
+        return cause.into();
+    };
+    let Some((_, table)) = tables.iter().find(|(name, _)| name == what) else {
+        return cause.into();
+    };
+    let point = match &cause {
+        Cause::FitPoint { point, fault, .. } => {
+            let column = match fault {
+                PointFault::Backwards
+                | PointFault::Returns
+                | PointFault::Falls
+                | PointFault::BehindEdge => 0,
+                PointFault::BelowZero
+                | PointFault::NotZero
+                | PointFault::FallsEarly
+                | PointFault::Upwards => 1,
+            };
+            Some(([*point, column], fault.to_string()))
+        }
+        _ => None,
+    };
+    let error = Error::from(cause);
+    match point {
+        Some((place, fault)) => table.error(place, fault, error.help()),
+        None => table.error_anywhere(error.message(), error.help()),
+    }
+}
+
+/// How a record is called in notes.
+struct Words {
+    /// What is applied, and its unit with the size of that in SI units.
+    way: (&'static str, &'static str, f64),
+    /// What answers, in SI units.
+    load: (&'static str, &'static str),
+    /// What the law goes over.
+    reach: (&'static str, f64),
+}
+
+const SHEAR: Words = Words {
+    way: ("displacements", "mm", 1e-3),
+    load: ("force", "N"),
+    reach: ("deg", std::f64::consts::PI / 180.0),
+};
+const MOMENT: Words =
+    Words { way: ("curvatures", "1/m", 1.0), load: ("moment", "N"), reach: ("1/m", 1.0) };
+
+/// How different reaches and masses are named, as a share.
+const DIFFERENT: f64 = 0.05;
+
+impl Fitted {
+    /// Fits the shear of specimens, each by its own test; their sizes in words.
+    fn sheared(
+        &mut self,
+        tables: &[Specimen],
+        test: impl Fn(&FitTable) -> Result<ShearTest, Error>,
+    ) -> Result<String, Error> {
+        let (mut specimens, mut sizes) = (Vec::with_capacity(tables.len()), Vec::new());
+        for (name, table) in tables {
+            let test = test(table)?;
+            test.check().map_err(|cause| {
+                let error = Error::from(cause);
+                table.error_anywhere(error.message(), error.help())
+            })?;
+            let size = size(&test);
+            if !sizes.contains(&size) {
+                sizes.push(size);
+            }
+            specimens.push(ShearSpecimen { name: name.clone(), test, points: table.rows.clone() });
+        }
+        let found = fit_shear(&specimens).map_err(|cause| placed(tables, cause))?;
+        self.remark(tables, &found.remarks, &SHEAR);
+        self.reached(tables, &found.reach, &SHEAR);
+        self.shear = Some(found);
+        Ok(sizes.join(" and "))
+    }
+
+    /// The mass per area of all specimens.
+    fn weigh(&mut self, tables: &[Vec<Specimen>; 2], given: Option<f64>) -> Result<(), Error> {
+        let mut masses = Vec::new();
+        for (name, table) in tables.iter().flatten() {
+            masses.push((name, table.measure("mass", given)?));
+        }
+        let mean = masses.iter().map(|(_, mass)| mass).sum::<f64>() / masses.len().max(1) as f64;
+        if masses.iter().any(|(_, mass)| short(*mass) != short(mean)) {
+            let each: Vec<String> = masses
+                .iter()
+                .map(|(name, mass)| format!("{name} {} kg/m^2", short(*mass)))
+                .collect();
+            self.notes.push(format!(
+                "the files state different masses, and each is used for its own strips; the mass below is their mean: {}",
+                each.join(", ")
+            ));
+        }
+        self.mass = Some(mean);
+        Ok(())
+    }
+
+    /// Notes what is to be known of records.
+    fn remark(&mut self, tables: &[Specimen], remarks: &[Vec<Remark>], words: &Words) {
+        let (way, unit, size) = words.way;
+        let (load, newton) = words.load;
+        for ((name, table), remarks) in tables.iter().zip(remarks) {
+            let lines = |points: [usize; 2]| match points.map(|point| table.line(point)) {
+                [first, last] if first == last => format!("line {first} is left out"),
+                [first, last] => format!("lines {first} to {last} are left out"),
+            };
+            for remark in remarks {
+                let note = match *remark {
+                    Remark::AfterPeak { points, peak } => format!(
+                        "{}, because the {load} has fallen from its peak of {} {newton}",
+                        lines(points),
+                        short(peak)
+                    ),
+                    Remark::Unloading { points } => {
+                        format!("{}, because the machine runs back there", lines(points))
+                    }
+                    Remark::BeyondTrellis { points } => format!(
+                        "{}, because no weave is a trellis beyond 65 deg of shear",
+                        lines(points)
+                    ),
+                    Remark::BeyondShear { points, angle } => format!(
+                        "{}, because the shear force falls beyond {} deg: the specimen slips",
+                        lines(points),
+                        short(angle.to_degrees())
+                    ),
+                    Remark::BeyondPeak { curvature } => format!(
+                        "points beyond {} 1/m are left out, because the {load} has fallen from its peak",
+                        short(curvature)
+                    ),
+                    Remark::BeginsLate { first } => format!(
+                        "its {way} begin at {} {unit}, which is taken for the way from no load: see whether that is so",
+                        short(first / size)
+                    ),
+                    Remark::LoadAtRest { load: value } => format!(
+                        "its first points lead to a {load} of {} {newton} before anything is deformed: see whether the load cell was set to zero",
+                        short(value)
+                    ),
+                };
+                self.notes.push(format!("{name}: {note}"));
+            }
+        }
+    }
+
+    /// Notes specimens that went farther than the law does.
+    fn reached(&mut self, tables: &[Specimen], reach: &[f64], words: &Words) {
+        let (unit, size) = words.reach;
+        let shared = reach.iter().copied().fold(f64::INFINITY, f64::min);
+        for ((name, _), own) in tables.iter().zip(reach) {
+            if *own > (1.0 + DIFFERENT) * shared {
+                self.notes.push(format!(
+                    "{name}: it goes on to {} {unit}, and the law ends at {} {unit}, which all specimens reach",
+                    short(own / size),
+                    short(shared / size)
+                ));
+            }
+        }
+    }
+}
+
+/// The size of a specimen in words.
+fn size(test: &ShearTest) -> String {
+    match test {
+        ShearTest::Bias(BiasExtension { width, length }) => {
+            format!("{} x {} mm", short(1e3 * width), short(1e3 * length))
+        }
+        ShearTest::Frame(PictureFrame { side, .. }) => format!("{} mm", short(1e3 * side)),
+    }
+}
+
 fn specimens(count: usize) -> String {
     if count == 1 { "one specimen".into() } else { format!("{count} specimens") }
 }
 
 fn name(path: &Path) -> String {
     crate::store::shown::path(path).to_string()
-}
-
-fn points(tables: &[(String, FitTable)]) -> Vec<Vec<[f64; 2]>> {
-    tables.iter().map(|(_, table)| table.rows.clone()).collect()
-}
-
-fn stated(key: &str, tables: &[(String, FitTable)]) -> Option<f64> {
-    tables.iter().find_map(|(_, table)| table.stated(key))
-}
-
-fn missing(what: &'static str) -> Error {
-    let value = if what == "mass" { "314 g/m^2" } else { "100 mm" };
-    let help =
-        format!("give --{what} \"{value}\", or a line `# {what} = {value}` at the top of the file");
-    Error::not_possible(format!("the {what} of the specimens is given nowhere"), help)
-}
-
-fn measure(
-    what: &'static str,
-    given: Option<f64>,
-    tables: &[(String, FitTable)],
-) -> Result<f64, Error> {
-    given.or_else(|| stated(what, tables)).ok_or_else(|| missing(what))
-}
-
-fn mass_of(given: Option<f64>, tables: &[Vec<(String, FitTable)>; 2]) -> Result<f64, Error> {
-    let stated = tables.iter().find_map(|tables| stated("mass", tables));
-    given.or(stated).ok_or_else(|| missing("mass"))
 }
 
 /// Four digits.
@@ -243,7 +402,7 @@ impl Fitted {
         for (bending, along) in self.bending.iter().zip(DIRECTIONS) {
             let share = match bending {
                 Some(BendingFit::Rigidity(estimate, _)) => estimate.scatter,
-                Some(BendingFit::Curve(_, scatter)) => *scatter,
+                Some(BendingFit::Curve(fit)) => fit.scatter,
                 None => None,
             };
             found.extend(share.map(|share| (format!("bending_rigidity_{along}"), share)));
@@ -270,6 +429,9 @@ impl Fitted {
         );
         let _ = writeln!(text, "source = \"fitted from {}\"", quoted(&self.files.join(", ")));
         let _ = writeln!(text, "test = \"{}\"", quoted(&self.test));
+        for note in &self.notes {
+            let _ = writeln!(text, "# {}", note.escape_debug());
+        }
         if let Some(mass) = self.mass {
             let _ = writeln!(text, "mass = \"{} kg/m^2\"", short(mass));
         }
@@ -291,7 +453,7 @@ impl Fitted {
                         );
                     }
                 }
-                Some(BendingFit::Curve(curve, _)) => {
+                Some(BendingFit::Curve(MomentFit { curve, .. })) => {
                     let _ = writeln!(
                         text,
                         "# rigidity at rest {} N m\nbending_rigidity_{along} = {{ curvature = [{}], moment = [{}] }}",
@@ -368,7 +530,7 @@ impl Fitted {
                     .collect();
                 json!({ "rigidity": estimate(whole), "strips": strips })
             }
-            BendingFit::Curve(curve, scatter) => json!({
+            BendingFit::Curve(MomentFit { curve, scatter, .. }) => json!({
                 "curvature": curve.curvature,
                 "moment": curve.moment,
                 "rigidity_at_rest": curve.rigidity(),
@@ -378,6 +540,7 @@ impl Fitted {
         let mut object = serde_json::Map::new();
         object.insert("test".into(), json!(self.test));
         object.insert("files".into(), json!(self.files));
+        object.insert("notes".into(), json!(self.notes));
         if let Some(mass) = self.mass {
             object.insert("mass".into(), json!(mass));
         }
@@ -395,7 +558,7 @@ impl Fitted {
                 "polynomial": shear.polynomial.map(|[c, _]| c),
                 "polynomial_standard_error": shear.polynomial.map(|[_, error]| error),
                 "locking_hint": shear.locking,
-                "specimens": shear.specimens,
+                "specimens": shear.reach.len(),
             });
             object.insert("shear".into(), shear);
         }

@@ -33,18 +33,29 @@ use std::path::PathBuf;
 ///     Mass per area (kg/m²).
 /// angle : float or str, default "41.5 deg"
 ///     Angle of the chord of overhangs (rad).
+/// displacement, force : str, optional
+///     Titles of the columns of a shear test, where they have other names than usual.
+/// overhang : str, optional
+///     Title of the column of overhangs.
+/// x, z : str, optional
+///     Titles of the columns of points of a hanging strip.
+/// curvature, moment : str, optional
+///     Titles of the columns of a bending test.
+///
+/// What a file states of its own specimen is used for its rows; the measures that are given here are those of files that state none.
 ///
 /// Returns
 /// -------
 /// dict
-///     What was fitted, with standard errors and 95 % intervals, and `toml`, the lines of a material file.
+///     What was fitted, with standard errors and 95 % intervals, `notes` of what the files show beside it, and `toml`, the lines of a
+///     material file.
 ///
 /// Raises
 /// ------
 /// SceneError
-///     If a table is broken.
+///     If a table is broken, states no measure that is not given either, or shows what no specimen does.
 /// ValueError
-///     If a measure is missing or the points say no law.
+///     If the points say no law.
 ///
 /// Examples
 /// --------
@@ -60,7 +71,9 @@ use std::path::PathBuf;
     test, warp = Vec::new(), weft = Vec::new(), *, width: "float | str | None" = None,
     length: "float | str | None" = None, side: "float | str | None" = None,
     fabric: "float | str | None" = None, mass: "float | str | None" = None,
-    angle: "float | str" = Amount::Text("41.5 deg".into())
+    angle: "float | str" = Amount::Text("41.5 deg".into()), displacement: "str | None" = None,
+    force: "str | None" = None, overhang: "str | None" = None, x: "str | None" = None,
+    z: "str | None" = None, curvature: "str | None" = None, moment: "str | None" = None
 ))]
 #[allow(clippy::too_many_arguments)]
 pub fn fit(
@@ -73,6 +86,13 @@ pub fn fit(
     fabric: Option<Amount>,
     mass: Option<Amount>,
     angle: Amount,
+    displacement: Option<String>,
+    force: Option<String>,
+    overhang: Option<String>,
+    x: Option<String>,
+    z: Option<String>,
+    curvature: Option<String>,
+    moment: Option<String>,
 ) -> PyResult<Json> {
     let given = |amount: Option<Amount>, name: &str, measured: Measured| {
         amount.map(|amount| amount.si(name, measured)).transpose()
@@ -83,19 +103,19 @@ pub fn fit(
     let fabric = given(fabric, "fabric", Measured::Length)?;
     let mass = given(mass, "mass", Measured::ArealMass)?;
     let angle = angle.si("angle", Measured::Angle)?;
-    let test = match test {
-        "bias" => Test::Bias { width, length },
-        "frame" => Test::Frame { side, fabric },
-        "overhang" => Test::Overhang { mass, angle },
-        "hang" => Test::Hang { mass, length },
-        "moments" => Test::Moments,
+    let (test, titles) = match test {
+        "bias" => (Test::Bias { width, length }, [displacement, force]),
+        "frame" => (Test::Frame { side, fabric }, [displacement, force]),
+        "overhang" => (Test::Overhang { mass, angle }, [overhang, None]),
+        "hang" => (Test::Hang { mass, length }, [x, z]),
+        "moments" => (Test::Moments, [curvature, moment]),
         other => {
             return Err(PyValueError::new_err(format!(
                 "test is {other:?}; bias, frame, overhang, hang or moments is wanted"
             )));
         }
     };
-    let fitted = plydrape_io::fit::fit(&Request { test, warp, weft })
+    let fitted = plydrape_io::fit::fit(&Request { test, warp, weft, titles })
         .map_err(|fault| error::value(&fault))?;
     Json::of(&fitted.json())
 }

@@ -1,6 +1,7 @@
 //! Why there is no law, sheet, drape, plan or corrected plan.
 
 use crate::LayupError;
+use crate::fit::PointFault;
 use crate::ply::{GripperId, gripper_name};
 
 /// Why a test gives no law, a scene cannot be draped or planned, or a plan cannot be corrected.
@@ -20,6 +21,29 @@ pub enum Error {
         found: usize,
         /// How many it needs.
         wanted: usize,
+    },
+    /// A point of a record shows what no specimen does.
+    #[error("{what}, point {}: {fault}", point + 1)]
+    FitPoint {
+        /// Which specimen.
+        what: String,
+        /// Index of the point.
+        point: usize,
+        /// What it shows.
+        fault: PointFault,
+    },
+    /// A record lies beyond what its specimen can do.
+    #[error(
+        "the displacements of {what} are from {:.1} to {:.1} mm, and its specimen shears between 0 and {:.1} mm",
+        1e3 * found[0], 1e3 * found[1], 1e3 * largest
+    )]
+    FitReach {
+        /// Which specimen.
+        what: String,
+        /// Smallest and largest displacement (m).
+        found: [f64; 2],
+        /// The largest that the specimen allows (m).
+        largest: f64,
     },
     /// A quantity of a test makes no sense.
     #[error("{what} is {value} {unit}; it must be {range}")]

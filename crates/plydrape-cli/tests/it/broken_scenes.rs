@@ -118,7 +118,7 @@ fn desk() -> tempfile::TempDir {
     let desk = tempfile::tempdir().unwrap();
     let mut binary = vec![0; 84 + 50];
     binary[80] = 1;
-    let files: [(&str, &[u8]); 11] = [
+    let files: [(&str, &[u8]); 12] = [
         ("binary.stl", &binary),
         ("text.stl", b"solid x\nfacet normal 0 0 1\nouter loop\n"),
         ("mold.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
@@ -126,7 +126,8 @@ fn desk() -> tempfile::TempDir {
         ("start.csv", b"i,j,x,y,z\n0,0,0,0,0\n"),
         ("photo.png", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"),
         ("ply.dxf", b"  0\nSECTION\n  2\nHEADER\n"),
-        ("wide.toml", b"\xff\xfe[\0p\0l\0y\0]\0"),
+        ("wide.toml", b"\xff\xfe[\0p\0l\0y\0]\0\x00\xd8"),
+        ("zeros.toml", b"[ply]\ncell = \0\0\0\n"),
         ("empty.json", b""),
         ("other.json", b"{\"a\": 1}"),
         (
@@ -160,7 +161,9 @@ fn another_file_given_as_a_scene_is_called_by_its_name() {
         assert!(!message.contains("TOML:"), "{message}");
     }
     let (_, _, message) = run(desk.path(), &["check", "wide.toml"]);
-    assert!(message.contains("`wide.toml` is UTF-16 text"), "{message}");
+    assert!(message.contains("`wide.toml` is UTF-16 text, and damaged"), "{message}");
+    let (_, _, message) = run(desk.path(), &["check", "zeros.toml"]);
+    assert!(message.contains("byte 13 is a NUL byte"), "{message}");
 }
 
 #[test]

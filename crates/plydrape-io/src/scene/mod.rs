@@ -8,7 +8,7 @@
 //! 3. `check` with `bodies`, `cell`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
 //!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
-//! `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
+//! `table` reads every CSV file, `fit` those of tests. `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
 
 mod argument;
 mod bodies;
@@ -17,7 +17,6 @@ mod bound;
 mod cell;
 mod check;
 mod choice;
-mod csv;
 mod curve;
 mod cut;
 mod diagnostic;
@@ -29,7 +28,6 @@ mod file;
 mod fit;
 mod heading;
 mod ideal;
-mod lab_table;
 mod layup;
 mod limits;
 mod located;
@@ -49,6 +47,7 @@ mod settings;
 mod sheet;
 mod source;
 mod start;
+mod table;
 mod target;
 mod tool;
 mod trajectory;

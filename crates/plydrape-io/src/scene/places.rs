@@ -1,12 +1,12 @@
 //! Gripper positions as written: by spacing, as a table, or in a CSV file.
 
 use super::choice::{Positions, PositionsRow};
-use super::csv::{Column, Csv, Row};
 use super::heading::coordinates;
 use super::located::Located;
 use super::quantity::rounded;
 use super::read;
 use super::source::Document;
+use super::table::{Column, Row, Table};
 use super::units::Dimension;
 use crate::Error;
 use plydrape::LayupError;
@@ -35,17 +35,12 @@ pub(super) struct Places {
 }
 
 /// The columns of a table of positions.
-const COLUMNS: [Column; 5] = [
-    Column { name: "i", dimension: Dimension::NONE },
-    Column { name: "j", dimension: Dimension::NONE },
-    X,
-    Y,
-    Z,
-];
+const COLUMNS: [Column; 5] =
+    [Column::named(&["i"], Dimension::NONE), Column::named(&["j"], Dimension::NONE), X, Y, Z];
 /// The columns of coordinates.
-pub(super) const X: Column = Column { name: "x", dimension: Dimension::LENGTH };
-pub(super) const Y: Column = Column { name: "y", dimension: Dimension::LENGTH };
-pub(super) const Z: Column = Column { name: "z", dimension: Dimension::LENGTH };
+pub(super) const X: Column = Column::named(&["x"], Dimension::LENGTH);
+pub(super) const Y: Column = Column::named(&["y"], Dimension::LENGTH);
+pub(super) const Z: Column = Column::named(&["z"], Dimension::LENGTH);
 
 impl Places {
     /// Reads the key `positions`.
@@ -140,8 +135,7 @@ pub(super) fn csv_file(
     scene: &Document,
     base: &Path,
 ) -> Result<Document, Error> {
-    read::text(&base.join(name), name, read::LARGEST_CSV)
-        .map_err(|error| scene.error_of_named(span, error, "scene"))
+    read::table(&base.join(name), name).map_err(|error| scene.error_of_named(span, error, "scene"))
 }
 
 fn from_table(
@@ -194,7 +188,7 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
     let mut points = vec![None; ply.grippers()];
     let mut spans = vec![0..0; ply.grippers()];
     let header = {
-        let csv = Csv::new(&document, &COLUMNS)?;
+        let csv = Table::new(&document, &COLUMNS, &[])?;
         for row in csv.rows() {
             let gripper = [row.whole(0)?, row.whole(1)?];
             let index = index(gripper, ply).map_err(|(m, h)| row.fault(0, m, h))?;
@@ -208,7 +202,7 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
             points[index] = Some(point(&row, [2, 3, 4])?);
             spans[index] = row.span.clone();
         }
-        csv.header.clone()
+        csv.header()
     };
     if let Some(missing) = points.iter().position(Option::is_none) {
         return Err(document.error(

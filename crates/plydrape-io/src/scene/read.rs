@@ -5,7 +5,7 @@ use super::{diagnostic, tree};
 use crate::Error;
 use crate::error::{Diagnostic, Fault};
 use crate::store::file_kind::{self, FileKind};
-use crate::store::{input, shown};
+use crate::store::{encoding, input, shown};
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -23,8 +23,11 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Er
     let nothing = Document::new(name, "");
     let name = shown::excerpt(name, LONGEST_PATH);
     if path.is_dir() {
-        return Err(nothing
-            .error_anywhere(format!("`{name}` is a folder, not a file"), "name a file inside it"));
+        let fault =
+            nothing.fault(format!("`{name}` is a folder, not a file"), "name a file inside it");
+        return Err(
+            Diagnostic { unread: Some((path.into(), ErrorKind::IsADirectory)), ..fault }.into()
+        );
     }
     input::bytes(path, largest).map_err(|error| match error.kind() {
         ErrorKind::FileTooLarge => nothing.error_anywhere(
@@ -106,50 +109,89 @@ pub(super) const BACKSLASHES: &str =
 
 /// Reads a text file, named `name` in messages.
 pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
-    decoded(bytes(path, name, largest)?, name)
+    decoded(bytes(path, name, largest)?, name, Old::Refused)
 }
 
-/// Reads a table of a laboratory: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.
-pub(super) fn lab_text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
-    let bytes = bytes(path, name, largest)?;
-    let is_table = matches!(FileKind::of(&bytes), None | Some(FileKind::Table));
-    let marked = [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| bytes.starts_with(*mark));
-    if std::str::from_utf8(&bytes).is_err() && is_table && !marked && !bytes.contains(&0) {
-        let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
-        return Ok(Document::new(name, &text));
-    }
-    decoded(bytes, name)
+/// Reads a table, named `name` in messages: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.
+pub(super) fn table(path: &Path, name: &str) -> Result<Document, Error> {
+    decoded(bytes(path, name, LARGEST_CSV)?, name, Old::Latin1)
 }
 
-/// A text from its bytes.
-fn decoded(bytes: Vec<u8>, name: &str) -> Result<Document, Error> {
-    match String::from_utf8(bytes) {
-        // Spreadsheets and some editors put a byte order mark first.
-        Ok(text) => Ok(Document::new(name, text.trim_start_matches('\u{feff}'))),
-        Err(error) if [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| error.as_bytes().starts_with(*mark)) => {
-            Err(Document::new(name, "").error_anywhere(
-                format!("`{name}` is UTF-16 text"),
+/// What a text may be that is no Unicode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Old {
+    /// Nothing.
+    Refused,
+    /// ISO 8859-1.
+    Latin1,
+}
+
+/// A text from its bytes: UTF-8, UTF-16, or an old encoding where that may be. Line ends of old Macintoshes become those of today.
+fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
+    let shown = short(name);
+    let refused =
+        |message: String, help: &str| Err(Document::new(name, "").error_anywhere(message, help));
+    if let Some(text) = encoding::wide(&bytes) {
+        return match text {
+            Some(text) => Ok(lines_ended(text, name)),
+            None => refused(
+                format!("`{shown}` is UTF-16 text, and damaged"),
                 "save the file with the encoding UTF-8, which Windows' Notepad and PowerShell offer too",
-            ))
-        }
-        Err(error) if FileKind::of(error.as_bytes()).is_some_and(|kind| kind != FileKind::Scene) => {
-            let kind = FileKind::of(error.as_bytes()).map_or("", FileKind::name);
-            Err(Document::new(name, "").error_anywhere(
-                format!("`{name}` is {kind}, not a text"),
-                "save a table as CSV, with the encoding UTF-8",
-            ))
-        }
-        Err(error) => {
-            let at = error.utf8_error().valid_up_to();
-            let byte = error.as_bytes().get(at).copied().unwrap_or_default();
-            let lossy = Document::new(name, &String::from_utf8_lossy(error.as_bytes()));
-            Err(lossy.error(
-                at..at + char::REPLACEMENT_CHARACTER.len_utf8(),
-                format!("`{name}` is not UTF-8 text: byte {at} is 0x{byte:02x}"),
-                "save the file with the encoding UTF-8",
-            ))
-        }
+            ),
+        };
     }
+    if let Some(kind) = FileKind::of(&bytes)
+        && !matches!(kind, FileKind::Scene | FileKind::Table)
+        && (std::str::from_utf8(&bytes).is_err() || bytes.contains(&0))
+    {
+        return refused(
+            format!("`{shown}` is {}, not a text", kind.name()),
+            "save a table as CSV, with the encoding UTF-8",
+        );
+    }
+    let nul = bytes.iter().position(|byte| *byte == 0);
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let bytes = error.as_bytes();
+            let at = error.utf8_error().valid_up_to();
+            let strange = bytes.iter().position(|byte| (0x7f..0xa0).contains(byte) || *byte == 0);
+            let (at, what) = match (old, strange) {
+                (Old::Latin1, None) => {
+                    let text = bytes.iter().map(|byte| char::from(*byte)).collect();
+                    return Ok(lines_ended(text, name));
+                }
+                (Old::Latin1, Some(strange)) => (strange, "neither UTF-8 nor Latin-1 text"),
+                (Old::Refused, _) => (at, "not UTF-8 text"),
+            };
+            let byte = bytes.get(at).copied().unwrap_or_default();
+            // the lossy text has three bytes for each that is none
+            let before = String::from_utf8_lossy(&bytes[..at]).len();
+            let lossy = Document::new(name, &String::from_utf8_lossy(bytes));
+            let width = lossy.text.get(before..).and_then(|tail| tail.chars().next());
+            return Err(lossy.error(
+                before..before + width.map_or(0, char::len_utf8),
+                format!("`{shown}` is {what}: byte {at} is 0x{byte:02x}"),
+                "save the file with the encoding UTF-8",
+            ));
+        }
+    };
+    // the mark of UTF-8, which spreadsheets and some editors put first
+    let mark = text.len() - text.trim_start_matches('\u{feff}').len();
+    if let Some(at) = nul {
+        let document = Document::new(name, &text);
+        return Err(document.error(
+            at..at + 1,
+            format!("`{shown}` is no plain text: byte {at} is a NUL byte"),
+            "remove the NUL bytes, or save the file anew with the encoding UTF-8",
+        ));
+    }
+    Ok(lines_ended(text[mark..].to_owned(), name))
+}
+
+/// A document whose lines end as those of Unix and Windows do.
+fn lines_ended(text: String, name: &str) -> Document {
+    Document::new(name, &encoding::line_feeds(text))
 }
 
 fn reason(error: &std::io::Error) -> String {
@@ -163,4 +205,54 @@ fn reason(error: &std::io::Error) -> String {
 /// Reads the keys of a TOML text.
 pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, Error> {
     tree::read(&document.text).map_err(|fault| diagnostic::scene_error(document, fault))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "Weg (mm);Dehnung (µm)\n4;5\n";
+
+    fn of(bytes: &[u8], old: Old) -> Result<String, Error> {
+        decoded(bytes.to_vec(), "a.csv", old).map(|document| document.text.to_string())
+    }
+
+    fn wide(text: &str, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
+        text.encode_utf16().flat_map(bytes).collect()
+    }
+
+    #[test]
+    fn a_text_is_the_same_in_every_encoding() {
+        let old: Vec<u8> = TEXT.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect();
+        let marked = format!("\u{feff}{TEXT}");
+        for bytes in [
+            TEXT.as_bytes().to_vec(),
+            marked.as_bytes().to_vec(),
+            wide(&marked, u16::to_le_bytes),
+            wide(&marked, u16::to_be_bytes),
+            TEXT.replace('\n', "\r").into_bytes(),
+            old.clone(),
+        ] {
+            assert_eq!(of(&bytes, Old::Latin1).unwrap(), TEXT, "{bytes:?}");
+        }
+        assert_eq!(of(&wide("a = 1\n", u16::to_le_bytes), Old::Refused).unwrap(), "a = 1\n");
+        let error = of(&old, Old::Refused).unwrap_err();
+        assert_eq!(error.message(), "`a.csv` is not UTF-8 text: byte 18 is 0xb5");
+        assert_eq!(error.diagnostic().unwrap().line_column(), Some((1, 19)));
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_at_its_byte() {
+        for (bytes, message) in [
+            (&b"x,y\n1,\0\n"[..], "`a.csv` is no plain text: byte 6 is a NUL byte"),
+            (b"\xff\xfex\0,", "`a.csv` is UTF-16 text, and damaged"),
+            (b"\xff\xfe\0\0x\0\0\0", "`a.csv` is UTF-16 text, and damaged"),
+            (b"D\x82p (mm)\n1\n", "`a.csv` is neither UTF-8 nor Latin-1 text: byte 1 is 0x82"),
+            (b"PK\x03\x04\0\xff", "`a.csv` is a ZIP archive or a spreadsheet, not a text"),
+        ] {
+            let error = of(bytes, Old::Latin1).unwrap_err();
+            assert_eq!(error.message(), message);
+            assert!(error.help().contains("UTF-8"), "{}", error.help());
+        }
+    }
 }

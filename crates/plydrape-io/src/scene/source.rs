@@ -45,7 +45,11 @@ impl Document {
     pub fn error_of_named(&self, span: &Range<usize>, error: Error, what: &str) -> Error {
         match error {
             Error::Scene(fault) if fault.span.is_none() => {
-                let help = read::beside(what, &fault.help);
+                // where a file lies matters where it cannot be read
+                let help = match fault.unread {
+                    Some(_) => read::beside(what, &fault.help),
+                    None => fault.help,
+                };
                 let (span, unread) = (Some(span.clone()), fault.unread);
                 Diagnostic { span, unread, ..self.fault(fault.message, help) }.into()
             }

@@ -1,12 +1,12 @@
 //! Where the ply shall end: the ideal drape on the mold, or positions as given.
 
-use super::csv::Csv;
 use super::file::TargetTable;
 use super::layup::{free, layup, round};
 use super::located::Located;
 use super::mold::usual_width;
 use super::places::{Places, X, Y, Z, csv_file, point};
 use super::source::Document;
+use super::table::Table;
 use crate::Error;
 use plydrape::LayupError;
 use plydrape::layup::{ContactSettings, Target};
@@ -111,7 +111,7 @@ fn wanted(
 ) -> Result<Wanted, Error> {
     let document = csv_file(&file.value, &file.span, scene, base)?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
-    for row in Csv::new(&document, &[X, Y, Z])?.rows() {
+    for row in Table::new(&document, &[X, Y, Z], &[])?.rows() {
         points.push(point(&row, [0, 1, 2])?);
         spans.push(row.span.clone());
     }

@@ -1,11 +1,11 @@
 //! Gripper positions over the steps from a CSV file.
 
-use super::csv::{Column, Csv, Row};
 use super::file::MotionTable;
 use super::located::Located;
 use super::motion::DURATIONS;
 use super::places::{Places, X, Y, Z, csv_file, index, point};
 use super::source::Document;
+use super::table::{Column, Row, Table};
 use super::units::Dimension;
 use crate::Error;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
@@ -15,8 +15,8 @@ use std::path::Path;
 
 /// The columns of a motion file; others, such as the attitude `qx` … `qw`, are ignored.
 const COLUMNS: [Column; 5] = [
-    Column { name: "t", dimension: Dimension::TIME },
-    Column { name: "gripper", dimension: Dimension::NONE },
+    Column::named(&["t", "time", "zeit", "temps"], Dimension::TIME),
+    Column::named(&["gripper"], Dimension::NONE),
     X,
     Y,
     Z,
@@ -47,11 +47,11 @@ pub(super) fn trajectory(
     }
     let document = csv_file(&name.value, &name.span, scene, base)?;
     let mut steps = Steps::new(&document, ply);
-    let csv = Csv::new(&document, &COLUMNS)?;
+    let csv = Table::new(&document, &COLUMNS, &[])?;
     for row in csv.rows() {
         steps.add(&row)?;
     }
-    steps.finish(csv.header.clone())?;
+    steps.finish(csv.header())?;
     let (motion, spans) = (steps.motion, steps.first_spans);
     let start = Places {
         points: motion.positions.first().cloned().unwrap_or_default(),

@@ -466,6 +466,39 @@ fn a_scene_follows_the_dense_table() {
     assert_eq!(refused.unwrap_err().to_string(), expected.to_string());
 }
 
+/// A motion, its start and heights as a spreadsheet of another country saves them again are the same scene.
+#[test]
+fn tables_of_a_spreadsheet_are_the_same_scene() {
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+        [mold]\nkind = \"height-grid\"\nfile = \"heights.csv\"\n";
+    let moved = format!("{text}[target]\n[motion]\nkind = \"file\"\nfile = \"motion.csv\"\n");
+    let started = format!("{text}[grippers]\npositions = \"start.csv\"\n");
+    let mut heights = "x (mm),y (mm),z (mm)\n".to_owned();
+    for node in 0..16 {
+        heights +=
+            &format!("{},{},9.70{}\n", 100 * (node % 4) - 150, 100 * (node / 4) - 150, node % 3);
+    }
+    let motion = "t (s),gripper,x (mm),y (mm),z (mm)\n0,g0_0,0,0,50.5\n0,g1_0,98,0,50.5\n1,g0_0,0,0,25\n1,g1_0,98,0,25\n";
+    let start = "i,j,x (mm),y (mm),z (mm)\n0,0,0,0,50.5\n1,0,98,0,50.5\n";
+    let scenes = |change: &dyn Fn(&str) -> String| {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, table) in [("heights", heights.as_str()), ("motion", motion), ("start", start)] {
+            std::fs::write(folder.path().join(format!("{name}.csv")), change(table)).unwrap();
+        }
+        [&moved, &started].map(|text| {
+            let scene = scene::parse(text, folder.path(), "scene");
+            let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
+            (scene.layup.motion, scene.layup.mold)
+        })
+    };
+    let plain = scenes(&|table| table.to_owned());
+    let comma = |table: &str| table.replace(',', ";").replace('.', ",");
+    assert_eq!(scenes(&comma), plain);
+    assert_eq!(scenes(&|table| table.replace(',', "\t")), plain);
+    assert_eq!(scenes(&|table| table.replace('(', "[").replace(')', "]").replace('x', "X")), plain);
+    assert_eq!(scenes(&|table| format!("Messung vom 3.4.\r\n\r\n{}", comma(table))), plain);
+}
+
 /// Random smooth paths of two grippers: sums of a few waves and a straight way, uneven steps.
 fn waves() -> impl Strategy<Value = Vec<Vec<Point>>> {
     let wave = prop::array::uniform6(-0.1..0.1_f64);

@@ -1,6 +1,7 @@
 //! Rigidities and curves of the moment from strips that hang over an edge, and from bending tests.
 
 use super::positive;
+use super::record::{PointFault, Remark, loading};
 use super::statistics::{Estimate, Sure, between, mean_and_deviation, rising};
 use crate::Error;
 use crate::elastica::{Bending, Cantilever, Shape};
@@ -58,21 +59,28 @@ pub struct Overhang {
 }
 
 impl Overhang {
-    /// Rigidity per width (N·m) from the overhangs of specimens (m).
+    /// Rigidity per width (N·m) of each strip by its overhang (m).
     ///
     /// # Errors
-    /// [`Error::FitTooFew`] if there is none, [`Error::FitRange`] if one is not positive.
-    pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, Error> {
+    /// Those of [`rigidity_of_overhang`], and [`Error::FitRange`] if an overhang or the weight is not positive.
+    pub fn rigidities(&self, overhangs: &[f64]) -> Result<Vec<f64>, Error> {
         positive("the weight per area", self.weight, "N/m^2")?;
         for overhang in overhangs {
             positive("an overhang", *overhang, "m")?;
         }
+        let unit = rigidity_of_overhang(1.0, self.weight, self.angle)?;
+        Ok(overhangs.iter().map(|l| unit * l.powi(3)).collect())
+    }
+
+    /// Rigidity per width (N·m) from the overhangs (m) of strips.
+    ///
+    /// # Errors
+    /// Those of [`Self::rigidities`], and [`Error::FitTooFew`] if there is none.
+    pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, Error> {
         if overhangs.is_empty() {
             return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
         }
-        let unit = rigidity_of_overhang(1.0, self.weight, self.angle)?;
-        let rigidities: Vec<f64> = overhangs.iter().map(|l| unit * l.powi(3)).collect();
-        Ok(Estimate::of_specimens(&rigidities))
+        Ok(Estimate::of_specimens(&self.rigidities(overhangs)?))
     }
 }
 
@@ -91,6 +99,8 @@ pub struct Hang {
 const FEWEST: usize = 4;
 /// Straight pieces that a solved strip is compared by.
 const PIECES: usize = 200;
+/// A place of a point that is noise, as a share of the length of its strip.
+const NOISE: f64 = 0.02;
 /// Change of a parameter in the differences of the residuals.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -165,6 +175,33 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
     }
 }
 
+/// Refuses points of several strips, and a strip that no weight bends so: behind the edge, or below the chord to its tip.
+fn signs(hang: &Hang, [x, z]: [f64; 2]) -> Result<(), (usize, PointFault)> {
+    let noise = NOISE * hang.length;
+    let behind = hang.points.iter().position(|point| point[0] < -noise);
+    if let Some(n) = behind {
+        return Err((n, PointFault::BehindEdge));
+    }
+    // points in order, but for a return to the edge
+    let fall = |n: &usize| hang.points[n - 1][0] - hang.points[*n][0];
+    let falls: Vec<usize> = (1..hang.points.len()).filter(|n| fall(n) > 0.0).collect();
+    let again = falls.iter().find(|n| fall(n) > 0.5 * x);
+    if let Some(n) = again
+        && 4 * falls.len() < hang.points.len()
+    {
+        return Err((*n, PointFault::Returns));
+    }
+    // the weight bends every strip to above the chord from edge to tip
+    let above = |p: &[f64; 2]| (x * p[1] - z * p[0]) / x.hypot(z);
+    let mean = hang.points.iter().map(above).sum::<f64>() / hang.points.len() as f64;
+    let lowest = (0..hang.points.len())
+        .min_by(|a, b| above(&hang.points[*a]).total_cmp(&above(&hang.points[*b])));
+    match lowest {
+        Some(n) if mean < -noise => Err((n, PointFault::Upwards)),
+        _ => Ok(()),
+    }
+}
+
 /// Rigidity per width (N·m) and the angle at the edge (rad) of one strip, with standard errors from the residuals.
 fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
     positive("the length of the overhang", hang.length, "m")?;
@@ -188,6 +225,11 @@ fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
     // from the rigidity that Peirce's formula gives the chord to the farthest point
     let tip = hang.points.iter().max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
     let [x, z] = *tip.ok_or_else(|| few(0))?;
+    signs(hang, [x, z]).map_err(|(point, fault)| Error::FitPoint {
+        what: name.to_string(),
+        point,
+        fault,
+    })?;
     let chord = (-z).atan2(x).clamp(0.02, 1.5);
     let start = peirce(chord) * hang.weight * hang.length.powi(3);
     let problem = Residuals { hang, parameters: Vector2::new(start.ln(), 0.0) };
@@ -220,7 +262,8 @@ fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
 /// beside it each strip's rigidity and angle at the edge.
 ///
 /// # Errors
-/// [`Error::FitTooFew`] if a strip has too few points, [`Error::FitNoStrip`] if none of the law goes through them.
+/// [`Error::FitTooFew`] if a strip has too few points, [`Error::FitPoint`] if its weight does not bend it so, [`Error::FitNoStrip`] if none
+/// of the law goes through them.
 pub fn fit_hang(strips: &[(String, Hang)]) -> Result<(Estimate, Vec<[Estimate; 2]>), Error> {
     let each: Result<Vec<_>, _> = strips.iter().map(|(name, hang)| fit_one(hang, name)).collect();
     let each = each?;
@@ -237,48 +280,49 @@ pub fn fit_hang(strips: &[(String, Hang)]) -> Result<(Estimate, Vec<[Estimate; 2
 
 /// Intervals of a fitted curve of the moment.
 const INTERVALS: usize = 10;
+/// A mean moment against its curvature, or a fall behind its peak, that is no noise: as a share of the largest, and of the peak.
+const AGAINST: f64 = 0.05;
+const FALL: f64 = 0.1;
+
+/// A fitted curve of the moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentFit {
+    /// Moment per width over curvature, never falling.
+    pub curve: MomentCurve,
+    /// Scatter between specimens as a share of the moment; none from one specimen.
+    pub scatter: Option<f64>,
+    /// The largest curvature of each specimen (1/m).
+    pub reach: Vec<f64>,
+    /// What is to be known of the record of each specimen.
+    pub remarks: Vec<Vec<Remark>>,
+}
 
 /// The curve of the moment of bending tests: each specimen's points (curvature in 1/m, moment per width in N), to either side, loading and
-/// unloading; the mean of both sides and both ways, never falling. Beside it the scatter between specimens.
+/// unloading; the mean of both sides and both ways, never falling.
 ///
 /// # Errors
-/// [`Error::FitTooFew`] if a specimen has too few points, [`Error::FitNoStrip`] if its moment does not rise.
-pub fn fit_moments(
-    specimens: &[(String, Vec<[f64; 2]>)],
-) -> Result<(MomentCurve, Option<f64>), Error> {
+/// [`Error::FitTooFew`] if a specimen has too few points, [`Error::FitPoint`] if it shows what no specimen does, [`Error::FitNoStrip`] if its
+/// moment does not rise.
+pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, Error> {
     let mut curves: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut remarks = Vec::new();
     for (name, points) in specimens {
-        // M sign(κ): hysteresis, which is as far above as below, goes out in the mean
-        let mut folded: Vec<[f64; 2]> =
-            points.iter().map(|[k, m]| [k.abs(), m * k.signum()]).collect();
-        folded.retain(|[k, _]| *k > 0.0);
-        folded.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let Folded { points: folded, remarks: own } = folded(points)
+            .map_err(|(point, fault)| Error::FitPoint { what: name.clone(), point, fault })?;
         if folded.len() < 3 {
             let found = folded.len();
             return Err(Error::FitTooFew { what: name.clone(), found, wanted: 3 });
         }
         curves.push(folded);
+        remarks.push(own);
     }
     let last = |curve: &Vec<[f64; 2]>| curve.last().map_or(0.0, |point| point[0]);
-    let reach = curves.iter().map(last).fold(f64::INFINITY, f64::min);
+    let reaches: Vec<f64> = curves.iter().map(last).collect();
+    let reach = reaches.iter().copied().fold(f64::INFINITY, f64::min);
     if curves.is_empty() {
         return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
     }
-    // means of curvature and moment in each interval, one curve a specimen
-    let of = |curve: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
-        let mut means = vec![[0.0; 2]];
-        for n in 0..INTERVALS {
-            let bounds = [n, n + 1].map(|k| reach * k as f64 / INTERVALS as f64);
-            let inside: Vec<&[f64; 2]> =
-                curve.iter().filter(|p| p[0] > bounds[0] && p[0] <= bounds[1]).collect();
-            if !inside.is_empty() {
-                let count = inside.len() as f64;
-                means.push([0, 1].map(|c| inside.iter().map(|p| p[c]).sum::<f64>() / count));
-            }
-        }
-        means
-    };
-    let means: Vec<Vec<[f64; 2]>> = curves.iter().map(of).collect();
+    let means: Vec<Vec<[f64; 2]>> = curves.iter().map(|curve| in_intervals(curve, reach)).collect();
     let first = means.first().map(Vec::as_slice).unwrap_or_default();
     let rows: Vec<(f64, f64, Option<f64>)> = first[1..]
         .iter()
@@ -313,5 +357,66 @@ pub fn fit_moments(
         .map(|(_, mean, deviation)| Some((*deviation.as_ref()? / mean).powi(2)))
         .collect();
     let scatter = shares.map(|s| (s.iter().sum::<f64>() / s.len().max(1) as f64).sqrt());
-    Ok((curve, scatter))
+    Ok(MomentFit { curve, scatter, reach: reaches, remarks })
+}
+
+/// The points of a specimen folded to one side, its curvature ascending, and what is to be known of them.
+struct Folded {
+    points: Vec<[f64; 2]>,
+    remarks: Vec<Remark>,
+}
+
+/// Folds the points of a specimen to one side: of a single way forth the loading alone, of a loop all points up to the peak of its mean.
+fn folded(points: &[[f64; 2]]) -> Result<Folded, (usize, PointFault)> {
+    let range = points.iter().fold(0.0, |most: f64, point| most.max(point[0].abs()));
+    let one_way = points.windows(2).all(|pair| pair[1][0] >= pair[0][0] - NOISE * range)
+        && points.iter().all(|point| point[0] >= -NOISE * range);
+    let (test, mut remarks) = if one_way {
+        let whole = loading(points)?;
+        (&points[whole.points], whole.remarks)
+    } else {
+        (points, Vec::new())
+    };
+    // M sign(κ): hysteresis, which is as far above as below, goes out in the mean
+    let mut folded: Vec<[f64; 2]> = test.iter().map(|[k, m]| [k.abs(), m * k.signum()]).collect();
+    folded.retain(|[k, _]| *k > 0.0);
+    folded.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    if one_way {
+        return Ok(Folded { points: folded, remarks });
+    }
+    let means = in_intervals(&folded, range);
+    let largest = means.iter().map(|mean| mean[1]).fold(0.0, f64::max);
+    let mut peak = [0.0; 2];
+    for (n, [curvature, moment]) in means.iter().copied().enumerate().skip(1) {
+        // where no moment rises, the law itself says so
+        if largest > 0.0 && moment < -AGAINST * largest {
+            let [from, to] = [means[n - 1][0], curvature];
+            let against = |p: &[f64; 2]| p[0] * p[1] < 0.0 && (from..=to).contains(&p[0].abs());
+            return Err((points.iter().position(against).unwrap_or(0), PointFault::BelowZero));
+        }
+        if peak[1] - moment > FALL * peak[1] && peak[1] > 0.0 {
+            folded.retain(|point| point[0] <= peak[0]);
+            remarks.push(Remark::BeyondPeak { curvature: peak[0] });
+            break;
+        }
+        if moment > peak[1] {
+            peak = [curvature, moment];
+        }
+    }
+    Ok(Folded { points: folded, remarks })
+}
+
+/// Means of curvature and moment in each interval up to a curvature, from 0 on.
+fn in_intervals(points: &[[f64; 2]], reach: f64) -> Vec<[f64; 2]> {
+    let mut means = vec![[0.0; 2]];
+    for n in 0..INTERVALS {
+        let bounds = [n, n + 1].map(|k| reach * k as f64 / INTERVALS as f64);
+        let inside: Vec<&[f64; 2]> =
+            points.iter().filter(|p| p[0] > bounds[0] && p[0] <= bounds[1]).collect();
+        if !inside.is_empty() {
+            let count = inside.len() as f64;
+            means.push([0, 1].map(|c| inside.iter().map(|p| p[c]).sum::<f64>() / count));
+        }
+    }
+    means
 }

@@ -1,17 +1,19 @@
 //! Laws of a ply from tests of specimens, with their uncertainty.
 //!
 //! `shear` turns forces of a bias-extension or picture-frame test into shear force per length, `bending` overhangs, hanging
-//! strips and bending tests into rigidities and curves of the moment, `statistics` says how sure they are. Theory:
-//! `docs/theory/fit.md`.
+//! strips and bending tests into rigidities and curves of the moment. `record` finds the part of a machine's record that is the test,
+//! `statistics` says how sure the laws are. Theory: `docs/theory/fit.md`.
 
 mod bending;
+mod record;
 mod shear;
 mod statistics;
 #[cfg(test)]
 mod tests;
 
-pub use bending::{Hang, Overhang, fit_hang, fit_moments, rigidity_of_overhang};
-pub use shear::{BiasExtension, PictureFrame, ShearFit, ShearTest};
+pub use bending::{Hang, MomentFit, Overhang, fit_hang, fit_moments, rigidity_of_overhang};
+pub use record::{PointFault, Remark};
+pub use shear::{BiasExtension, PictureFrame, ShearFit, ShearSpecimen, ShearTest, fit_shear};
 pub use statistics::{Estimate, Sure};
 
 use crate::Error;

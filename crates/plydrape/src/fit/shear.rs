@@ -5,7 +5,8 @@
 //! formula here is theirs for the bias extension.
 
 use super::positive;
-use super::statistics::{between, mean_and_deviation, rising};
+use super::record::{Remark, loading, peak_before_end};
+use super::statistics::{between, line, mean_and_deviation, rising};
 use crate::Error;
 use crate::material::ShearCurve;
 use nalgebra::{DMatrix, DVector};
@@ -47,6 +48,17 @@ pub enum ShearTest {
     Frame(PictureFrame),
 }
 
+/// A specimen of a shear test.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShearSpecimen {
+    /// Its name in errors.
+    pub name: String,
+    /// How it was tested, with its own measures.
+    pub test: ShearTest,
+    /// Its record in the order of time: displacement (m) and force (N).
+    pub points: Vec<[f64; 2]>,
+}
+
 /// A fitted shear law.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShearFit {
@@ -62,8 +74,10 @@ pub struct ShearFit {
     pub polynomial: [[f64; 2]; POWERS],
     /// Where the curve turns up (rad): the corner of the best two straight lines; none where it does not.
     pub locking: Option<f64>,
-    /// Number of specimens.
-    pub specimens: usize,
+    /// The largest shear angle of each specimen (rad).
+    pub reach: Vec<f64>,
+    /// What is to be known of the record of each specimen.
+    pub remarks: Vec<Vec<Remark>>,
 }
 
 impl ShearTest {
@@ -112,100 +126,166 @@ impl ShearTest {
         (cosine.abs() < 1.0).then(|| FRAC_PI_2 - 2.0 * cosine.acos())
     }
 
-    /// The curve τ(γ) of one specimen's points (displacement in m, force in N): angles (rad) ascending from 0, forces (N/m).
+    /// Largest displacement (m), at which a trellis is folded flat.
+    fn largest(&self) -> f64 {
+        match self {
+            ShearTest::Bias(BiasExtension { width, length }) => (SQRT_2 - 1.0) * (length - width),
+            ShearTest::Frame(PictureFrame { side, .. }) => (2.0 - SQRT_2) * side,
+        }
+    }
+
+    /// Shear force per length τ (N/m) at a shear angle γ (rad) and a force of the machine (N), after the points before it.
+    fn tau(&self, angle: f64, force: f64, [angles, forces]: &[Vec<f64>; 2]) -> f64 {
+        match self {
+            ShearTest::Frame(PictureFrame { side, fabric }) => {
+                let half = 0.5 * (FRAC_PI_2 - angle);
+                force * half.sin() * side / (fabric * fabric)
+            }
+            ShearTest::Bias(BiasExtension { width, length }) => {
+                // the corners shear by half the angle; their law is known up to there, or all but so at the first points
+                let ratio = length / width - 1.0;
+                let pulled = force * ratio * ((0.5 * angle).cos() - (0.5 * angle).sin());
+                let middle = 2.0 * length - 3.0 * width;
+                let last = angles[angles.len() - 1];
+                if angles.len() > 1 && 0.5 * angle <= last {
+                    (pulled - width * between(angles, forces, 0.5 * angle)) / middle
+                } else {
+                    // τ in proportion to γ from 0: τ(γ/2) = τ(γ)/2
+                    pulled / (middle + 0.5 * width)
+                }
+            }
+        }
+    }
+}
+
+impl ShearSpecimen {
+    /// The curve τ(γ) of the loading: angles (rad) ascending from 0, forces (N/m); and what is to be known of the record.
     ///
     /// # Errors
-    /// Those of [`Self::check`], and [`Error::FitTooFew`] if fewer than three points have an angle above zero.
-    pub fn curve(&self, points: &[[f64; 2]]) -> Result<[Vec<f64>; 2], Error> {
-        self.check()?;
+    /// Those of [`ShearTest::check`]; [`Error::FitPoint`] if the record shows what no specimen does; [`Error::FitReach`] if fewer than
+    /// three points of it have a shear angle above zero.
+    pub fn curve(&self) -> Result<([Vec<f64>; 2], Vec<Remark>), Error> {
+        self.test.check()?;
+        let reach = || {
+            let way = |fold: fn(f64, f64) -> f64, from: f64| {
+                self.points.iter().map(|point| point[0]).fold(from, fold)
+            };
+            Error::FitReach {
+                what: self.name.clone(),
+                found: [way(f64::min, f64::INFINITY), way(f64::max, f64::NEG_INFINITY)],
+                largest: self.test.largest(),
+            }
+        };
+        if self.points.len() < 3 {
+            let (what, found) = (self.name.clone(), self.points.len());
+            return Err(Error::FitTooFew { what, found, wanted: 3 });
+        }
+        let shears = |displacement: f64| {
+            self.test.angle(displacement).is_some_and(|angle| angle > 0.0 && angle <= LARGEST)
+        };
+        // a record of another specimen, or from another zero, is none of this one, whatever its forces
+        if self.points.iter().filter(|point| shears(point[0])).count() < 3 {
+            return Err(reach());
+        }
+        let whole = loading(&self.points).map_err(|(point, fault)| Error::FitPoint {
+            what: self.name.clone(),
+            point,
+            fault,
+        })?;
+        let (points, mut remarks) = (&self.points[whole.points.clone()], whole.remarks);
         let mut known: Vec<[f64; 2]> = points
             .iter()
-            .filter_map(|[displacement, force]| Some([self.angle(*displacement)?, *force]))
+            .filter_map(|[displacement, force]| Some([self.test.angle(*displacement)?, *force]))
             .filter(|[angle, _]| *angle > 0.0 && *angle <= LARGEST)
             .collect();
+        let beyond = |point: &[f64; 2]| point[0] > 0.0 && !shears(point[0]);
+        if let (Some(first), Some(last)) =
+            (points.iter().position(beyond), points.iter().rposition(beyond))
+        {
+            remarks.push(Remark::BeyondTrellis { points: [first, last] });
+        }
         known.sort_by(|a, b| a[0].total_cmp(&b[0]));
         known.dedup_by(|b, a| b[0] - a[0] < 1e-12);
         if known.len() < 3 {
-            let what = "the test, between no shear and 65 deg,".to_string();
+            let what = format!("the loading in {}", self.name);
             return Err(Error::FitTooFew { what, found: known.len(), wanted: 3 });
         }
-        let (mut angles, mut forces) = (vec![0.0], vec![0.0]);
+        let mut curve = [vec![0.0], vec![0.0]];
         for [angle, force] in known {
-            let tau = match self {
-                ShearTest::Frame(PictureFrame { side, fabric }) => {
-                    let half = 0.5 * (FRAC_PI_2 - angle);
-                    force * half.sin() * side / (fabric * fabric)
-                }
-                ShearTest::Bias(BiasExtension { width, length }) => {
-                    // the corners shear by half the angle; their law is known up to there, or all but so at the first points
-                    let ratio = length / width - 1.0;
-                    let pulled = force * ratio * ((0.5 * angle).cos() - (0.5 * angle).sin());
-                    let middle = 2.0 * length - 3.0 * width;
-                    let last = angles[angles.len() - 1];
-                    if angles.len() > 1 && 0.5 * angle <= last {
-                        (pulled - width * between(&angles, &forces, 0.5 * angle)) / middle
-                    } else {
-                        // τ in proportion to γ from 0: τ(γ/2) = τ(γ)/2
-                        pulled / (middle + 0.5 * width)
-                    }
-                }
-            };
-            angles.push(angle);
-            forces.push(tau);
+            let tau = self.test.tau(angle, force, &curve);
+            curve[0].push(angle);
+            curve[1].push(tau);
         }
-        Ok([angles, forces])
+        // a force that stays as the strip gets longer is a shear force that falls: the strip slips
+        if let Some(peak) = peak_before_end(&curve[1]) {
+            let last = curve[0][peak];
+            let behind = |point: &[f64; 2]| self.test.angle(point[0]).is_none_or(|own| own > last);
+            let points = [points.iter().position(behind), points.iter().rposition(behind)];
+            if let [Some(first), Some(end)] = points {
+                remarks.push(Remark::BeyondShear { points: [first, end], angle: last });
+            }
+            curve.iter_mut().for_each(|values| values.truncate(peak + 1));
+        }
+        Ok((curve, remarks))
     }
+}
 
-    /// The law of all specimens.
-    ///
-    /// # Errors
-    /// Those of [`ShearTest::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
-    pub fn fit(&self, specimens: &[Vec<[f64; 2]>]) -> Result<ShearFit, Error> {
-        let curves: Result<Vec<_>, _> = specimens.iter().map(|points| self.curve(points)).collect();
-        let curves = curves?;
-        let reach = |[angles, _]: &[Vec<f64>; 2]| angles.last().copied().unwrap_or(0.0);
-        let shared = curves.iter().map(reach).fold(f64::INFINITY, f64::min);
-        let whole = (shared / SPACING + 1e-9).floor() as usize;
-        if whole < 2 || curves.is_empty() {
-            let what = "the shear that all specimens reach, in points every 5 deg,".to_string();
-            return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
-        }
-        let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();
-        if shared > angle[whole] + 0.2 * SPACING {
-            angle.push(shared);
-        }
-        let at = |n: usize| -> Vec<f64> {
-            curves.iter().map(|[x, y]| smoothed(x, y, angle[n])).collect()
-        };
-        let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&at(n))).collect();
-        let mut means = vec![0.0];
-        means.extend(rows.iter().map(|(mean, _)| mean.max(0.0)));
-        let force = rising(&means);
-        let deviation: Option<Vec<f64>> = rows.iter().map(|(_, deviation)| *deviation).collect();
-        let scatter = deviation.as_ref().map(|deviation| {
-            let shares = deviation.iter().zip(&force[1..]).filter(|(_, force)| **force > 0.0);
-            let squares: Vec<f64> = shares.map(|(d, force)| (d / force).powi(2)).collect();
-            (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
-        });
-        let deviation = deviation.map(|mut deviation| {
-            deviation.insert(0, 0.0);
-            deviation
-        });
-        let points: Vec<[f64; 2]> = curves
-            .iter()
-            .flat_map(|[x, y]| x.iter().zip(y).skip(1).map(|(x, y)| [*x, *y]))
-            .filter(|[x, _]| *x <= shared)
-            .collect();
-        Ok(ShearFit {
-            polynomial: polynomial(&points),
-            locking: corner(&angle, &force),
-            angle,
-            force,
-            deviation,
-            scatter,
-            specimens: curves.len(),
-        })
+/// The shear law of all specimens, each with its own measures.
+///
+/// # Errors
+/// Those of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
+pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
+    let found: Result<Vec<_>, _> = specimens.iter().map(ShearSpecimen::curve).collect();
+    let (curves, remarks): (Vec<[Vec<f64>; 2]>, Vec<_>) = found?.into_iter().unzip();
+    let reach: Vec<f64> =
+        curves.iter().map(|[angles, _]| angles.last().copied().unwrap_or(0.0)).collect();
+    let shared = reach.iter().copied().fold(f64::INFINITY, f64::min);
+    let whole = (shared / SPACING + 1e-9).floor() as usize;
+    if whole < 2 || curves.is_empty() {
+        let shortest = specimens.iter().zip(&reach).find(|(_, own)| **own == shared);
+        let name = shortest.map_or("", |(specimen, _)| &specimen.name);
+        let what = format!(
+            "the shear that all specimens reach, up to {:.1} deg of {name}, in points every 5 deg,",
+            shared.to_degrees()
+        );
+        return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
     }
+    let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();
+    if shared > angle[whole] + 0.2 * SPACING {
+        angle.push(shared);
+    }
+    let at =
+        |n: usize| -> Vec<f64> { curves.iter().map(|[x, y]| smoothed(x, y, angle[n])).collect() };
+    let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&at(n))).collect();
+    let mut means = vec![0.0];
+    // below zero by noise alone: more is refused before
+    means.extend(rows.iter().map(|(mean, _)| mean.max(0.0)));
+    let force = rising(&means);
+    let deviation: Option<Vec<f64>> = rows.iter().map(|(_, deviation)| *deviation).collect();
+    let scatter = deviation.as_ref().map(|deviation| {
+        let shares = deviation.iter().zip(&force[1..]).filter(|(_, force)| **force > 0.0);
+        let squares: Vec<f64> = shares.map(|(d, force)| (d / force).powi(2)).collect();
+        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+    });
+    let deviation = deviation.map(|mut deviation| {
+        deviation.insert(0, 0.0);
+        deviation
+    });
+    let points: Vec<[f64; 2]> = curves
+        .iter()
+        .flat_map(|[x, y]| x.iter().zip(y).skip(1).map(|(x, y)| [*x, *y]))
+        .filter(|[x, _]| *x <= shared)
+        .collect();
+    Ok(ShearFit {
+        polynomial: polynomial(&points),
+        locking: corner(&angle, &force),
+        angle,
+        force,
+        deviation,
+        scatter,
+        reach,
+        remarks,
+    })
 }
 
 impl ShearFit {
@@ -229,11 +309,7 @@ fn smoothed(x: &[f64], y: &[f64], at: f64) -> f64 {
     if near.len() < 3 || !both {
         return between(x, y, at);
     }
-    let count = near.len() as f64;
-    let sum = |f: fn(&[f64; 2]) -> f64| near.iter().map(f).sum::<f64>();
-    let (x, y) = (sum(|p| p[0]) / count, sum(|p| p[1]) / count);
-    let (xx, xy) = (sum(|p| p[0] * p[0]) / count - x * x, sum(|p| p[0] * p[1]) / count - x * y);
-    if xx > 0.0 { y - xy / xx * x } else { y }
+    line(&near).map_or_else(|| near[0][1], |(value, _)| value)
 }
 
 /// Coefficients of γ, γ², γ³ by least squares, and their standard errors.

@@ -103,3 +103,12 @@ pub(super) fn between(x: &[f64], y: &[f64], at: f64) -> f64 {
     }
     y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1])
 }
+
+/// The straight line nearest to points by least squares: its value at 0 and its slope; none where they have one x.
+pub(super) fn line(points: &[[f64; 2]]) -> Option<(f64, f64)> {
+    let count = points.len() as f64;
+    let sum = |f: fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();
+    let (x, y) = (sum(|p| p[0]) / count, sum(|p| p[1]) / count);
+    let (xx, xy) = (sum(|p| p[0] * p[0]) / count - x * x, sum(|p| p[0] * p[1]) / count - x * y);
+    (xx > 0.0).then(|| (y - xy / xx * x, xy / xx))
+}

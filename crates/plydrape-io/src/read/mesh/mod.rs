@@ -8,7 +8,7 @@ mod stl;
 mod text;
 
 use crate::Error;
-use crate::store::{input, size};
+use crate::store::{encoding, input, size};
 use plydrape::LayupError;
 use plydrape::mold::Pose;
 use plydrape::mold::mesh::{Mesh, MeshReport};
@@ -53,6 +53,7 @@ pub fn parse(
     tolerance: f64,
 ) -> Result<(Mesh, MeshReport), Error> {
     let no_mold = |fault: LayupError| Error::file(file, format!("{file}: {fault}"), fault.remedy());
+    let bytes = &*encoding::unicode(bytes);
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
     if bytes.trim_ascii().is_empty() && !extension.is_empty() {
         let others = ": the file is empty".to_owned();

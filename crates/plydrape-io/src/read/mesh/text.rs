@@ -33,6 +33,11 @@ impl<'a> Lines<'a> {
             let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
             refused(file, line, "bytes that are no text", "save the file as plain text (UTF-8)")
         })?;
+        if let Some(at) = text.find('\0') {
+            let line = text[..at].matches('\n').count() + 1;
+            let help = "remove the NUL bytes, or save the file anew as plain text (UTF-8)";
+            return Err(refused(file, line, "a NUL byte, which no text has", help));
+        }
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Ok(Lines { file, rest: text.lines(), number: 0 })
     }

@@ -18,7 +18,7 @@ mod transform;
 
 use crate::Error;
 use crate::error::{self, Fault};
-use crate::store::{input, size};
+use crate::store::{encoding, input, size};
 use ::dxf::{Drawing, DxfError, enums::Units};
 use chain::{Chained, Closed, Reach};
 use entity::{Curve, Curves, Placed};
@@ -113,7 +113,7 @@ pub fn read_dxf(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Er
     let size = bytes.len() as f64;
     size::check(MEMORY * size, || format!("a drawing of {}", error::bytes(size)))
         .map_err(|error| error.of_file(file))?;
-    drawn(file, bytes, options)
+    drawn(file, &encoding::unicode(bytes), options)
         .map_err(|Fault { message, help }| Error::file(file, format!("{file}: {message}"), help))
 }
 

@@ -1,10 +1,10 @@
 //! Heights on a grid from a CSV file, one node a row in any order.
 
 use crate::Error;
-use crate::scene::csv::Csv;
 use crate::scene::located::Located;
 use crate::scene::places::{X, Y, Z, csv_file, point};
 use crate::scene::source::Document;
+use crate::scene::table::Table;
 use plydrape::LayupError;
 use plydrape::mold::HeightGrid;
 use std::ops::Range;
@@ -21,7 +21,7 @@ pub(super) fn heights(
 ) -> Result<HeightGrid, Error> {
     let document = csv_file(&file.value, &file.span, scene, base)?;
     let columns = [X, Y, Z];
-    let csv = Csv::new(&document, &columns)?;
+    let csv = Table::new(&document, &columns, &[])?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
     for row in csv.rows() {
         points.push(point(&row, [0, 1, 2])?);
@@ -29,13 +29,13 @@ pub(super) fn heights(
     }
     if points.is_empty() {
         return Err(document.error(
-            csv.header.clone(),
+            csv.header(),
             "there is no row below the header",
             "give every node of the grid one row with x, y and z",
         ));
     }
     let axes = [0, 1].map(|n| axis(&points, n));
-    let z = in_order(&axes, &points, &spans, &document, &csv.header)?;
+    let z = in_order(&axes, &points, &spans, &document, &csv.header())?;
     let [x, y] = axes;
     HeightGrid::new(x, y, z).map_err(|error| {
         let help = match error {
@@ -44,7 +44,7 @@ pub(super) fn heights(
             }
             _ => "give every node of the grid one row with x, y and z",
         };
-        document.error(csv.header.clone(), error.to_string(), help)
+        document.error(csv.header(), error.to_string(), help)
     })
 }
 
