@@ -117,7 +117,7 @@ impl MeshReport {
                         "the ideal drape ends there or runs into it; fill it in the file of the mold"
                     }
                     (DetailKind::Pit, false) => {
-                        "no ply follows what is so narrow, but the ideal drape does; fill it in the file of the mold, or raise `spanned` in [mold]"
+                        "no ply follows what is so narrow, but the ideal drape does; fill it in the file of the mold"
                     }
                 };
                 Some(format!("the mold has {}{more}: {what}", first.join(", ")))
