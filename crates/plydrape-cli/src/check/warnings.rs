@@ -2,6 +2,7 @@
 
 use super::way::longest;
 use crate::numbers::{millimetres, short};
+use plydrape::bodies::Obstacle;
 use plydrape::clearance;
 use plydrape::layup::{Friction, Model};
 use plydrape::material::Section;
@@ -43,7 +44,7 @@ pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
     // said once
     let seen: &[Name] = if below.is_empty() { &[] } else { &[Name::OffMold] };
     let costly = overhang(scene).into_iter().chain(fine_mesh(scene));
-    let of_cell = standing_in_mold(scene);
+    let of_cell = standing_in_mold(scene).into_iter().chain(around_start(scene));
     let unplanned = unplanned(scene, seen);
     hardly_meant.chain(below).chain(of_cell).chain(costly).chain(unplanned).collect()
 }
@@ -104,6 +105,25 @@ fn standing_in_mold(scene: &SceneFile) -> Vec<String> {
         )
     };
     clearance::standing_in_mold(&scene.layup).into_iter().map(of).collect()
+}
+
+/// Obstacles in which grippers start.
+fn around_start(scene: &SceneFile) -> Vec<String> {
+    let start = scene.layup.motion.positions.first().map_or(&[][..], Vec::as_slice);
+    let of = |obstacle: &Obstacle| {
+        let [low, high] = obstacle.shape.bounds();
+        let inside = |place: &[f64; 3]| {
+            let own = obstacle.pose.local(*place);
+            (0..3).all(|n| low[n] < own[n] && own[n] < high[n])
+        };
+        let first = start.iter().position(inside)?;
+        Some(format!(
+            "gripper {} starts inside obstacle {}; move the start or the obstacle",
+            gripper_name(scene.layup.ply.id(first)),
+            obstacle.name
+        ))
+    };
+    scene.layup.bodies.obstacles().iter().filter_map(of).collect()
 }
 
 /// Limits that no plan can keep, but for those that were `seen`, and what a plan is refused for.

@@ -158,6 +158,10 @@ fn what_a_plan_will_meet_is_warned_of() {
         let left = warned(&scene.replace(cause, without));
         assert!(!left.contains(words), "{words}: {left}");
     }
+    let lower = warned(&scene.replace("[0, 0, \"200 mm\"]", "[0, 0, \"60 mm\"]"));
+    for (warnings, inside) in [(&all, false), (&lower, true)] {
+        assert_eq!(warnings.contains("starts inside obstacle lamp"), inside, "{warnings}");
+    }
 }
 
 /// The line of a table `[release]` says the order and the dwell; without the table there is none.
