@@ -1,8 +1,8 @@
 //! Why there is no law, sheet, drape, plan or corrected plan.
 
 use crate::LayupError;
-use crate::fit::PointFault;
 use crate::ply::{GripperId, gripper_name};
+use std::fmt;
 
 /// Why a test gives no law, a scene cannot be draped or planned, or a plan cannot be corrected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -392,4 +392,73 @@ fn stiffness(lateral: Option<f64>, axial: Option<f64>) -> String {
     let along = |(k, axis): (Option<f64>, &str)| Some(format!("{} N/mm {axis}", k? / 1e3));
     let axes = [(lateral, "along the ply"), (axial, "across it")];
     axes.into_iter().filter_map(along).collect::<Vec<_>>().join(", ")
+}
+
+/// What no specimen does, at a point of a test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PointFault {
+    /// The displacement or curvature is below zero.
+    Backwards,
+    /// The force or moment is below zero, and more than that by noise.
+    BelowZero,
+    /// A force or moment where nothing is deformed yet.
+    NotZero,
+    /// The displacement or curvature goes back and forth: another cycle, or another specimen.
+    Returns,
+    /// The displacement or curvature falls from the first point on.
+    Falls,
+    /// The force or moment falls from a peak before which there are fewer than three points.
+    FallsEarly,
+    /// A point of a hanging strip is behind its edge.
+    BehindEdge,
+    /// A strip bends upwards.
+    Upwards,
+}
+
+impl fmt::Display for PointFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            PointFault::Backwards => "the displacement is below zero",
+            PointFault::BelowZero => "the specimen pushes back: the load is below zero",
+            PointFault::NotZero => "there is a load where nothing is deformed yet",
+            PointFault::Returns => "the record goes back and begins to rise again",
+            PointFault::Falls => "the displacement falls from the first point on",
+            PointFault::FallsEarly => {
+                "the load falls here from a peak, and fewer than three points are before it"
+            }
+            PointFault::BehindEdge => "a point of the strip lies behind the edge",
+            PointFault::Upwards => "the strip bends upwards",
+        })
+    }
+}
+
+impl PointFault {
+    /// What would be right.
+    #[must_use]
+    pub fn remedy(self) -> &'static str {
+        match self {
+            PointFault::Backwards => {
+                "let the displacement begin at zero where the loading begins, and rise from there; see whether its sign is right"
+            }
+            PointFault::BelowZero => {
+                "the sign or the zero of the load is wrong: change the sign of the column, or subtract what the load cell shows without a specimen"
+            }
+            PointFault::NotZero => {
+                "the zero of the load is wrong: subtract what the load cell shows without a specimen"
+            }
+            PointFault::Returns => {
+                "give each specimen a file of its own, and of several cycles the first loading"
+            }
+            PointFault::Falls => {
+                "give the rows of the loading in the order of time; see whether the sign of the displacement is right"
+            }
+            PointFault::FallsEarly => {
+                "remove the rows that are no part of the loading, such as a jump of the load cell at the start"
+            }
+            PointFault::BehindEdge => "x goes away from the edge: change the sign of the column",
+            PointFault::Upwards => {
+                "z goes up, so that a strip that hangs has points below zero: change the sign of the column"
+            }
+        }
+    }
 }

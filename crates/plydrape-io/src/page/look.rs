@@ -152,7 +152,7 @@ mod tests {
 
     /// A ply whose warp runs at 30° in its drawing, and heads at 100° on a plane and at −20° on the table.
     const SCENE: &str = "[ply]\nsize = [0.36, 0.26]\nwarp = \"30 deg\"\ngrippers = [4, 3]\ncell = [0.1, 0.1]\n\
-        array = { margin = 0.02, holds = [\"####\", \"###.\", \"####\"] }\nmaterial = \"krogh2018\"\n\
+        array = { margin = 0.01, holds = [\"####\", \"###.\", \"####\"] }\nmaterial = \"krogh2018\"\n\
         [mold]\nkind = \"plane\"\n[grippers]\npad_radius = 0.015\nspacing = [0.098, 0.098]\nheight = 0.05\n\
         middle = [1.0, 0.5]\ndirection = \"-20 deg\"\n[target]\norigin = [0.2, 0.1]\ndirection = \"100 deg\"\n";
 

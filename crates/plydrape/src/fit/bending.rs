@@ -1,10 +1,11 @@
 //! Rigidities and curves of the moment from strips that hang over an edge, and from bending tests.
 
 use super::positive;
-use super::record::{PointFault, Remark, loading};
+use super::record::{Remark, loading};
 use super::statistics::{Estimate, Sure, between, mean_and_deviation, rising};
 use crate::Error;
 use crate::elastica::{Bending, Cantilever, Shape};
+use crate::error::PointFault;
 use crate::material::MomentCurve;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned, Vector2};

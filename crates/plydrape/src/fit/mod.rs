@@ -11,8 +11,9 @@ mod statistics;
 #[cfg(test)]
 mod tests;
 
+pub use crate::error::PointFault;
 pub use bending::{Hang, MomentFit, Overhang, fit_hang, fit_moments, rigidity_of_overhang};
-pub use record::{PointFault, Remark};
+pub use record::Remark;
 pub use shear::{BiasExtension, PictureFrame, ShearFit, ShearSpecimen, ShearTest, fit_shear};
 pub use statistics::{Estimate, Sure};
 

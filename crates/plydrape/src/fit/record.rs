@@ -4,7 +4,7 @@
 //! of a load cell that nobody set. A law comes from the loading alone. What ends it is said, and what no specimen does is refused.
 
 use super::statistics::line;
-use std::fmt;
+use crate::error::PointFault;
 use std::ops::Range;
 
 /// A way back that is noise, as a share of the range of a record.
@@ -27,75 +27,6 @@ const START: (usize, f64) = (3, 0.02);
 const ZERO: [f64; 2] = [0.1, 0.05];
 /// A first displacement that is far from zero: in distances of the points, and as a share of the last one.
 const LATE: [f64; 2] = [3.0, 0.1];
-
-/// What no specimen does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PointFault {
-    /// The displacement or curvature is below zero.
-    Backwards,
-    /// The force or moment is below zero, and more than that by noise.
-    BelowZero,
-    /// A force or moment where nothing is deformed yet.
-    NotZero,
-    /// The displacement or curvature goes back and forth: another cycle, or another specimen.
-    Returns,
-    /// The displacement or curvature falls from the first point on.
-    Falls,
-    /// The force or moment falls from a peak before which there are fewer than three points.
-    FallsEarly,
-    /// A point of a hanging strip is behind its edge.
-    BehindEdge,
-    /// A strip bends upwards.
-    Upwards,
-}
-
-impl fmt::Display for PointFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            PointFault::Backwards => "the displacement is below zero",
-            PointFault::BelowZero => "the specimen pushes back: the load is below zero",
-            PointFault::NotZero => "there is a load where nothing is deformed yet",
-            PointFault::Returns => "the record goes back and begins to rise again",
-            PointFault::Falls => "the displacement falls from the first point on",
-            PointFault::FallsEarly => {
-                "the load falls here from a peak, and fewer than three points are before it"
-            }
-            PointFault::BehindEdge => "a point of the strip lies behind the edge",
-            PointFault::Upwards => "the strip bends upwards",
-        })
-    }
-}
-
-impl PointFault {
-    /// What would be right.
-    #[must_use]
-    pub fn remedy(self) -> &'static str {
-        match self {
-            PointFault::Backwards => {
-                "let the displacement begin at zero where the loading begins, and rise from there; see whether its sign is right"
-            }
-            PointFault::BelowZero => {
-                "the sign or the zero of the load is wrong: change the sign of the column, or subtract what the load cell shows without a specimen"
-            }
-            PointFault::NotZero => {
-                "the zero of the load is wrong: subtract what the load cell shows without a specimen"
-            }
-            PointFault::Returns => {
-                "give each specimen a file of its own, and of several cycles the first loading"
-            }
-            PointFault::Falls => {
-                "give the rows of the loading in the order of time; see whether the sign of the displacement is right"
-            }
-            PointFault::FallsEarly => {
-                "remove the rows that are no part of the loading, such as a jump of the load cell at the start"
-            }
-            PointFault::BehindEdge => "x goes away from the edge: change the sign of the column",
-            PointFault::Upwards => {
-                "z goes up, so that a strip that hangs has points below zero: change the sign of the column"
-            }
-        }
-    }
-}
 
 /// What is to be known of a record beside its law.
 #[derive(Debug, Clone, Copy, PartialEq)]

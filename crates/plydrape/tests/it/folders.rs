@@ -27,7 +27,7 @@ const CRATES: [(&str, &str); 8] = [
     ),
     (
         "plydrape-py",
-        "arrays error json quantity mold net table ply scene model beside limits sample sheet surface result work drape measure \
+        "arrays error json quantity work mold net table ply scene model beside limits sample sheet surface result drape measure \
          stations jacobian equilibrium solver span outcome batch pickle fit",
     ),
     ("plydrape-live", "answer boundary"),

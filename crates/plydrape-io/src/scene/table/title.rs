@@ -24,10 +24,7 @@ impl Column {
 pub(in crate::scene) fn title(text: &str) -> (String, Option<&str>) {
     let text = text.trim();
     let known = |unit: &&str| units::unit(unit).is_ok() && !unit.trim().is_empty();
-    let brackets = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
-        let (name, unit, rest) = last_group(text, [open, close])?;
-        Some((format!("{name} {rest}"), unit))
-    });
+    let brackets = last_group(text).map(|(name, unit, rest)| (format!("{name} {rest}"), unit));
     let after = |mark: &str| {
         let (name, unit) = text.split_once(mark)?;
         Some((name.to_owned(), unit))
@@ -87,20 +84,24 @@ fn plain(c: char) -> char {
     }
 }
 
-/// What stands before, in and behind the last brackets that are in no others, as `N/(m rad)` is in `Shear (N/(m rad))`.
-fn last_group(text: &str, [open, close]: [char; 2]) -> Option<(&str, &str, &str)> {
+/// What stands before, in and behind the last brackets that are in no others, as `N/(m rad)` is in `Shear [N/(m rad)]`.
+fn last_group(text: &str) -> Option<(&str, &str, &str)> {
     let (mut depth, mut start, mut found) = (0_usize, 0, None);
     for (at, c) in text.char_indices() {
-        if c == open {
-            if depth == 0 {
-                start = at;
+        match c {
+            '(' | '[' => {
+                if depth == 0 {
+                    start = at;
+                }
+                depth += 1;
             }
-            depth += 1;
-        } else if c == close && depth > 0 {
-            depth -= 1;
-            if depth == 0 {
-                found = Some((&text[..start], &text[start + 1..at], &text[at + 1..]));
+            ')' | ']' if depth > 0 => {
+                depth -= 1;
+                if depth == 0 {
+                    found = Some((&text[..start], &text[start + 1..at], &text[at + 1..]));
+                }
             }
+            _ => {}
         }
     }
     found
@@ -109,11 +110,10 @@ fn last_group(text: &str, [open, close]: [char; 2]) -> Option<(&str, &str, &str)
 /// A unit without brackets around it.
 pub(super) fn bare(text: &str) -> &str {
     let text = text.trim();
-    let within = |brackets: [char; 2]| match last_group(text, brackets) {
-        Some(("", inner, "")) => Some(inner),
-        _ => None,
-    };
-    within(['(', ')']).or_else(|| within(['[', ']'])).map_or(text, bare)
+    match last_group(text) {
+        Some(("", inner, "")) => bare(inner),
+        _ => text,
+    }
 }
 
 #[cfg(test)]
