@@ -67,16 +67,20 @@ fn overhang(scene: &SceneFile) -> Option<String> {
     })
 }
 
-/// How far the ply reaches beyond its cups (m): the distance of the corner of its outline that is farthest from a cup, or its overhang.
+/// How far the ply reaches beyond its cups (m): the way along the rows or the columns of cups from the corner of its outline that is
+/// farthest from a cup, or its overhang.
 fn reach_beyond_cups(ply: &Ply, overhang: f64) -> f64 {
     let Some(cut) = &ply.cut else { return overhang };
     let cups: Vec<[f64; 2]> = (0..ply.grippers()).map(|n| ply.place(n)).collect();
+    let (sin, cos) = cut.turn.sin_cos();
     let to_cups = |p: &[f64; 2]| {
-        let ways = cups.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1]));
+        let ways = cups.iter().map(|q| {
+            let [u, v] = [p[0] - q[0], p[1] - q[1]];
+            (cos * u + sin * v).abs().max((cos * v - sin * u).abs())
+        });
         ways.fold(f64::INFINITY, f64::min)
     };
-    // along a side, not across a corner
-    cut.outline.boundary().iter().map(to_cups).fold(0.0, f64::max) / std::f64::consts::SQRT_2
+    cut.outline.boundary().iter().map(to_cups).fold(0.0, f64::max)
 }
 
 /// Rows of cups across the yarns that make many lines of nodes.
@@ -97,20 +101,20 @@ fn fine_mesh(scene: &SceneFile) -> Option<String> {
 /// Obstacles that stand in the mold.
 fn standing_in_mold(scene: &SceneFile) -> Vec<String> {
     let obstacles = scene.layup.bodies.obstacles();
-    let of = |(n, depth): (usize, f64)| {
+    let sentence = |(n, depth): (usize, f64)| {
         format!(
             "obstacle {} stands {} mm deep in the mold; see whether its place is right, or leave it out where the mold is",
             obstacles[n].name,
             millimetres(rounded(depth))
         )
     };
-    clearance::standing_in_mold(&scene.layup).into_iter().map(of).collect()
+    clearance::standing_in_mold(&scene.layup).into_iter().map(sentence).collect()
 }
 
 /// Obstacles in which grippers start.
 fn around_start(scene: &SceneFile) -> Vec<String> {
     let start = scene.layup.motion.positions.first().map_or(&[][..], Vec::as_slice);
-    let of = |obstacle: &Obstacle| {
+    let sentence = |obstacle: &Obstacle| {
         let [low, high] = obstacle.shape.bounds();
         let inside = |place: &[f64; 3]| {
             let own = obstacle.pose.local(*place);
@@ -123,7 +127,7 @@ fn around_start(scene: &SceneFile) -> Vec<String> {
             obstacle.name
         ))
     };
-    scene.layup.bodies.obstacles().iter().filter_map(of).collect()
+    scene.layup.bodies.obstacles().iter().filter_map(sentence).collect()
 }
 
 /// Limits that no plan can keep, but for those that were `seen`, and what a plan is refused for.

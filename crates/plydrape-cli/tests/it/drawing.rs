@@ -170,5 +170,10 @@ fn a_piece_that_chooses_nothing_is_refused_at_its_place() {
     ] {
         let said = refused(&check(keys, &dxf));
         assert!(said.contains(says), "{keys}: {said}");
+        // in the column in which the value of `piece` begins
+        assert!(said.contains(":9]"), "{keys}: {said}");
     }
+    // a drawing that is broken whatever is chosen is refused where it is named
+    let said = refused(&check("outline = \"ply.dxf\"\npiece = { label = \"A\" }", "no drawing"));
+    assert!(said.contains(":11]"), "{said}");
 }

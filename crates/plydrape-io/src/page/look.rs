@@ -51,7 +51,7 @@ pub(super) fn look(scene: &SceneFile) -> Look {
     let Layup { ply, mold, target, motion, .. } = &scene.layup;
     let start = motion.positions.first().map_or(&[][..], Vec::as_slice);
     let net = target.as_ref().and_then(|target| target.drape.as_deref());
-    let on_table = Plan::through(ply, start);
+    let on_table = OnTable::through(ply, start);
     let on_mold = net.zip(mold.as_ref());
     let place = |uv| on_mold.and_then(|(net, mold)| net.place_or_node(mold, uv));
     let outline = on_mold.and_then(|(net, mold)| net.boundary(mold)).map(|boundary| {
@@ -62,7 +62,8 @@ pub(super) fn look(scene: &SceneFile) -> Look {
         };
         boundary.lines.iter().map(line).collect()
     });
-    let arrows = [arrow(ply, |uv| on_table.as_ref().map(|plan| plan.place(uv))), arrow(ply, place)];
+    let arrows =
+        [arrow(ply, |uv| on_table.as_ref().map(|table| table.place(uv))), arrow(ply, place)];
     Look {
         outline: outline.unwrap_or_default(),
         warp: arrows.into_iter().flatten().collect(),
@@ -92,22 +93,22 @@ fn arrow(ply: &Ply, place: impl Fn([f64; 2]) -> Option<[f64; 3]>) -> Vec<Vec<[f6
 }
 
 /// Places (m) of the cups that do not hold.
-fn off(scene: &SceneFile, on_table: Option<&Plan>) -> Vec<[f64; 3]> {
-    let (Some(cups), Some(plan), Some(cut)) = (&scene.cups, on_table, &scene.layup.ply.cut) else {
+fn off(scene: &SceneFile, on_table: Option<&OnTable>) -> Vec<[f64; 3]> {
+    let (Some(cups), Some(table), Some(cut)) = (&scene.cups, on_table, &scene.layup.ply.cut) else {
         return Vec::new();
     };
-    cups.left_off.iter().map(|cup| plan.place(cut.fabric(cup.drawn))).collect()
+    cups.left_off.iter().map(|cup| table.place(cut.fabric(cup.drawn))).collect()
 }
 
 /// The flat ply among its grippers: the map from fabric coordinates that is nearest to their places.
-struct Plan {
+struct OnTable {
     middle: [f64; 2],
     origin: [f64; 3],
     /// What a place moves by along u and along v.
     along: [[f64; 3]; 2],
 }
 
-impl Plan {
+impl OnTable {
     /// Through the grippers of a ply at places (m); none of grippers in one line.
     fn through(ply: &Ply, places: &[[f64; 3]]) -> Option<Self> {
         let count = places.len() as f64;
@@ -134,7 +135,7 @@ impl Plan {
         }
         let [p, q] = products;
         let solved = |s: f64, t: f64| [0, 1, 2].map(|n| (s * p[n] + t * q[n]) / determinant);
-        Some(Plan { middle, origin, along: [solved(d, -b), solved(-b, a)] })
+        Some(OnTable { middle, origin, along: [solved(d, -b), solved(-b, a)] })
     }
 
     fn place(&self, uv: [f64; 2]) -> [f64; 3] {

@@ -41,9 +41,15 @@ pub(super) fn drawn(
     options.piece = ply.piece.as_ref().map(|table| piece(table, document)).transpose()?;
     let bytes = read::bytes(&base.join(name), name, outline::LARGEST)
         .map_err(|error| document.error_of_named(span, error, "scene"))?;
-    outline::read_dxf(name, &bytes, &options)
-        .map(Some)
-        .map_err(|error| document.error(span.clone(), error.to_string(), error.help()))
+    outline::read_dxf(name, &bytes, &options).map(Some).map_err(|error| {
+        // what the drawing lacks without a choice too is no fault of the choice
+        let unchosen =
+            || outline::read_dxf(name, &bytes, &Options { piece: None, ..options.clone() });
+        let is_of_file =
+            |_: &_| unchosen().is_err_and(|other| other.to_string() == error.to_string());
+        let place = ply.piece.as_ref().filter(|piece| !is_of_file(piece)).map(|piece| &piece.span);
+        document.error(place.unwrap_or(span).clone(), error.to_string(), error.help())
+    })
 }
 
 /// The piece that a table chooses.
