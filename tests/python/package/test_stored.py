@@ -259,6 +259,11 @@ def test_joblib_and_dask_drape_a_scene_that_is_sent() -> None:
         joblib.delayed(draped)(scene) for _ in range(2)
     )
     assert made == [result, result]
+    from joblib.externals.loky import get_reusable_executor
+
+    get_reusable_executor().shutdown(
+        wait=True
+    )  # its workers would wait for more, beside other tests
     distributed = pytest.importorskip("distributed")
     with (
         distributed.LocalCluster(
