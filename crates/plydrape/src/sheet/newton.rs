@@ -126,6 +126,11 @@ impl Cloth<'_> {
                 }
             }
 
+            // 9. nodes that hardly moved are no unknowns of the iterations that follow
+            if share == 1.0 {
+                self.narrow(tolerance);
+            }
+
             // 3. again, where the nodes are now
             self.assemble(stiffness, Parts::All);
         }
@@ -185,6 +190,14 @@ impl Cloth<'_> {
         let contact = self.energies.acting_contact(self.phase);
         let contact = contact.filter(|_| self.phase == Phase::Follow);
         self.resting.leave_out(&self.now, contact, &self.energies.weight, &mut self.system);
+    }
+
+    /// Leaves nodes out of the linear systems that follow in this time step, while the grippers move, that no node near by moved
+    /// beyond the tolerance (m) in the linear step.
+    fn narrow(&mut self, tolerance: f64) {
+        if self.phase == Phase::Follow {
+            self.resting.narrow(tolerance, &mut self.system);
+        }
     }
 
     /// Solves for the linear step of all nodes; returns the largest turn of a segment in it (rad).

@@ -30,7 +30,12 @@ pub struct Resting {
     lies: Vec<bool>,
     /// Whether each node is among nodes that lie.
     pub still: Vec<bool>,
+    /// Whether each node moves on in the iterations of a time step, or one near by does.
+    moving: Vec<bool>,
 }
+
+/// Rings of nodes around one that moves, which are unknowns with it.
+const RINGS: usize = 2;
 
 impl Resting {
     /// The nodes of a sheet, none of which lies.
@@ -45,6 +50,7 @@ impl Resting {
             quiet: vec![0; nodes],
             lies: vec![false; nodes],
             still: vec![false; nodes],
+            moving: vec![true; nodes],
         }
     }
 
@@ -81,6 +87,26 @@ impl Resting {
             self.still[b] &= self.lies[a];
         }
         system.keep_still(&self.still);
+    }
+
+    /// Leaves nodes out of the linear systems of a time step from now on that stay where they are: those that have moved by no
+    /// more than the tolerance (m) in the linear step that was taken, and whose neighbors and theirs have not either. What is
+    /// out of balance there goes with the square of that step, and is seen in the next time step.
+    pub fn narrow(&mut self, tolerance: f64, system: &mut System) {
+        self.moving.clear();
+        self.moving.extend(system.step.iter().map(|step| norm(*step) > tolerance));
+        for _ in 0..RINGS {
+            self.lies.copy_from_slice(&self.moving);
+            for [a, b] in self.pairs.iter().map(|pair| pair.map(|node| node as usize)) {
+                self.moving[a] |= self.lies[b];
+                self.moving[b] |= self.lies[a];
+            }
+        }
+        let out = &mut self.lies;
+        for (out, (moving, still)) in out.iter_mut().zip(self.moving.iter().zip(&self.still)) {
+            *out = !moving || *still;
+        }
+        system.keep_still(out);
     }
 
     /// Counts a time step: for how many of them each node has hardly moved.
