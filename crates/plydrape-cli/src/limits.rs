@@ -4,6 +4,8 @@ use crate::failure::Done;
 use crate::numbers::written;
 use plydrape::measure::Preset;
 use plydrape::scene::CellPreset;
+use plydrape_io::store::json;
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -12,17 +14,75 @@ use std::process::ExitCode;
 ///
 /// `preset = "NAME"` in the table `[limits]` or `[cell]` of a scene sets them; other keys of the scene stand over it.
 #[derive(Debug, clap::Args)]
-pub struct Arguments {}
+pub struct Arguments {
+    /// Print one JSON object on standard output instead of a list.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Printed {
+    /// Presets of `[limits]`.
+    limits: Vec<PrintedPreset>,
+    /// Presets of `[cell]`.
+    cell: Vec<PrintedPreset>,
+}
+
+/// A preset as `--json` prints it.
+#[derive(Serialize)]
+struct PrintedPreset {
+    name: &'static str,
+    about: &'static str,
+    figures: Vec<PrintedFigure>,
+}
+
+/// A figure of a preset as `--json` prints it.
+#[derive(Serialize)]
+struct PrintedFigure {
+    key: String,
+    /// As a scene writes it.
+    value: String,
+    source: &'static str,
+}
 
 /// Widest line.
 const WIDTH: usize = 99;
 
 /// Prints the presets.
-pub fn run(_: &Arguments) -> Done {
+pub fn run(arguments: &Arguments) -> Done {
+    let text = match arguments.json {
+        true => json::of(&presets())? + "\n",
+        false => text(),
+    };
     let mut out = io::stdout().lock();
-    out.write_all(text().as_bytes())?;
+    out.write_all(text.as_bytes())?;
     out.flush()?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// All presets, their keys with the table that they stand in.
+fn presets() -> Printed {
+    let limits = Preset::ALL.iter().map(|preset| {
+        let figures = preset.figures().iter().map(|figure| {
+            let measure = figure.name.measure();
+            PrintedFigure {
+                key: format!("limits.{}", measure.name()),
+                value: written(figure.value, measure.unit()),
+                source: figure.source,
+            }
+        });
+        PrintedPreset { name: preset.name(), about: preset.about(), figures: figures.collect() }
+    });
+    let cell = CellPreset::ALL.iter().map(|preset| {
+        let figures = preset.figures().iter().map(|figure| PrintedFigure {
+            key: figure.key.into(),
+            value: figure.written.into(),
+            source: figure.source,
+        });
+        PrintedPreset { name: preset.name(), about: preset.about(), figures: figures.collect() }
+    });
+    Printed { limits: limits.collect(), cell: cell.collect() }
 }
 
 fn text() -> String {

@@ -6,7 +6,7 @@ use crate::json::Json;
 use crate::model::for_models;
 use crate::quantity::Amount;
 use crate::result::Result;
-use crate::scene::{Scene, blocks};
+use crate::scene::{SceneArgument, blocks};
 use crate::work::parallel;
 use crate::work::{Watch, run};
 use plydrape::motion::TimedMotion;
@@ -75,7 +75,7 @@ use std::time::{Duration, Instant};
 ))]
 pub fn simulate(
     py: Python<'_>,
-    scene: &Bound<'_, Scene>,
+    scene: SceneArgument<'_>,
     model: Option<&str>,
     also: Option<&str>,
     without_errors: bool,
@@ -211,7 +211,7 @@ pub fn judge_by(
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn plan(
     py: Python<'_>,
-    scene: &Bound<'_, Scene>,
+    scene: SceneArgument<'_>,
     method: Option<&str>,
     seed: Option<u64>,
     improve: Option<bool>,

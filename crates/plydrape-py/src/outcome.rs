@@ -4,7 +4,7 @@ use crate::arrays::Array;
 use crate::error;
 use crate::model::for_models;
 use crate::result::Result;
-use crate::scene::Scene;
+use crate::scene::SceneArgument;
 use crate::work::run;
 use plydrape::planner::sensitivity::{self, Quantity};
 use plydrape_io::ResultFile;
@@ -106,7 +106,7 @@ impl Rows {
 ))]
 pub fn outcome(
     py: Python<'_>,
-    scene: &Bound<'_, Scene>,
+    scene: SceneArgument<'_>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Outcome> {
     let mut scene = (*for_models(scene.get(), Some("catenaries"), None)?).clone();

@@ -12,6 +12,7 @@ use plydrape::motion::Motion;
 use plydrape_io::scene::{self, SceneFile};
 use plydrape_io::store::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::{Deserialize, Serialize};
@@ -716,6 +717,30 @@ fn keywords<'py>(tables: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
 /// Steps of points as one block, `(steps, points, 3)`.
 pub fn blocks(steps: &[Vec<[f64; 3]>], count: usize) -> Array<f64> {
     Array::rows(&[steps.len(), count, 3], steps.iter().flatten().copied())
+}
+
+/// A scene as an argument of a function; of anything else the error says how to read one.
+pub struct SceneArgument<'py>(Bound<'py, Scene>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for SceneArgument<'py> {
+    type Error = PyErr;
+    const INPUT_TYPE: PyStaticExpr = <Bound<'py, Scene> as FromPyObject<'a, 'py>>::INPUT_TYPE;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(scene) = object.cast::<Scene>() {
+            return Ok(SceneArgument(scene.to_owned()));
+        }
+        let remedy = "Scene.read(\"scene.toml\") reads one from a file";
+        let kind = object.get_type().name()?;
+        Err(PyTypeError::new_err(format!("a {kind} is no Scene: {remedy}")))
+    }
+}
+
+impl SceneArgument<'_> {
+    /// The scene.
+    pub fn get(&self) -> &Scene {
+        self.0.get()
+    }
 }
 
 /// Names of the materials that come with plydrape.

@@ -98,3 +98,12 @@ def test_a_title_is_one_line_of_plain_text() -> None:
     scene = strip()
     with pytest.raises(ValueError, match="control character"):
         scene.with_motion(scene.times, scene.positions, title="\x1b[31mred")
+
+
+@pytest.mark.parametrize("door", [plydrape.simulate, plydrape.plan, plydrape.outcome])
+@pytest.mark.parametrize("given", ["scene.toml", Path("scene.toml"), {"ply": {}}])
+def test_what_is_no_scene_is_told_how_to_read_one(door: object, given: object) -> None:
+    """The name of a file is no scene."""
+    assert callable(door)
+    with pytest.raises(TypeError, match=r'is no Scene: Scene\.read\("scene\.toml"\)'):
+        door(given)

@@ -1,23 +1,54 @@
 //! What was understood of a plybook.
 
-use super::{drawing, mold, warnings};
+use super::{Noun, drawing, mold, nouns, warnings};
 use crate::failure::Done;
 use crate::numbers::degrees;
 use crate::outcome;
 use plydrape::mold::MeshReport;
 use plydrape_io::scene::{BookPly, read_book};
-use plydrape_io::store::shown;
+use plydrape_io::store::{json, shown};
+use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Reads a book; prints its mold and a few lines for each ply unless `quiet`, and warnings.
-pub(super) fn check(path: &Path, quiet: bool) -> Done {
+/// What `--json` prints of a book.
+#[derive(Serialize)]
+struct Printed<'a> {
+    title: &'a str,
+    summary: Vec<Noun<'a>>,
+    plies: Vec<PrintedPly<'a>>,
+    warnings: &'a [String],
+}
+
+/// A ply of a book as `--json` prints it.
+#[derive(Serialize)]
+struct PrintedPly<'a> {
+    name: &'a str,
+    lines: Vec<String>,
+    warnings: Vec<String>,
+}
+
+/// Reads a book; prints its mold and a few lines for each ply unless `quiet`, and warnings; or one JSON object.
+pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
     let book = read_book(path)?;
+    let mesh = book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>();
+    let mold = mold::of(&book.mold, book.mesh.as_ref());
+    if as_json {
+        let plies = book.plies.iter().map(|ply| PrintedPly {
+            name: &ply.name,
+            lines: lines(ply),
+            warnings: warnings::warnings(&ply.scene),
+        });
+        let plies = plies.collect();
+        let printed = Printed { title: &book.title, summary: nouns(&mold), plies, warnings: &mesh };
+        writeln!(io::stdout(), "{}", json::of(&printed)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if !quiet {
         let mut out = io::stdout().lock();
         writeln!(out, "{}", book.title)?;
-        for (noun, text) in mold::of(&book.mold, book.mesh.as_ref()) {
+        for (noun, text) in mold {
             writeln!(out, "  {noun:<9} {text}")?;
         }
         for (n, ply) in book.plies.iter().enumerate() {
@@ -28,7 +59,7 @@ pub(super) fn check(path: &Path, quiet: bool) -> Done {
         }
         out.flush()?;
     }
-    outcome::warn(&book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    outcome::warn(&mesh);
     for ply in &book.plies {
         for warning in warnings::warnings(&ply.scene) {
             // standard error that cannot be written is no fault of the book

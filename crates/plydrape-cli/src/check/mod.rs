@@ -21,8 +21,9 @@ use crate::watch::Interrupt;
 use plydrape::material::{Material, Scatter, Section, ShearCurve, Spread, TensionLaw};
 use plydrape::ply::Ply;
 use plydrape_io::scene::SceneFile;
-use plydrape_io::store::shown;
+use plydrape_io::store::{json, shown};
 use plydrape_io::{Content, Folder, ResultFile, page};
+use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -55,6 +56,38 @@ pub struct Arguments {
     /// Folder of the page; the scene's name with `.check` unless given.
     #[arg(short, long, value_name = "DIR", requires = "html")]
     output: Option<PathBuf>,
+
+    /// Print one JSON object on standard output instead of the lines, with the warnings in it.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `--json` prints of a scene.
+#[derive(Serialize)]
+struct Printed<'a> {
+    title: &'a str,
+    summary: Vec<Noun<'a>>,
+    warnings: &'a [String],
+    files: &'a [PathBuf],
+}
+
+/// A noun of the scene, and the lines on what it is.
+#[derive(Serialize)]
+struct Noun<'a> {
+    noun: &'a str,
+    lines: Vec<&'a str>,
+}
+
+/// The lines of each noun, those without one with the noun before.
+fn nouns(lines: &[Line]) -> Vec<Noun<'_>> {
+    let mut nouns: Vec<Noun> = Vec::new();
+    for (noun, text) in lines {
+        match nouns.last_mut().filter(|last| noun.is_empty() || last.noun == *noun) {
+            Some(last) => last.lines.push(text),
+            None => nouns.push(Noun { noun, lines: vec![text] }),
+        }
+    }
+    nouns
 }
 
 /// Reads the scene; prints a summary unless `quiet`, and warnings.
@@ -66,7 +99,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
                 help: "give the scene of one ply, or leave --html out".into(),
             });
         }
-        return book::check(&arguments.scene, quiet);
+        return book::check(&arguments.scene, arguments.json, quiet);
     }
     let scene = plydrape_io::scene::read(&arguments.scene)?;
     let (lines, warnings) = (summary(&scene), warnings::warnings(&scene));
@@ -74,6 +107,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         true => page(&scene, arguments, &lines, &warnings)?,
         false => Vec::new(),
     };
+    if arguments.json {
+        let title = &scene.title;
+        let printed = Printed { title, summary: nouns(&lines), warnings: &warnings, files: &files };
+        writeln!(io::stdout(), "{}", json::of(&printed)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if !quiet {
         let mut out = io::stdout().lock();
         writeln!(out, "{}", scene.title)?;

@@ -1,6 +1,6 @@
 //! `plydrape check` as a user reads it: where the ply starts and shall end, and warnings of what can hardly be meant.
 
-use crate::common::{command, one_line, text};
+use crate::common::{command, example, one_line, text};
 use std::process::Output;
 
 /// Grippers over a flat mold, all numbers in a unit of length to come.
@@ -467,4 +467,33 @@ fn the_lines_of_a_tool_say_where_flange_and_world_are() {
         ],
         "{shown}"
     );
+}
+
+/// With `--json` everything that is printed for people, and nothing else; a warning stands in the object alone. A plybook has its plies.
+#[test]
+fn json_says_what_the_lines_say() {
+    let (lines, json) = (check(CUT, &[]), check(CUT, &["--json"]));
+    assert_eq!((json.status.code(), text(&json.stderr)), (Some(0), String::new()));
+    let object: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    let printed = text(&lines.stdout);
+    let said: Vec<&str> =
+        printed.lines().skip(1).map(|line| line.get(12..).unwrap_or("")).collect();
+    let nouns = object["summary"].as_array().unwrap();
+    let told: Vec<&str> = nouns
+        .iter()
+        .flat_map(|noun| noun["lines"].as_array().unwrap())
+        .map(|line| line.as_str().unwrap())
+        .collect();
+    assert_eq!(told, said);
+    let warned = one_line(&lines.stderr);
+    let warnings = object["warnings"].as_array().unwrap();
+    assert!(!warnings.is_empty());
+    for warning in warnings {
+        assert!(warned.contains(warning.as_str().unwrap()), "{warning}: {warned}");
+    }
+
+    let book = example("15_plybook").with_file_name("plies.toml");
+    let output = command().args(["check", "--json"]).arg(&book).output().unwrap();
+    let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(object["plies"].as_array().unwrap().len(), 5);
 }
