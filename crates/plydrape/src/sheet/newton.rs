@@ -43,29 +43,29 @@ impl Cloth<'_> {
         // 2. the grippers aim at their next places
         self.pads.aim(targets, &mut self.now, &mut self.system);
 
-        // 3. to 8. Newton's iteration
+        // 3. to 9. Newton's iteration
         let found = self.iterate(tolerance);
         self.system.free_all();
 
-        // 9. a step that cannot be trusted is taken back
+        // 10. a step that cannot be trusted is taken back
         let found = found.and_then(|iterations| self.check_landing().map(|()| iterations));
         if found.is_err() {
             self.now.copy_from(&self.before);
             return found;
         }
 
-        // 10. the positions give the velocities
+        // 11. the positions give the velocities
         self.now.set_velocities(&self.before, dt);
 
-        // 11. fabric slides under pads
+        // 12. fabric slides under pads
         self.pads.slide(&mut self.now);
 
-        // 12. anchors follow nodes that touch
+        // 13. anchors follow nodes that touch
         if let Some(contact) = self.energies.acting_contact_mut(self.phase) {
             contact.anchor(&self.now.x);
         }
 
-        // 13. nodes that did not move while the grippers did come to rest
+        // 14. nodes that did not move while the grippers did come to rest
         if self.phase == Phase::Follow {
             self.resting.count(&self.now, &self.before);
         }
