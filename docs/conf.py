@@ -64,7 +64,7 @@ def rust() -> str:
 MADE = {"guide/keys": keys.markdown, "guide/api": api.markdown, "guide/rust": rust}
 
 # A link to a document that is no page of the guide.
-OUTER_LINK = re.compile(r"\[DESIGN\.md\]\((?:\.\./)+DESIGN\.md\)")
+OUTER_LINK = re.compile(r"\[((?:DESIGN|CONTRIBUTING)\.md)\]\((?:\.\./)+\1\)")
 
 TAG = re.compile(r"\\tag\{(.*?)\}")
 
@@ -84,8 +84,8 @@ def setup(app: Sphinx) -> None:
 
 
 def without_outer_links(_app: Sphinx, _page: str, source: list[str]) -> None:
-    """Names DESIGN.md instead of linking it: right on GitHub, but no page of the guide."""
-    source[0] = OUTER_LINK.sub("`DESIGN.md`", source[0])
+    """Names documents instead of linking them: right on GitHub, but no pages of the guide."""
+    source[0] = OUTER_LINK.sub(r"`\1`", source[0])
 
 
 def with_tables(_app: Sphinx, page: str, source: list[str]) -> None:

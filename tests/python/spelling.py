@@ -16,7 +16,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FILES = ("README.md", "CHANGELOG.md", "DESIGN.md", "docs/**/*.md", "benches/*.md", "viewer/*.md")
+FILES = (
+    "README.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "DESIGN.md",
+    "docs/**/*.md",
+    "benches/*.md",
+    "viewer/*.md",
+)
 PROGRAMS = (
     "crates/*/src/**/*.rs",
     "crates/*/tests/**/*.rs",

@@ -33,7 +33,7 @@ pub struct Tuning {
     pub least_weight: f64,
     /// Weights of the squares.
     pub weights: Weights,
-    /// Rate of rise A over the largest curvature of the mold. 2.4: from 2 to 3 the slack is as small, see `DESIGN.md`.
+    /// Rate of rise A over the largest curvature of the mold. 2.4: from 2 to 3 the slack is as small, see `benches/README.md`.
     pub rise: f64,
     /// Share of the tilt limit that the front may use; contact turns grippers a little further.
     pub tilt_share: f64,
