@@ -58,12 +58,8 @@ pub struct Options {
 /// # Errors
 /// [`Error`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
 pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, Error> {
-    if format.drives() && !result.summary.accepted() && !options.even_if_rejected {
-        let verdict = Program::verdict(result);
-        let message = format!(
-            "the motion is not accepted, and these files would drive a machine along it ({verdict}): change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads"
-        );
-        return Err(Error::not_possible(message, ""));
+    if format.drives() && !options.even_if_rejected {
+        gate(result)?;
     }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
@@ -88,6 +84,20 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
         Format::Vtk => vtk::files(result)?,
         Format::Inp => vec![text("ply.inp", inp::text(result)?)],
     })
+}
+
+/// Refuses a result that is not accepted, by its verdict and by its motion, which is judged again.
+fn gate(result: &ResultFile) -> Result<(), Error> {
+    let judged = result.judged_again();
+    if judged.accepted() {
+        return Ok(());
+    }
+    let verdict = Program::verdict(result, &judged);
+    let message = format!(
+        "the motion is not accepted, and these files would drive a machine along it ({verdict})"
+    );
+    let help = "change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads";
+    Err(Error::not_possible(message, help))
 }
 
 /// Writes the files of a format into a folder, all or none, and returns their paths. Other files there stay; those

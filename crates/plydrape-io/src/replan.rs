@@ -4,10 +4,8 @@
 use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::{SheetFile, SheetKept, SheetState};
-use plydrape::layup::Layup;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
-use plydrape::motion::Motion;
 use plydrape::planner::replan::{Plan, Replanned, Replanner, SheetShapes};
 use plydrape::scene::{self, Scene};
 use std::path::Path;
@@ -29,26 +27,9 @@ impl PlannedResult {
     pub fn new(result: ResultFile) -> Result<Self, Error> {
         let Some(record) = &result.plan else { return Err(not_planned()) };
         let echo = &result.scene;
-        let positions = result
-            .steps
-            .iter()
-            .map(|step| step.grippers.iter().map(|gripper| gripper.commanded).collect());
-        let motion = Motion {
-            times: result.steps.iter().map(|step| step.time).collect(),
-            positions: positions.collect(),
-        };
         let scene = Scene {
             title: echo.title.clone(),
-            layup: Layup {
-                ply: echo.ply.clone(),
-                mold: echo.mold.clone(),
-                motion,
-                target: echo.target.clone(),
-                settings: echo.settings,
-                bodies: echo.bodies.clone(),
-                tool: echo.tool.clone(),
-                release: echo.release.clone(),
-            },
+            layup: result.layup(),
             limits: echo.limits.clone(),
             plan: scene::Plan {
                 method: record.method,

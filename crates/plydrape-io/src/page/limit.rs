@@ -44,7 +44,7 @@ impl<'a> From<&'a Verdict> for Limit<'a> {
             least: verdict.is_least(),
             ok: verdict.ok,
             ratio: verdict.ratio().min(MOST_RATIO),
-            motion: matches!(measure.scope(), Scope::Time | Scope::Whole),
+            motion: matches!(measure.scope(), Scope::Time | Scope::Motion | Scope::Whole),
             step: verdict.step,
             at: &verdict.at,
             place: verdict.place,

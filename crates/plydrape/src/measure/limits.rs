@@ -1,6 +1,6 @@
 //! Limits of an accepted drape: a map from measures to bounds.
 
-use super::{ByName, Name, Preset, slack_of_angle};
+use super::{ByName, Name, Preset, Scope, Verdict, slack_of_angle};
 use crate::layup::Layup;
 use crate::motion::Bounds;
 
@@ -85,6 +85,23 @@ impl Limits {
     pub fn with(mut self, name: Name, bound: f64) -> Self {
         self.set(name, Some(bound));
         self
+    }
+
+    /// The limits of a layup that none of these verdicts is on: of a motion in time, and those that are neither usual nor of a preset.
+    pub fn unjudged(&self, layup: &Layup, verdicts: &[Verdict]) -> Vec<Name> {
+        let usual = Limits::of(layup);
+        let usual = match self.preset {
+            Some(preset) => usual.with_preset(preset),
+            None => usual,
+        };
+        let counts = |name: &Name| {
+            let (measure, bound) = (name.measure(), self.get(*name));
+            measure.limit(layup, self).is_some()
+                && (measure.scope() == Scope::Motion
+                    || bound.is_some() && bound != usual.get(*name))
+                && !verdicts.iter().any(|verdict| verdict.name == *name)
+        };
+        Name::ALL.iter().copied().filter(counts).collect()
     }
 
     /// Every bound (SI), in the order of [`Name::ALL`].

@@ -153,7 +153,7 @@ fn every_limit_is_judged_along_a_planned_motion() {
         (scene.plan.steps, scene.plan.evaluations) = (8, 1);
         let planned = plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
         let summary = &planned.outcome.drape.summary;
-        let all = [Scope::EveryStep, Scope::End, Scope::Time, Scope::Whole];
+        let all = [Scope::EveryStep, Scope::End, Scope::Time, Scope::Motion, Scope::Whole];
         let mut expected = applying(&scene, &all);
         // asked of what all other limits accept
         assert!(!summary.accepted());
