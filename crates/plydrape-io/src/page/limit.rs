@@ -36,7 +36,10 @@ impl<'a> From<&'a Verdict> for Limit<'a> {
         let measure = verdict.name.measure();
         Limit {
             key: measure.key(),
-            name: verdict.name.title(),
+            name: match verdict.judged {
+                true => verdict.name.title(),
+                false => format!("{}, not judged", verdict.name.title()),
+            },
             note: None,
             value: verdict.value,
             limit: verdict.limit,

@@ -8,6 +8,7 @@ use super::read;
 use super::source::Document;
 use super::table::{Column, Row, Table};
 use super::units::Dimension;
+use super::usual;
 use crate::Error;
 use plydrape::LayupError;
 use plydrape::ply::{Grid, GripperId, Ply, gripper_name};
@@ -177,7 +178,7 @@ fn from_table(
             return Err(scene.error(row.span.clone(), message, help));
         }
         for position in &row.value {
-            places.points.push(coordinates(&position.value, scene)?);
+            places.points.push(coordinates(&position.value, scene, &usual::COORDINATE)?);
             places.spans.push(position.span.clone());
         }
     }

@@ -67,13 +67,17 @@ pub(super) fn trajectory(
     Ok((motion, start))
 }
 
-/// Refuses times without a unit at which the grippers are far slower in seconds than grippers are, and not in milliseconds.
-fn believed(motion: &Motion, header: Range<usize>, document: &Document) -> Result<(), Error> {
+/// The largest speed (m/s) of a motion at whose times all grippers are slower than grippers are, and not if its times are milliseconds.
+#[must_use]
+pub fn slow_in_seconds(motion: &Motion) -> Option<f64> {
     let speed = motion.least_peaks(0.0).speed.value;
     let [slowest, fastest] = Practice::SPEED.found;
-    if speed == 0.0 || speed >= slowest || !(slowest..=fastest).contains(&(1e3 * speed)) {
-        return Ok(());
-    }
+    (speed < slowest && (slowest..=fastest).contains(&(1e3 * speed))).then_some(speed)
+}
+
+/// Refuses times without a unit that look like milliseconds.
+fn believed(motion: &Motion, header: Range<usize>, document: &Document) -> Result<(), Error> {
+    let Some(speed) = slow_in_seconds(motion) else { return Ok(()) };
     Err(document.error(
         header,
         format!(

@@ -24,7 +24,6 @@ pub use screen::{details, draped, heading, screen, verdict};
 pub(crate) use slack::slack_in_words;
 pub use steps::steps_table;
 
-use crate::result::ResultFile;
 use crate::result::sheet::ended;
 use crate::store::shown;
 use plydrape::layup::Model;
@@ -127,7 +126,7 @@ fn unit(unit: &str) -> String {
 }
 
 /// Four significant digits, without zeros at the end.
-fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
         return format!("{value:.2e}");
@@ -179,7 +178,7 @@ mod tests {
 
     fn limit(name: Name, value: f64, limit: f64, ok: bool) -> Verdict {
         let (unit, at) = ("mm".into(), "gripper g0_0".into());
-        Verdict { name, value, limit, unit, ok, step: Some(30), at, place: None }
+        Verdict { name, value, limit, unit, ok, step: Some(30), at, place: None, judged: true }
     }
 
     /// The line names the limit that is exceeded most, relative to its size, even a least one; without one, how the drape ended.

@@ -13,7 +13,7 @@ pub const SHORTEST_STEP: f64 = 1e-6;
 /// Whether a time (s) is too short for one from a step to the next, but for the rounding of times.
 #[must_use]
 pub fn is_too_short(time: f64) -> bool {
-    !(time >= SHORTEST_STEP * (1.0 - 1e-3))
+    time.is_nan() || time < SHORTEST_STEP * (1.0 - 1e-3)
 }
 
 /// Gripper positions over the steps.
