@@ -76,7 +76,9 @@ fn believed<M: Measure>(
 
 /// What is usual of a limit.
 fn usual_of<M: Measure>(bound: &Bound) -> usual::Usual {
-    bound.practice.as_ref().map_or(usual::ANY, usual::Usual::of::<M>)
+    let Range { least, most, .. } = bound.range;
+    let usual = bound.practice.as_ref().map_or(usual::ANY, usual::Usual::of::<M>);
+    usual.within([least, most])
 }
 
 fn within<M: Measure>(

@@ -174,7 +174,8 @@ impl Reader<'_> {
         largest: f64,
         most: &str,
     ) -> Result<f64, Error> {
-        let size = value.not_negative(self.document, usual::error::<M>())?;
+        let size =
+            value.not_negative(self.document, &usual::error::<M>().within([0.0, largest]))?;
         if size <= largest {
             return Ok(size);
         }

@@ -6,11 +6,12 @@ use super::source::Document;
 use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::mold::Pose;
+use std::f64::consts::TAU;
 
 /// A heading of at most one turn to either side (rad).
 pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = angle.si(document, &usual::ANGLE)?;
-    if value.abs() <= std::f64::consts::TAU * (1.0 + 1e-9) {
+    let value = angle.si(document, &usual::ANGLE.within([0.0, TAU]))?;
+    if value.abs() <= TAU * (1.0 + 1e-9) {
         return Ok(value);
     }
     Err(document.error(

@@ -195,7 +195,7 @@ fn nodes_of_cut(
 
 /// A shear angle to either side, below a right angle (rad).
 fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = shear.si(document, &usual::ANGLE)?;
+    let value = shear.si(document, &usual::ANGLE.within([0.0, std::f64::consts::FRAC_PI_2]))?;
     if value >= 0.0 {
         return shear.below_right_angle(document);
     }

@@ -196,7 +196,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
 
 /// A coordinate or a shift (m).
 fn place(given: &Quantity<Length>, document: &Document, usual: &Usual) -> Result<f64, Error> {
-    let value = given.si(document, usual)?;
+    let value = given.si(document, &usual.within([0.0, plydrape::ply::FARTHEST]))?;
     match value.abs() <= plydrape::ply::FARTHEST {
         true => Ok(value),
         false => Err(document.error(
@@ -209,7 +209,7 @@ fn place(given: &Quantity<Length>, document: &Document, usual: &Usual) -> Result
 
 /// A yaw (rad).
 fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = given.si(document, &usual::YAW)?;
+    let value = given.si(document, &usual::YAW.within([0.0, std::f64::consts::PI]))?;
     match value.abs() <= std::f64::consts::PI {
         true => Ok(value),
         false => Err(document.error(

@@ -238,24 +238,22 @@ impl<M: Measure> Quantity<M> {
             true => String::new(),
             false => format!("did you mean {}? ", meant.join(" or ")),
         };
+        let insist = match units::unit(unit) {
+            _ if !usual.allows(number) => String::new(),
+            _ if unit.is_empty() => {
+                format!("; write \"{} %\" if you mean that", plain(100.0 * number))
+            }
+            Ok(_) => format!("; write \"{written} {unit}\" if you mean that"),
+            Err(_) => "; write it with its unit if you mean that".into(),
+        };
+        let plain_unit = match unit {
+            "" => String::new(),
+            unit => format!("plain numbers are in {unit}, and "),
+        };
         Err(document.error(
             self.span.clone(),
             format!("`{written}` would make {} {} {unit}", usual.what, plain(number)).trim_end(),
-            match units::unit(unit) {
-                _ if unit.is_empty() => format!(
-                    "{question}{}; write \"{} %\" if you mean that",
-                    usual.range,
-                    plain(100.0 * number)
-                ),
-                Ok(_) => format!(
-                    "{question}plain numbers are in {unit}, and {}; write \"{written} {unit}\" if you mean that",
-                    usual.range
-                ),
-                Err(_) => format!(
-                    "{question}plain numbers are in {unit}, and {}; write it with its unit if you mean that",
-                    usual.range
-                ),
-            },
+            format!("{question}{plain_unit}{}{insist}", usual.range),
         ))
     }
 
@@ -267,7 +265,7 @@ impl<M: Measure> Quantity<M> {
         what: &str,
         usual: &Usual,
     ) -> Result<f64, Error> {
-        let value = self.positive(document, usual)?;
+        let value = self.positive(document, &usual.within([low, high]))?;
         if (low..=high).contains(&value) {
             return Ok(value);
         }
@@ -317,7 +315,7 @@ const SIZES: [f64; 2] = [1e-6, 1e4];
 impl Quantity<Length> {
     /// A size between 1 µm and 10 km (m).
     pub fn size(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.positive(document, usual)?;
+        let value = self.positive(document, &usual.within(SIZES))?;
         if (SIZES[0]..=SIZES[1]).contains(&value) {
             return Ok(value);
         }
@@ -332,7 +330,7 @@ impl Quantity<Length> {
 
     /// A coordinate of at most 10 km to either side (m).
     pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.si(document, usual)?;
+        let value = self.si(document, &usual.within([0.0, SIZES[1]]))?;
         if value.abs() <= SIZES[1] {
             return Ok(value);
         }

@@ -54,6 +54,7 @@ pub(super) fn trajectory(
         steps.add(&row)?;
     }
     steps.finish(csv.header())?;
+    csv.check_plain()?;
     if !csv.has_unit(0) {
         believed(&steps.motion, csv.header(), &document)?;
     }

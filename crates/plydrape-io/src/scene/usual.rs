@@ -28,6 +28,8 @@ pub struct Usual {
     pub range: &'static str,
     /// Units that are meant where one was left out.
     pub others: &'static [&'static str],
+    /// Smallest and largest size that is possible at all (in that unit).
+    possible: [f64; 2],
 }
 
 /// The unit in which most drawings are.
@@ -38,7 +40,14 @@ macro_rules! usual {
         $(
             $(#[$doc])*
             pub const $name: Usual =
-                Usual { what: $what, unit: $unit, found: $found, range: $range, others: $others };
+                Usual {
+                    what: $what,
+                    unit: $unit,
+                    found: $found,
+                    range: $range,
+                    others: $others,
+                    possible: [0.0, f64::INFINITY],
+                };
         )+
         /// All of them, for the tests.
         #[cfg(test)]
@@ -171,7 +180,18 @@ impl Usual {
             _ => &[],
         };
         let Practice { what, found, words } = *practice;
-        Usual { what, unit: M::UNIT, found, range: words, others }
+        Usual { what, unit: M::UNIT, found, range: words, others, possible: [0.0, f64::INFINITY] }
+    }
+
+    /// The same of values whose size is possible between two (in that unit) alone.
+    pub(super) fn within(self, possible: [f64; 2]) -> Self {
+        Usual { possible, ..self }
+    }
+
+    /// Whether a number (in that unit) is possible, be it usual or not.
+    pub(super) fn allows(&self, number: f64) -> bool {
+        let [low, high] = self.possible;
+        (low..=high).contains(&number.abs())
     }
 
     /// Whether a plain number is believed. Zero and small negative numbers are not judged here: where they are wrong, it is not for

@@ -129,8 +129,8 @@ impl Practice {
     /// Half a turn a second is fast for a gripper that holds fabric.
     pub const TURN: Practice = Practice {
         what: "a rate of",
-        found: [1e-3, 3.0],
-        words: "grippers and frames turn at 0.001 rad/s to 3 rad/s",
+        found: [1e-3, 3.5],
+        words: "grippers and frames turn at 0.001 rad/s to 3.5 rad/s",
     };
 }
 

@@ -178,10 +178,8 @@ impl Summary {
         if self.status != Status::Converged {
             return;
         }
-        for name in limits.unjudged(layup, &self.limits) {
-            let measure = name.measure();
-            let Some(limit) = measure.limit(layup, limits) else { continue };
-            let why = match measure.description().model {
+        for (name, limit) in limits.unjudged(layup, &self.limits) {
+            let why = match name.measure().description().model {
                 Some(Model::Sheet) if self.model != Model::Sheet => "the sheet alone measures it",
                 Some(Model::Catenaries) if self.model != Model::Catenaries => {
                     "catenaries alone measure it"
