@@ -116,3 +116,31 @@ pub fn write(
         files.iter().map(|(name, content)| (name.as_str(), content.as_slice())).collect();
     folder::add(dir, "export", &files)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::measure::Name;
+
+    /// A result whose rows leave the speed out, as one of an earlier version or one that was edited: its own word is that it is accepted, and the
+    /// limit of its scene is judged all the same. So is one that nothing measured.
+    #[test]
+    fn a_verdict_that_leaves_a_limit_out_passes_no_gate() {
+        let mut result = sample::draped(4, 2, 3);
+        let csv = |result: &ResultFile| files(result, Format::Csv, &Options::default());
+        assert!(result.summary.accepted() && csv(&result).is_ok());
+        for (name, limit, said) in
+            [(Name::Speed, 0.01, "speed 0."), (Name::Height, 0.02, "the sheet alone measures it")]
+        {
+            let usual = result.scene.limits.clone();
+            result.scene.limits.set(name, Some(limit));
+            assert!(result.summary.accepted());
+            let refused = csv(&result).unwrap_err();
+            assert!(refused.message().contains(said), "{refused}");
+            let options = Options { even_if_rejected: true, ..Options::default() };
+            assert!(files(&result, Format::Csv, &options).is_ok());
+            result.scene.limits = usual;
+        }
+    }
+}

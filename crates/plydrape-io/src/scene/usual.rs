@@ -307,9 +307,9 @@ mod tests {
             ("grippers", "stiffness = { lateral = 20 }", "20 N/mm"),
             ("grippers", "stiffness = { axial = 5 }", "5 N/mm"),
             ("grippers", "slip_force = 5000", "5000 mN"),
-            ("bodies.gripper", "cylinder = { radius = 15, to = 0.04 }", "15 mm"),
-            ("bodies.gripper", "cylinder = { radius = 0.015, to = 40 }", "40 mm"),
-            ("bodies.gripper", "box = { size = [30, 0.03, 0.05] }", "30 mm"),
+            ("[bodies]", "cylinder = { radius = 15, to = 0.04 }", "15 mm"),
+            ("[bodies]", "cylinder = { radius = 0.015, to = 40 }", "40 mm"),
+            ("[bodies]", "box = { size = [30, 0.03, 0.05] }", "30 mm"),
             ("tool", "turn_rate = 30", "30 deg/s"),
             ("tool", "turn_acceleration = 180", "180 deg/s^2"),
             ("tool", "flange = { position = [0, 0, 300] }", "300 mm"),
@@ -341,7 +341,11 @@ mod tests {
         ];
         let mut missed = Vec::new();
         for (table, line, meant) in cases {
-            let kind = if table == "motion" { "kind = \"straight\"\n" } else { "" };
+            let kind = match table {
+                "motion" => "kind = \"straight\"\n",
+                "[bodies]" => "name = \"cup\"\non = \"pad\"\n",
+                _ => "",
+            };
             let asked = |line: &str| match checked(&[(table, &format!("{kind}{line}"))]) {
                 Ok(()) => String::new(),
                 Err(refused) => format!("{} {}", refused.message(), refused.help()),
