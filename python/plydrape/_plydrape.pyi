@@ -1531,6 +1531,7 @@ class Result:
         points: typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]]
         | None = None,
         tolerance: float | str | None = None,
+        far: bool = False,
     ) -> Result:
         """
         The result of this plan for a ply that does not lie where it was planned to be picked up.
@@ -1548,6 +1549,8 @@ class Result:
         tolerance : float or str, optional
             How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
             given.
+        far : bool
+            Whether the ply does lie more than 50 mm or 10° from where it was planned, which is refused otherwise.
 
         Returns
         -------
@@ -2366,7 +2369,13 @@ class Scene:
         (True, None)
         """
     def with_motion(
-        self, /, times: ArrayLike, positions: ArrayLike, *, title: str | None = None
+        self,
+        /,
+        times: ArrayLike,
+        positions: ArrayLike,
+        *,
+        title: str | None = None,
+        slow: bool = False,
     ) -> Scene:
         """
         The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
@@ -2375,11 +2384,14 @@ class Scene:
         Parameters
         ----------
         times : array_like
-            Time of each step (s), ascending, shape (steps,).
+            Time of each step (s), from 0, each a microsecond after the one before at least, shape (steps,).
         positions : array_like
             Positions of the grippers (m), shape (steps, grippers, 3), i running fastest, or (steps, along u, along v, 3).
         title : str, optional
             Name for reports, unless it stays.
+        slow : bool
+            Whether the grippers are slower than 1 mm/s; times at which they would be are refused otherwise if they look like
+            milliseconds.
 
         Returns
         -------
@@ -2389,7 +2401,7 @@ class Scene:
         Raises
         ------
         ValueError
-            If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+            If the shapes do not fit, times do not ascend from 0, a coordinate is not a number up to 10⁶ m, or
             neighbors stand (all but) straight above each other, where the model has no solution.
 
         Examples

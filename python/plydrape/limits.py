@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -26,7 +27,7 @@ class Limit:
     label : str
         What it is called in tables.
     value : float
-        The worst value that was measured, in `unit`.
+        The worst value that was measured, in `unit`; nan of a limit that could not be judged, and `where` says why.
     limit : float
         The value that is allowed, in `unit`.
     unit : str
@@ -188,7 +189,7 @@ def _limit(verdict: Mapping[str, Any]) -> Limit:
     return Limit(
         name=measure.name,
         label=measure.label,
-        value=verdict["value"],
+        value=verdict["value"] if verdict.get("judged", True) else math.nan,
         limit=verdict["limit"],
         unit=verdict["unit"],
         sense="at-least" if measure.sense == "at-least" else "at-most",

@@ -1,17 +1,19 @@
 //! Values of options, with their units.
 
 use crate::failure::Failure;
+use plydrape_io::scene::usual::Usual;
 use plydrape_io::scene::{Measured, quantity};
 
-/// A value of an option in SI units, within a range.
+/// A value of an option in SI units, a plain number near what is usual, and within a range.
 pub fn value(
     option: &str,
     text: &str,
     measured: Measured,
+    usual: &Usual,
     [low, high]: [f64; 2],
     help: &str,
 ) -> Result<f64, Failure> {
-    let value = quantity(text, measured).map_err(|error| Failure::Refused {
+    let value = quantity(text, measured, usual).map_err(|error| Failure::Refused {
         message: format!("{option} {}", error.message()),
         help: error.help().into(),
     })?;

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use plydrape_io::export;
 use plydrape_io::result::read;
 use plydrape_io::robot::program::{Robot, Template, Tolerance};
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use plydrape_io::store::input;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -137,8 +137,14 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     let mut tolerance = Tolerance::default();
     if let Some(text) = &arguments.position_error {
         let help = "give a length from 0.0001 mm to 1 m, as in --position-error \"0.1 mm\"";
-        tolerance.position =
-            value("--position-error", text, Measured::Length, POSITION_ERRORS, help)?;
+        tolerance.position = value(
+            "--position-error",
+            text,
+            Measured::Length,
+            &usual::POSITION_ERROR,
+            POSITION_ERRORS,
+            help,
+        )?;
     }
     let read = |path: &PathBuf| {
         let text = input::text(path, LARGEST_TEMPLATE).map_err(|error| Failure::Refused {

@@ -4,7 +4,7 @@ use crate::argument::value;
 use crate::failure::{Done, Failure};
 use crate::new::put;
 use plydrape_io::fit::{Request, Test, fit};
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use plydrape_io::store::shown;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -158,13 +158,22 @@ impl Kind {
         let length = |option: &str, text: &Option<String>| {
             let help = "a length from 1 um to 10 km is wanted, e.g. \"100 mm\"";
             text.as_ref()
-                .map(|text| value(option, text, Measured::Length, LENGTHS, help))
+                .map(|text| value(option, text, Measured::Length, &usual::COUPON, LENGTHS, help))
                 .transpose()
         };
         let areal = |text: &Option<String>| {
             let help = "a mass per area from 1 mg/m^2 to 1000 kg/m^2 is wanted, e.g. \"314 g/m^2\"";
             text.as_ref()
-                .map(|text| value("--mass", text, Measured::ArealMass, [1e-6, 1e3], help))
+                .map(|text| {
+                    value(
+                        "--mass",
+                        text,
+                        Measured::ArealMass,
+                        &usual::AREAL_MASS,
+                        [1e-6, 1e3],
+                        help,
+                    )
+                })
                 .transpose()
         };
         Ok(match self {
@@ -189,7 +198,7 @@ impl Kind {
             Kind::Overhang { strips, mass, angle, overhang } => {
                 let help = "an angle from 1 to 89 deg is wanted, e.g. \"41.5 deg\"";
                 let range = [1.0_f64, 89.0].map(f64::to_radians);
-                let angle = value("--angle", angle, Measured::Angle, range, help)?;
+                let angle = value("--angle", angle, Measured::Angle, &usual::ANGLE, range, help)?;
                 strips
                     .request(Test::Overhang { mass: areal(mass)?, angle }, [overhang.clone(), None])
             }

@@ -28,7 +28,8 @@ tool's rates are judged again, and the motion is made slower where it would be t
 meets the mold is refused with exit code 2.
 
 With --picked, writes the files of a plan (all but plan.json) into the folder. The file holds [offset] with x, y and yaw, and `about`, the point \
-that the ply is turned about (the middle of the grippers at the start unless given), or two or more [[point]] with `planned` and `seen`.
+that the ply is turned about (the middle of the grippers at the start unless given), or two or more [[point]] with `planned` and `seen`. \
+`far = true` beside them says that the ply does lie more than 50 mm or 10° off.
 
 With --json and without --picked, reads objects of the same keys from standard input, one a line, and answers with one line each until the input \
 ends. A line that is refused is answered with `error` and `help`, and the next one is read. The exit code is that of the worst answer.")]
@@ -47,6 +48,10 @@ pub struct Arguments {
     /// Print one JSON object on standard output for each offset.
     #[arg(long)]
     json: bool,
+
+    /// The ply does lie more than 50 mm or 10° from where it was planned; without this, or `far = true` beside an offset, that is refused.
+    #[arg(long)]
+    far: bool,
 
     /// Samples a second of the times and positions in these objects; of the steps of the plan unless given.
     #[arg(long, value_name = "HZ", requires = "json")]
@@ -133,12 +138,12 @@ fn once(
     file: &Path,
     quiet: bool,
 ) -> Done {
-    let seen = read_offset(file, planned.tolerance())?;
+    let seen = read_offset(file, planned.tolerance())?.also_far(arguments.far);
     let result_file = read::file_of(&arguments.result);
     let beside = || result_file.parent().unwrap_or(Path::new("")).join("replan");
     let output = arguments.output.clone().unwrap_or_else(beside);
     let folder = Folder::claim(&output, "replan")?;
-    let replanned = replanned(replanner, &seen)?;
+    let replanned = planned.replan(replanner, &seen)?;
     if arguments.json {
         let answer = Answer::of(planned, replanner, &replanned, arguments.rate)?;
         print(&json::of(&answer)?)?;
@@ -226,14 +231,10 @@ fn answer(
         error: "the line is no UTF-8 text".into(),
         help: "give one JSON object a line".into(),
     })?;
-    let seen = json_offset(text, planned.tolerance())?;
-    let found = replanned(replanner, &seen)?;
+    let seen = json_offset(text, planned.tolerance())?.also_far(arguments.far);
+    let found = planned.replan(replanner, &seen)?;
     let answer = Answer::of(planned, replanner, &found, arguments.rate)?;
     Ok((json::of(&answer)?, answer.accepted))
-}
-
-fn replanned(replanner: &Replanner, seen: &SeenOffset) -> Result<Replanned, Error> {
-    Ok(replanner.replan(&seen.offset, seen.residual)?)
 }
 
 impl<'a> Answer<'a> {

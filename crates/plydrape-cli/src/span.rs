@@ -8,7 +8,7 @@ use crate::failure::{Done, Failure};
 use plydrape::catenary::{EndCondition, Profile, Root, Span, SpanState, Station};
 use plydrape::elastica::{Bending, HeavyStrip, Shape};
 use plydrape::material::{MomentCurve, Section};
-use plydrape_io::scene::{Measured, read_material};
+use plydrape_io::scene::{Measured, read_material, usual};
 use plydrape_io::store::json;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -140,21 +140,24 @@ impl Arguments {
     /// The span, each value held against its dimension and range, and its moment (N·m) where that is a table.
     fn span(&self) -> Result<(Span, Option<MomentCurve>), Failure> {
         let length = "a length from 1 um to 10 km is wanted, e.g. \"98 mm\"";
-        let run = value("--run", &self.run, Measured::Length, LENGTHS, length)?;
+        let run = value("--run", &self.run, Measured::Length, &usual::SPAN, LENGTHS, length)?;
         let steepest = STEEPEST * run;
         let rise = value(
             "--rise",
             &self.rise,
             Measured::Length,
+            &usual::SPAN,
             [-steepest, steepest],
             "small-sag theory is for ends side by side: a rise of at most 1000 runs is wanted",
         )?;
-        let length = value("--length", &self.length, Measured::Length, LENGTHS, length)?;
+        let length =
+            value("--length", &self.length, Measured::Length, &usual::SPAN, LENGTHS, length)?;
         let (weight, flexural_rigidity, curve) = self.strip()?;
         let axial_stiffness = value(
             "--axial-stiffness",
             &self.axial_stiffness,
             Measured::Force,
+            &usual::AXIAL,
             [1e-3, f64::INFINITY],
             "a force from 1 mN is wanted, e.g. \"100 kN\", or inf for a ply that does not stretch",
         )?;
@@ -190,13 +193,20 @@ impl Arguments {
             "--weight",
             weight,
             Measured::ForcePerLength,
+            &usual::WEIGHT,
             WEIGHTS,
             "a weight per length from 1e-9 to 1e9 N/m is wanted, e.g. 3.08 or \"3.08 N/m\"",
         )?;
         let rigidity = "a flexural rigidity from 1e-18 to 1e12 N m^2 is wanted, or 0 for a ply \
                         that does not resist bending";
-        let flexural_rigidity =
-            value("--rigidity", ei, Measured::FlexuralRigidity, [0.0, RIGIDITIES[1]], rigidity)?;
+        let flexural_rigidity = value(
+            "--rigidity",
+            ei,
+            Measured::FlexuralRigidity,
+            &usual::FLEXURAL,
+            [0.0, RIGIDITIES[1]],
+            rigidity,
+        )?;
         if flexural_rigidity > 0.0 && flexural_rigidity < RIGIDITIES[0] {
             return Err(refused("--rigidity", ei, "is too small", rigidity));
         }
@@ -223,7 +233,7 @@ impl Arguments {
             }),
             (Section::Areal { mass, warp_rigidity, weft_rigidity }, Some(width)) => {
                 let help = "a width from 1 um to 10 km is wanted, e.g. \"50 mm\"";
-                let width = value("--width", width, Measured::Length, LENGTHS, help)?;
+                let width = value("--width", width, Measured::Length, &usual::SPAN, LENGTHS, help)?;
                 let curve = material.moment[along].as_ref().map(|curve| curve.times(width));
                 Ok((GRAVITY * mass * width, [warp_rigidity, weft_rigidity][along] * width, curve))
             }
@@ -237,12 +247,10 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
         return Ok(EndCondition::Free);
     }
     let help = "write free, or a slope as rise over run from -1000 to 1000, such as 0.5";
-    let slope =
-        value(option, text, Measured::Ratio, [-STEEPEST, STEEPEST], help).map_err(|failure| {
-            match failure {
-                Failure::Refused { message, .. } => Failure::Refused { message, help: help.into() },
-                other => other,
-            }
+    let slope = value(option, text, Measured::Ratio, &usual::ANY, [-STEEPEST, STEEPEST], help)
+        .map_err(|failure| match failure {
+            Failure::Refused { message, .. } => Failure::Refused { message, help: help.into() },
+            other => other,
         })?;
     if flexural_rigidity == 0.0 {
         let fault = "holds the slope of a ply that does not resist bending (--rigidity 0)";

@@ -58,12 +58,8 @@ pub struct Options {
 /// # Errors
 /// [`Error`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
 pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, Error> {
-    if format.drives() && !result.summary.accepted() && !options.even_if_rejected {
-        let verdict = Program::verdict(result);
-        let message = format!(
-            "the motion is not accepted, and these files would drive a machine along it ({verdict}): change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads"
-        );
-        return Err(Error::not_possible(message, ""));
+    if format.drives() && !options.even_if_rejected {
+        gate(result)?;
     }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
@@ -90,6 +86,20 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
     })
 }
 
+/// Refuses a result that is not accepted, by its verdict and by its motion, which is judged again.
+fn gate(result: &ResultFile) -> Result<(), Error> {
+    let judged = result.judged_again();
+    if judged.accepted() {
+        return Ok(());
+    }
+    let verdict = Program::verdict(result, &judged);
+    let message = format!(
+        "the motion is not accepted, and these files would drive a machine along it ({verdict})"
+    );
+    let help = "change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads";
+    Err(Error::not_possible(message, help))
+}
+
 /// Writes the files of a format into a folder, all or none, and returns their paths. Other files there stay; those
 /// of the same names only make way if plydrape wrote them and nobody has changed them since.
 ///
@@ -105,4 +115,32 @@ pub fn write(
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, content)| (name.as_str(), content.as_slice())).collect();
     folder::add(dir, "export", &files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::measure::Name;
+
+    /// A result whose rows leave the speed out, as one of an earlier version or one that was edited: its own word is that it is accepted, and the
+    /// limit of its scene is judged all the same. So is one that nothing measured.
+    #[test]
+    fn a_verdict_that_leaves_a_limit_out_passes_no_gate() {
+        let mut result = sample::draped(4, 2, 3);
+        let csv = |result: &ResultFile| files(result, Format::Csv, &Options::default());
+        assert!(result.summary.accepted() && csv(&result).is_ok());
+        for (name, limit, said) in
+            [(Name::Speed, 0.01, "speed 0."), (Name::Height, 0.02, "the sheet alone measures it")]
+        {
+            let usual = result.scene.limits.clone();
+            result.scene.limits.set(name, Some(limit));
+            assert!(result.summary.accepted());
+            let refused = csv(&result).unwrap_err();
+            assert!(refused.message().contains(said), "{refused}");
+            let options = Options { even_if_rejected: true, ..Options::default() };
+            assert!(files(&result, Format::Csv, &options).is_ok());
+            result.scene.limits = usual;
+        }
+    }
 }

@@ -4,14 +4,20 @@
 use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::{SheetFile, SheetKept, SheetState};
-use plydrape::layup::Layup;
+use crate::scene::SeenOffset;
+use crate::text::table::significant;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
-use plydrape::motion::Motion;
+use plydrape::pick_up::Offset;
 use plydrape::planner::replan::{Plan, Replanned, Replanner, SheetShapes};
 use plydrape::scene::{self, Scene};
 use std::path::Path;
 use std::sync::OnceLock;
+
+/// How far a ply lies from where it was planned at most (m), unless somebody says that it does lie there.
+const FAR_SHIFT: f64 = 0.05;
+/// The same as an angle (°).
+const FAR_YAW_DEG: f64 = 10.0;
 
 /// A planned result and what its correction needs.
 #[derive(Debug)]
@@ -29,26 +35,9 @@ impl PlannedResult {
     pub fn new(result: ResultFile) -> Result<Self, Error> {
         let Some(record) = &result.plan else { return Err(not_planned()) };
         let echo = &result.scene;
-        let positions = result
-            .steps
-            .iter()
-            .map(|step| step.grippers.iter().map(|gripper| gripper.commanded).collect());
-        let motion = Motion {
-            times: result.steps.iter().map(|step| step.time).collect(),
-            positions: positions.collect(),
-        };
         let scene = Scene {
             title: echo.title.clone(),
-            layup: Layup {
-                ply: echo.ply.clone(),
-                mold: echo.mold.clone(),
-                motion,
-                target: echo.target.clone(),
-                settings: echo.settings,
-                bodies: echo.bodies.clone(),
-                tool: echo.tool.clone(),
-                release: echo.release.clone(),
-            },
+            layup: result.layup(),
             limits: echo.limits.clone(),
             plan: scene::Plan {
                 method: record.method,
@@ -91,6 +80,30 @@ impl PlannedResult {
         let Some(record) = plan else { return Err(not_planned()) };
         let plan = Plan { scene: &self.scene, record, steps, summary };
         Ok(Replanner::new(plan, self.sheet.as_ref())?)
+    }
+
+    /// The motion for a ply that was seen.
+    ///
+    /// # Errors
+    /// [`Error`] if it was seen more than 50 mm or 10° from where it was planned, about the middle of the grippers, and nobody said that it does
+    /// lie there ([`SeenOffset::far`]); those of [`Replanner::replan`].
+    pub fn replan(&self, replanner: &Replanner, seen: &SeenOffset) -> Result<Replanned, Error> {
+        let places = &self.scene.layup.motion.positions[0];
+        let middle = [0, 1].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / places.len() as f64);
+        let Offset { shift: [x, y], yaw, .. } = seen.offset.about(middle);
+        let shift = x.hypot(y);
+        if !seen.far && (shift > FAR_SHIFT || yaw.abs() > FAR_YAW_DEG.to_radians()) {
+            return Err(Error::not_possible(
+                format!(
+                    "the ply would lie {} mm and {}° from where it was planned, and more than {} mm or {FAR_YAW_DEG}° is asked about",
+                    significant(1e3 * shift),
+                    significant(yaw.to_degrees()),
+                    1e3 * FAR_SHIFT
+                ),
+                "look at the unit and at the frame of the camera; if it does lie there, say `far = true` beside the offset or the points, or --far (in Python far=True)",
+            ));
+        }
+        Ok(replanner.replan(&seen.offset, seen.residual)?)
     }
 
     /// The result of a corrected plan, of the model that decides alone; the moved states of its sheet are kept in a hidden folder within `dir`.

@@ -304,6 +304,7 @@ fn frame(grid: Grid) -> ResultFile {
                 step: Some(1),
                 at: "gripper g0_0".into(),
                 place: None,
+                judged: true,
             }],
             events: Vec::new(),
             sheet: None,

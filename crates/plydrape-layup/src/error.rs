@@ -216,8 +216,8 @@ pub enum Error {
         /// Steps of positions given.
         steps: usize,
     },
-    /// The time of a step is not finite, or not after the one before.
-    #[error("the time of step {step} is {time} s{}: times are finite numbers that ascend", after(.before))]
+    /// The time of a step is not finite, not 0 at the start, or less than [`crate::motion::SHORTEST_STEP`] after the one before.
+    #[error("the time of step {step} is {time} s{}: times begin at 0 and rise by a microsecond at least", after(.before))]
     StepTime {
         /// Counts from 1.
         step: usize,

@@ -15,7 +15,7 @@ use plydrape::planner::{self, Checkpoint, PlanRecord};
 use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
 use plydrape_io::result::sheet;
-use plydrape_io::scene::{Measured, SceneFile};
+use plydrape_io::scene::{Measured, SceneFile, usual};
 use plydrape_io::text::forecast;
 use plydrape_io::{Error, ResultFile};
 use pyo3::exceptions::PyValueError;
@@ -302,7 +302,7 @@ fn no_plan(cause: plydrape::Error) -> PyErr {
 
 /// A time above zero.
 fn duration(time: &Amount) -> PyResult<Duration> {
-    let seconds = time.si("time", Measured::Time)?;
+    let seconds = time.si("time", Measured::Time, &usual::ANY)?;
     Duration::try_from_secs_f64(seconds).ok().filter(|time| !time.is_zero()).ok_or_else(|| {
         let text = format!("time is {seconds} s; a time above zero is wanted, e.g. \"5 min\"");
         PyValueError::new_err(text)

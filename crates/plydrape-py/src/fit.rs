@@ -4,7 +4,7 @@ use crate::error;
 use crate::json::Json;
 use crate::quantity::Amount;
 use plydrape_io::fit::{Request, Test};
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -94,15 +94,15 @@ pub fn fit(
     curvature: Option<String>,
     moment: Option<String>,
 ) -> PyResult<Json> {
-    let given = |amount: Option<Amount>, name: &str, measured: Measured| {
-        amount.map(|amount| amount.si(name, measured)).transpose()
+    let given = |amount: Option<Amount>, name: &str, measured: Measured, usual: &usual::Usual| {
+        amount.map(|amount| amount.si(name, measured, usual)).transpose()
     };
-    let width = given(width, "width", Measured::Length)?;
-    let length = given(length, "length", Measured::Length)?;
-    let side = given(side, "side", Measured::Length)?;
-    let fabric = given(fabric, "fabric", Measured::Length)?;
-    let mass = given(mass, "mass", Measured::ArealMass)?;
-    let angle = angle.si("angle", Measured::Angle)?;
+    let width = given(width, "width", Measured::Length, &usual::COUPON)?;
+    let length = given(length, "length", Measured::Length, &usual::COUPON)?;
+    let side = given(side, "side", Measured::Length, &usual::COUPON)?;
+    let fabric = given(fabric, "fabric", Measured::Length, &usual::COUPON)?;
+    let mass = given(mass, "mass", Measured::ArealMass, &usual::AREAL_MASS)?;
+    let angle = angle.si("angle", Measured::Angle, &usual::ANGLE)?;
     let (test, titles) = match test {
         "bias" => (Test::Bias { width, length }, [displacement, force]),
         "frame" => (Test::Frame { side, fabric }, [displacement, force]),

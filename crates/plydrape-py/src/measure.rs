@@ -69,7 +69,7 @@ impl Measure {
             Scope::EveryStep => "every-step",
             Scope::End => "end",
             Scope::Time => "time",
-            Scope::Whole => "whole",
+            Scope::Motion | Scope::Whole => "whole",
         }
     }
 

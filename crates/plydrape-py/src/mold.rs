@@ -5,7 +5,7 @@ use crate::quantity::Amount;
 use crate::work::parallel;
 use plydrape::layup::ContactSettings;
 use plydrape::mold::{self, Mesh, patch::patch};
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -241,7 +241,8 @@ impl Mold {
         most: usize,
     ) -> PyResult<(Array<f64>, Array<u32>)> {
         let place = |name: &str, [x, y]: &[Amount; 2]| -> PyResult<[f64; 2]> {
-            Ok([x.si(name, Measured::Length)?, y.si(name, Measured::Length)?])
+            let place = |side: &Amount| side.si(name, Measured::Length, &usual::COORDINATE);
+            Ok([place(x)?, place(y)?])
         };
         let (low, high) = (place("low", &low)?, place("high", &high)?);
         Ok(triangles(parallel(py, || patch(&self.0, low, high, most))))

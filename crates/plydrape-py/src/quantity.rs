@@ -1,5 +1,6 @@
 //! Quantities as arguments: a plain number is in SI units, a text carries its unit.
 
+use plydrape_io::scene::usual::{self, Usual};
 use plydrape_io::scene::{Measured, quantity};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -14,14 +15,16 @@ pub enum Amount {
 }
 
 impl Amount {
-    /// The value in SI units, infinity included; `name` is that of the argument.
-    pub fn si(&self, name: &str, measured: Measured) -> PyResult<f64> {
-        match self {
-            Amount::Number(value) => Ok(*value),
-            Amount::Text(text) => quantity(text, measured).map_err(|refused| {
-                PyValueError::new_err(format!("{name}: {}; {}", refused.message(), refused.help()))
-            }),
-        }
+    /// The value in SI units, infinity included, a plain number near what is usual; `name` is that of the argument.
+    pub fn si(&self, name: &str, measured: Measured, usual: &Usual) -> PyResult<f64> {
+        let text = match self {
+            Amount::Number(value) if !value.is_finite() => return Ok(*value),
+            Amount::Number(value) => &value.to_string(),
+            Amount::Text(text) => text,
+        };
+        quantity(text, measured, usual).map_err(|refused| {
+            PyValueError::new_err(format!("{name}: {}; {}", refused.message(), refused.help()))
+        })
     }
 
     /// As a scene file has it.
@@ -41,5 +44,5 @@ pub fn si(value: Amount, measured: &str, name: &str) -> PyResult<f64> {
         "angle" => Measured::Angle,
         _ => Measured::Length,
     };
-    value.si(name, measured)
+    value.si(name, measured, &usual::ANY)
 }

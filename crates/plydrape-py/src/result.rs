@@ -21,7 +21,7 @@ use plydrape::ply::Grid;
 use plydrape_io::replan::PlannedResult;
 use plydrape_io::result::read;
 use plydrape_io::robot::program::{Robot, Template, Tolerance};
-use plydrape_io::scene::{Measured, parse_offset};
+use plydrape_io::scene::{Measured, parse_offset, usual};
 use plydrape_io::store::folder;
 use plydrape_io::write::mold_patch::mold_patch;
 use plydrape_io::write::surface;
@@ -606,6 +606,8 @@ impl Result {
     /// tolerance : float or str, optional
     ///     How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
     ///     given.
+    /// far : bool
+    ///     Whether the ply does lie more than 50 mm or 10° from where it was planned, which is refused otherwise.
     ///
     /// Returns
     /// -------
@@ -629,7 +631,7 @@ impl Result {
     #[pyo3(signature = (
         *, offset: "dict[str, float | str | typing.Sequence[float | str]] | None" = None,
         points: "typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]] | None" = None,
-        tolerance: "float | str | None" = None
+        tolerance: "float | str | None" = None, far = false
     ))]
     fn replan(
         &self,
@@ -637,9 +639,11 @@ impl Result {
         offset: Option<BTreeMap<String, Offset>>,
         points: Option<Vec<([Amount; 2], [Amount; 2])>>,
         tolerance: Option<Amount>,
+        far: bool,
     ) -> PyResult<Self> {
         let text = Offset::file(offset, points);
-        let tolerance = tolerance.map(|length| length.si("tolerance", Measured::Length));
+        let tolerance =
+            tolerance.map(|length| length.si("tolerance", Measured::Length, &usual::LANDED));
         let tolerance = tolerance.transpose()?;
         let result = parallel(py, || {
             let fault = |error: Error| error::plan(&error::text(&error));
@@ -648,9 +652,7 @@ impl Result {
             let seen =
                 parse_offset(&text, "offset", tolerance).map_err(|fault| error::scene(&fault))?;
             let replanner = planned.replanner().map_err(fault)?;
-            let replanned = replanner
-                .replan(&seen.offset, seen.residual)
-                .map_err(|found| fault(found.into()))?;
+            let replanned = planned.replan(&replanner, &seen.also_far(far)).map_err(fault)?;
             planned.corrected(replanned, &std::env::temp_dir()).map_err(fault)
         });
         result.map(|result| Result(Arc::new(result)))
@@ -756,7 +758,9 @@ impl Result {
         };
         let default = Tolerance::default();
         let position = match position_error {
-            Some(length) => length.si("position_error", Measured::Length)?,
+            Some(length) => {
+                length.si("position_error", Measured::Length, &usual::POSITION_ERROR)?
+            }
             None => default.position,
         };
         let read = |path: &PathBuf| -> PyResult<Template> {

@@ -9,7 +9,7 @@ use crate::work::parallel;
 use crate::{error, table};
 use plydrape::errors::{Draw, Errors};
 use plydrape::motion::Motion;
-use plydrape_io::scene::{self, SceneFile};
+use plydrape_io::scene::{self, SceneFile, slow_in_seconds};
 use plydrape_io::store::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::inspect::PyStaticExpr;
@@ -200,7 +200,7 @@ impl Scene {
         let scene = Scene(Arc::new(scene), origin);
         match way {
             None => Ok(scene),
-            Some(Way { times, positions }) => scene.with_motion(times, positions, None),
+            Some(Way { times, positions }) => scene.with_motion(times, positions, None, false),
         }
     }
 
@@ -494,11 +494,14 @@ impl Scene {
     /// Parameters
     /// ----------
     /// times : array_like
-    ///     Time of each step (s), ascending, shape (steps,).
+    ///     Time of each step (s), from 0, each a microsecond after the one before at least, shape (steps,).
     /// positions : array_like
     ///     Positions of the grippers (m), shape (steps, grippers, 3), i running fastest, or (steps, along u, along v, 3).
     /// title : str, optional
     ///     Name for reports, unless it stays.
+    /// slow : bool
+    ///     Whether the grippers are slower than 1 mm/s; times at which they would be are refused otherwise if they look like
+    ///     milliseconds.
     ///
     /// Returns
     /// -------
@@ -508,7 +511,7 @@ impl Scene {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+    ///     If the shapes do not fit, times do not ascend from 0, a coordinate is not a number up to 10⁶ m, or
     ///     neighbors stand (all but) straight above each other, where the model has no solution.
     ///
     /// Examples
@@ -517,18 +520,25 @@ impl Scene {
     /// >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
     /// >>> float((higher.positions - scene.positions).max().round(9))
     /// 0.01
-    #[pyo3(signature = (times, positions, *, title = None))]
+    #[pyo3(signature = (times, positions, *, title = None, slow = false))]
     fn with_motion(
         &self,
         times: Numbers<'_>,
         positions: Numbers<'_>,
         title: Option<String>,
+        slow: bool,
     ) -> PyResult<Scene> {
         let times = times.list("times")?;
         let positions = positions.steps("positions", &self.0.layup.ply)?;
         let motion = Motion { times, positions };
         let fault = self.0.layup.ply.check_motion(&motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
+        if let (Some(speed), false) = (slow_in_seconds(&motion), slow) {
+            return Err(PyValueError::new_err(format!(
+                "times are in seconds, and no gripper would be faster than {:.2e} mm/s: did you mean ms? Divide by 1000, or give slow=True if they are that slow",
+                1e3 * speed
+            )));
+        }
         size::drape(&self.0.layup.ply, motion.times.len()).map_err(|fault| error::value(&fault))?;
         if let Some(found) = title.as_deref().and_then(shown::control) {
             return Err(PyValueError::new_err(format!(

@@ -12,7 +12,7 @@ use plydrape::draping::spans::shape;
 use plydrape::equilibrium::{self, Status};
 use plydrape::layup::{Settings, SlopeRule};
 use plydrape::ply;
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -85,9 +85,10 @@ impl Solver {
         gravity: Amount,
         max_tilt: Amount,
     ) -> PyResult<Self> {
-        let axial_stiffness = axial_stiffness.si("axial_stiffness", Measured::Force)?;
-        let gravity = gravity.si("gravity", Measured::Acceleration)?;
-        let max_tilt = max_tilt.si("max_tilt", Measured::Angle)?;
+        let axial_stiffness =
+            axial_stiffness.si("axial_stiffness", Measured::Force, &usual::AXIAL)?;
+        let gravity = gravity.si("gravity", Measured::Acceleration, &usual::GRAVITY)?;
+        let max_tilt = max_tilt.si("max_tilt", Measured::Angle, &usual::ANGLE)?;
         let slopes = match slopes {
             "moment-balance" => SlopeRule::MomentBalance,
             "min-force" => SlopeRule::MinForce,

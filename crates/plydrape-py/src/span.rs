@@ -7,7 +7,7 @@ use plydrape::catenary::{self, EndCondition, Profile, SpanState};
 use plydrape::elastica::{Bending, HeavyStrip, Shape};
 use plydrape::equilibrium::Status;
 use plydrape::material::MomentCurve;
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -90,14 +90,18 @@ impl Span {
         theory: &str,
         moment: Option<(Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Self> {
-        let run = run.si("run", Measured::Length)?;
-        let length = length.si("length", Measured::Length)?;
-        let weight = weight.si("weight", Measured::ForcePerLength)?;
-        let flexural_rigidity =
-            flexural_rigidity.si("flexural_rigidity", Measured::FlexuralRigidity)?;
-        let rise = rise.si("rise", Measured::Length)?;
-        let axial_stiffness =
-            axial_stiffness.map(|ea| ea.si("axial_stiffness", Measured::Force)).transpose()?;
+        let run = run.si("run", Measured::Length, &usual::SPAN)?;
+        let length = length.si("length", Measured::Length, &usual::SPAN)?;
+        let weight = weight.si("weight", Measured::ForcePerLength, &usual::WEIGHT)?;
+        let flexural_rigidity = flexural_rigidity.si(
+            "flexural_rigidity",
+            Measured::FlexuralRigidity,
+            &usual::FLEXURAL,
+        )?;
+        let rise = rise.si("rise", Measured::Length, &usual::SPAN)?;
+        let axial_stiffness = axial_stiffness
+            .map(|ea| ea.si("axial_stiffness", Measured::Force, &usual::AXIAL))
+            .transpose()?;
         let exact = match theory {
             "small-sag" => false,
             "exact" => true,

@@ -439,7 +439,7 @@ def _probe(study: Study) -> None:
     scene = build(study.tables, study.base)
     if study.motion is not None:
         try:
-            scene.with_motion(study.motion.times, study.motion.positions)
+            scene.with_motion(study.motion.times, study.motion.positions, slow=True)
         except (plydrape.PlydrapeError, ValueError) as error:
             raise StudyError(
                 f"the scene cannot follow this plan: {error}",

@@ -103,7 +103,7 @@ class Task:
         scene = build(tables, self.base, self.mold)
         if self.motion is None:
             return scene
-        return scene.with_motion(self.motion.times, self.motion.positions)
+        return scene.with_motion(self.motion.times, self.motion.positions, slow=True)
 
     @cached_property
     def mold(self) -> plydrape.Mold | None:

@@ -68,6 +68,27 @@ def test_the_fault_names_step_gripper_and_value() -> None:
         scene.with_motion(times, scene.positions)
 
 
+def test_times_begin_at_zero_and_are_no_milliseconds() -> None:
+    """Straight to its target the example takes 29 s; in milliseconds no gripper is faster than 3 um/s."""
+    scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")
+    with pytest.raises(ValueError, match="time of step 1 is 5.* begin at 0"):
+        scene.with_motion(scene.times + 5, scene.positions)
+    with pytest.raises(ValueError, match=r"did you mean ms\?.*slow=True"):
+        scene.with_motion(1000 * scene.times, scene.positions)
+    slow = scene.with_motion(1000 * scene.times, scene.positions, slow=True)
+    assert slow.times[-1] == 1000 * scene.times[-1]
+
+
+def test_plain_numbers_are_near_what_is_usual() -> None:
+    """Millimeters are asked about, and a text with its unit is believed."""
+    with pytest.raises(ValueError, match=r'run: .*did you mean "98 mm"'):
+        plydrape.Span(run=98, length=0.1, weight=3.0)
+    assert plydrape.Span(run="0.098 m", length=0.1, weight=3.0).run == 0.098
+    ply = plydrape.Ply(grippers=[2, 2], cell=[0.1, 0.1], material="krogh2018")
+    with pytest.raises(ValueError, match=r'max_tilt: .*did you mean "40 deg"'):
+        plydrape.Solver(ply, max_tilt=40)
+
+
 def test_what_is_far_too_large_is_refused_before_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
     """The budget is the user's to raise."""
     scene = strip()

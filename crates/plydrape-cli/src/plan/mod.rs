@@ -18,7 +18,7 @@ use plydrape::mold::MeshReport;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Checkpoint, Progress};
 use plydrape::scene::PlanMethod;
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, usual};
 use plydrape_io::store::input;
 use plydrape_io::text::table;
 use plydrape_io::{Folder, NAMES, plan};
@@ -96,7 +96,7 @@ const TIMES: [f64; 2] = [1e-3, 1e7];
 /// The time after which the search ends.
 fn time(text: &str) -> Result<Duration, Failure> {
     let help = "a time of up to some 100 days is wanted, e.g. 5min, 90s or 1.5h";
-    let seconds = argument::value("--time", text, Measured::Time, TIMES, help)?;
+    let seconds = argument::value("--time", text, Measured::Time, &usual::ANY, TIMES, help)?;
     Ok(Duration::from_secs_f64(seconds))
 }
 

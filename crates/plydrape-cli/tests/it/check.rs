@@ -342,7 +342,7 @@ fn a_mass_that_no_ply_has_is_warned_of_with_the_likely_unit() {
     for sound in ["\"5.1 g/m\"", "\"0.99 kg/m\""] {
         assert!(warnings(&line(sound)).is_empty(), "{sound}");
     }
-    let heavy = warning(&line("37"));
+    let heavy = warning(&line("\"37 kg/m\""));
     assert!(heavy.contains("makes 370 kg/m²") && heavy.contains("\"37 g/m\""), "{heavy}");
     assert!(warning(&line("\"4.9 g/m\"")).contains("0.049 kg/m²"));
 }

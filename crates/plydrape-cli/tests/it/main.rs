@@ -9,6 +9,7 @@ mod compare;
 mod drawing;
 mod errors;
 mod export;
+mod limits;
 mod net;
 mod output_streams;
 mod plan;

@@ -180,6 +180,9 @@ fn what_cannot_be_replanned_is_refused_with_a_remedy() {
         ("[offset]\ny = \"3 deg\"\n", "is an angle"),
         ("[offset]\nz = 1\n", "is no key here"),
         ("[offset]\nx = nan\n", "is no"),
+        ("[offset]\nx = 3\n", "did you mean \"3 mm\"?"),
+        ("[offset]\nx = 900000\n", "would make a shift of 900000 m"),
+        ("[offset]\nyaw = 0.8\n", "did you mean \"0.8 deg\"?"),
         (alone, "takes two points or more, and their number is 1"),
         ("[offset]\nx = 3,5\n", "not TOML"),
         (swapped, "from where the others put it"),
@@ -206,4 +209,32 @@ fn what_cannot_be_replanned_is_refused_with_a_remedy() {
     assert!(one_line(&output.stderr).contains("none of a plan"), "{}", text(&output.stderr));
     let output = command().arg("replan").arg(&result).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// More than 50 mm or 10° is no way to lay down a ply, but a wrong unit or frame: refused, from a file and from a line, unless somebody says that it
+/// does lie there. A turn about a far point shifts the ply too.
+#[test]
+fn an_offset_that_is_far_is_believed_when_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = planned(folder.path());
+    for offset in ["x = \"60 mm\"", "yaw = \"12 deg\"", "yaw = \"2 deg\"\nabout = [\"2 m\", 0]"] {
+        let file = format!("[offset]\n{offset}\n");
+        let output = replan(&result, &file, &[]);
+        let said = one_line(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{offset}");
+        assert!(
+            said.contains("50 mm or 10° is asked about") && said.contains("far = true"),
+            "{said}"
+        );
+        for (file, flags) in [(format!("far = true\n{file}"), &[][..]), (file, &["--far"][..])] {
+            let output = replan(&result, &file, flags);
+            assert_ne!(output.status.code(), Some(2), "{offset}: {}", text(&output.stderr));
+        }
+    }
+    let line = |more: &str| format!("{{\"offset\": {{\"x\": \"60 mm\"}}{more}}}\n");
+    let lines = [line(""), line(", \"far\": true"), "{\"offset\": {\"x\": 3}}\n".into()].concat();
+    let (_, found) = answers(&result, lines.as_bytes(), &[]);
+    assert!(found[0]["help"].as_str().unwrap().contains("far = true"), "{}", found[0]);
+    assert!(found[1]["error"].is_null() && found[1]["offset"]["x"] == 0.06, "{}", found[1]);
+    assert!(found[2]["help"].as_str().unwrap().contains("did you mean \"3 mm\"?"), "{}", found[2]);
 }

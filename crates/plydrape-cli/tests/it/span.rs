@@ -188,7 +188,8 @@ fn bad_values_are_refused_with_option_value_and_remedy() {
         ("--run", "98 MM", "is no unit known", "did you mean `mm`?"),
         ("--run", "98,5 mm", "decimal comma", "decimal point"),
         ("--run", "", "cannot be read", "a length is wanted"),
-        ("--run", "1e-9", "is too small", "1 um"),
+        ("--run", "1e-9 m", "is too small", "1 um"),
+        ("--run", "98", "would make a span of 98 m", "did you mean \"98 mm\"?"),
         ("--length", "0", "is zero", "a length from"),
         ("--length", "-1", "is negative", "a length from"),
         ("--weight", "0", "is zero", "a weight per length"),
@@ -197,7 +198,7 @@ fn bad_values_are_refused_with_option_value_and_remedy() {
         ("--rigidity", "-9e-6", "is negative", "a flexural rigidity"),
         ("--rigidity", "9e-6 N m", "is a moment", "a flexural rigidity"),
         ("--rigidity", "1e-30", "is too small", "or 0"),
-        ("--rise", "1e9", "is too large", "1000 runs"),
+        ("--rise", "1e9 m", "is too large", "1000 runs"),
         ("--rise", "-inf", "is too small", "1000 runs"),
         ("--slope-end", "20 deg", "is an angle", "write free"),
         ("--slope-start", "loose", "cannot be read", "write free"),
@@ -234,7 +235,7 @@ fn a_slope_cannot_be_held_without_bending_stiffness() {
 
 #[test]
 fn what_has_no_solution_exits_with_three() {
-    let output = span(&[("--run", "1 um"), ("--length", "10000")], &["--json"]);
+    let output = span(&[("--run", "1 um"), ("--length", "10000 m")], &["--json"]);
     assert_eq!(output.status.code(), Some(3));
     assert!(output.stdout.is_empty());
     assert!(text(&output.stderr).contains("no horizontal force"));

@@ -36,7 +36,10 @@ impl<'a> From<&'a Verdict> for Limit<'a> {
         let measure = verdict.name.measure();
         Limit {
             key: measure.key(),
-            name: verdict.name.title(),
+            name: match verdict.judged {
+                true => verdict.name.title(),
+                false => format!("{}, not judged", verdict.name.title()),
+            },
             note: None,
             value: verdict.value,
             limit: verdict.limit,
@@ -44,7 +47,7 @@ impl<'a> From<&'a Verdict> for Limit<'a> {
             least: verdict.is_least(),
             ok: verdict.ok,
             ratio: verdict.ratio().min(MOST_RATIO),
-            motion: matches!(measure.scope(), Scope::Time | Scope::Whole),
+            motion: matches!(measure.scope(), Scope::Time | Scope::Motion | Scope::Whole),
             step: verdict.step,
             at: &verdict.at,
             place: verdict.place,

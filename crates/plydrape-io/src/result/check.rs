@@ -8,6 +8,7 @@ use plydrape::draping::record::CatenaryState;
 use plydrape::layup::{Friction, Model, Settings};
 use plydrape::material::{MomentCurve, Section, TensionLaw};
 use plydrape::measure::Verdict;
+use plydrape::motion::is_too_short;
 use plydrape::outcome::{Step, Summary};
 use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, gripper_name, is_near};
 use plydrape::sheet::Event;
@@ -184,7 +185,8 @@ fn of_steps(steps: &[Step]) -> Option<String> {
     if steps.is_empty() {
         return Some("it has no step".into());
     }
-    if let Some(n) = (1..steps.len()).find(|n| steps[*n].time <= steps[n - 1].time) {
+    let since = |n: usize| steps[n].time - steps[n - 1].time;
+    if let Some(n) = (1..steps.len()).find(|n| is_too_short(since(*n))) {
         return Some(format!("the time of step {} is not after that of the step before", n + 1));
     }
     steps.iter().zip(1..).find_map(|(step, number)| {

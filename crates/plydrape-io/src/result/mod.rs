@@ -21,10 +21,10 @@ use plydrape::bodies::Bodies;
 use plydrape::draping::curves;
 use plydrape::draping::record::CatenaryState;
 use plydrape::errors::Errors;
-use plydrape::layup::{Model, Release, Settings, Target};
+use plydrape::layup::{Layup, Model, Release, Settings, Target};
 use plydrape::measure::Limits;
 use plydrape::mold::Mold;
-use plydrape::motion::{Attitudes, TimedMotion};
+use plydrape::motion::{Attitudes, Motion, TimedMotion};
 use plydrape::outcome::{Outcome, Step, Summary, attitudes};
 use plydrape::planner::{PlanRecord, Planned};
 use plydrape::ply::Ply;
@@ -208,6 +208,35 @@ impl ResultFile {
             self.sheet_states = states;
         }
         self.also = Some(Also { summary: summary.unjudged(), steps });
+    }
+
+    /// What was draped, along the steps of the result.
+    #[must_use]
+    pub fn layup(&self) -> Layup {
+        let SceneEcho { ply, mold, target, settings, bodies, tool, release, .. } = &self.scene;
+        let places = |step: &Step| step.grippers.iter().map(|gripper| gripper.commanded).collect();
+        let motion = Motion {
+            times: self.steps.iter().map(|step| step.time).collect(),
+            positions: self.steps.iter().map(places).collect(),
+        };
+        Layup {
+            ply: ply.clone(),
+            mold: mold.clone(),
+            motion,
+            target: target.clone(),
+            settings: *settings,
+            bodies: bodies.clone(),
+            tool: tool.clone(),
+            release: release.clone(),
+        }
+    }
+
+    /// The outcome with the motion judged by the steps of the result once more: what it says of its own motion is not believed.
+    #[must_use]
+    pub fn judged_again(&self) -> Summary {
+        let mut summary = self.summary.clone();
+        summary.judge_motion(&self.layup(), &self.scene.limits);
+        summary
     }
 
     /// The model that decides.

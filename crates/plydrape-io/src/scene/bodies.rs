@@ -69,7 +69,7 @@ impl Reader<'_> {
         let keys = ShapeKeys { table: name.span.clone(), cylinder, cuboid, mesh, unit };
         Ok(Obstacle {
             name: self.name(name)?,
-            pose: pose(position.as_ref(), rotation.as_ref(), self.document)?,
+            pose: pose(position.as_ref(), rotation.as_ref(), self.document, &usual::COORDINATE)?,
             shape: self.shape(&keys)?,
         })
     }
@@ -142,12 +142,12 @@ impl Reader<'_> {
     }
 
     fn cylinder(&self, table: &CylinderTable) -> Result<Shape, Error> {
-        let radius = table.radius.size(self.document, &usual::BODY)?;
+        let radius = table.radius.size(self.document, &usual::CYLINDER)?;
         let from = match &table.from {
-            Some(from) => from.coordinate(self.document, &usual::COORDINATE)?,
+            Some(from) => from.coordinate(self.document, &usual::PLACE)?,
             None => 0.0,
         };
-        let to = table.to.coordinate(self.document, &usual::COORDINATE)?;
+        let to = table.to.coordinate(self.document, &usual::PLACE)?;
         if to <= from {
             return Err(self.document.error(
                 table.to.span.clone(),
@@ -167,7 +167,7 @@ impl Reader<'_> {
             *size = side.size(self.document, &usual::BODY)?;
         }
         let at = match &table.at {
-            Some(at) => coordinates(at, self.document)?,
+            Some(at) => coordinates(at, self.document, &usual::PLACE)?,
             None => [0.0; 3],
         };
         Ok(Shape::Box { size, at })

@@ -66,14 +66,19 @@ fn believed<M: Measure>(
     document: &Document,
 ) -> Result<f64, Error> {
     let Range { least, open, .. } = bound.range;
+    let usual = usual_of::<M>(bound);
     let si = match least > 0.0 || open {
-        true => value.positive(document)?,
-        false => value.not_negative(document)?,
+        true => value.positive(document, &usual)?,
+        false => value.not_negative(document, &usual)?,
     };
-    if let Some(practice) = &bound.practice {
-        value.believed(document, &usual::Usual::of::<M>(practice))?;
-    }
     Ok(si)
+}
+
+/// What is usual of a limit.
+fn usual_of<M: Measure>(bound: &Bound) -> usual::Usual {
+    let Range { least, most, .. } = bound.range;
+    let usual = bound.practice.as_ref().map_or(usual::ANY, usual::Usual::of::<M>);
+    usual.within([least, most])
 }
 
 fn within<M: Measure>(
@@ -84,7 +89,7 @@ fn within<M: Measure>(
     let value = Quantity::<M>::from(written);
     believed(&value, bound, document)?;
     let Range { least, most, of, .. } = bound.range;
-    value.within_for(document, [least, most], of)
+    value.within_for(document, [least, most], of, &usual_of::<M>(bound))
 }
 
 fn length(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f64, Error> {

@@ -5,7 +5,7 @@ use super::file::{MomentTable, ShearCurveTable, TensionTable};
 use super::located::Located;
 use super::quantity::{Measure, Quantity, ShearSlope, TensileStiffness};
 use super::source::Document;
-use super::usual;
+use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::material::{MomentCurve, ShearCurve, TensionLaw};
 
@@ -34,8 +34,8 @@ pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentC
         ));
     }
     let curve = MomentCurve {
-        curvature: climbing(&curvature.value, "curvature", CURVATURE, document)?,
-        moment: climbing(&moment.value, "moment", RIGIDITY, document)?,
+        curvature: climbing(&curvature.value, "curvature", CURVATURE, &usual::CURVATURE, document)?,
+        moment: climbing(&moment.value, "moment", RIGIDITY, &usual::MOMENT, document)?,
     };
     if curve.least_slope() >= LEAST_SLOPE * curve.rigidity() {
         return Ok(curve);
@@ -55,11 +55,12 @@ fn climbing<M: Measure>(
     list: &[Quantity<M>],
     what: &str,
     most: f64,
+    usual: &Usual,
     document: &Document,
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(list.len());
     for item in list {
-        let value = item.not_negative(document)?;
+        let value = item.not_negative(document, usual)?;
         let (fault, help) = match values.last() {
             None if value > 0.0 => (
                 format!("the {what}s of the bending do not start at 0"),
@@ -127,10 +128,9 @@ pub(super) fn shear(
     let table = match &curve.value {
         Curve::Slope(slope) => {
             let slope = Located { value: slope.clone(), span: curve.span.clone() };
-            let value = slope.not_negative(document)?;
-            slope.believed(document, &usual::SHEAR)?;
+            let value = slope.not_negative(document, &usual::SHEAR)?;
             let slope = if value > SHEAR {
-                slope.within_for(document, [0.0, SHEAR], "a ply")?
+                slope.within(document, [0.0, SHEAR], &usual::SHEAR)?
             } else {
                 value
             };
@@ -157,7 +157,7 @@ pub(super) fn shear(
             }
             let mut coefficients = Vec::with_capacity(polynomial.value.len());
             for coefficient in &polynomial.value {
-                coefficients.push(coefficient.si(document)?);
+                coefficients.push(coefficient.si(document, &usual::ANY)?);
             }
             let curve = ShearCurve::Polynomial { coefficients };
             let force = |degree: i32| curve.force(f64::from(degree).to_radians()).0;
@@ -184,7 +184,7 @@ fn ascending_angles<M: Measure>(
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(angles.len());
     for angle in angles {
-        let value = angle.not_negative(document)?;
+        let value = angle.not_negative(document, &usual::ANGLE)?;
         let fault = match values.last() {
             None if value > 0.0 => "the shear curve does not start at an angle of 0",
             Some(last) if value <= *last => "the angles of the shear curve do not ascend",
@@ -211,6 +211,7 @@ struct Forces {
     of: &'static str,
     most_help: &'static str,
     rising_help: &'static str,
+    usual: Usual,
 }
 
 const SHEARS: Forces = Forces {
@@ -218,12 +219,14 @@ const SHEARS: Forces = Forces {
     of: "the shear curve",
     most_help: "a shear force per length up to 1e6 N/m is wanted",
     rising_help: "give forces that never fall: where a test shows less force, the cloth slipped or wrinkled, and the curve ends before",
+    usual: usual::SHEAR_FORCE,
 };
 const TENSIONS: Forces = Forces {
     most: TENSION[1],
     of: "the tension",
     most_help: "a tension per width up to 1e10 N/m is wanted",
     rising_help: "give forces that never fall: where a test shows less force, yarns broke or slipped, and the table ends before",
+    usual: usual::TENSION_FORCE,
 };
 
 fn rising<M: Measure>(
@@ -233,7 +236,7 @@ fn rising<M: Measure>(
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(forces.len());
     for force in forces {
-        let value = force.not_negative(document)?;
+        let value = force.not_negative(document, &rules.usual)?;
         if value > rules.most {
             return Err(document.error(
                 force.span.clone(),
@@ -259,7 +262,7 @@ fn ascending_strains<M: Measure>(
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(strains.len());
     for strain in strains {
-        let value = strain.not_negative(document)?;
+        let value = strain.not_negative(document, &usual::STRAIN)?;
         let fault = match values.last() {
             None if value > 0.0 => "the tension does not start at a strain of 0",
             Some(last) if value <= *last => "the strains of the tension do not ascend",

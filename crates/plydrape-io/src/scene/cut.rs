@@ -218,11 +218,11 @@ fn outline(
 }
 
 fn polygon(points: &Polygon, document: &Document) -> Result<Ring, Error> {
-    points.iter().map(|point| coordinates(&point.value, document)).collect()
+    points.iter().map(|point| coordinates(&point.value, document, &usual::FABRIC)).collect()
 }
 
 fn disc(circle: &CircleTable, document: &Document) -> Result<Ring, Error> {
-    let [x, y] = coordinates(&circle.middle.value, document)?;
+    let [x, y] = coordinates(&circle.middle.value, document, &usual::FABRIC)?;
     let radius = 0.5 * circle.diameter.size(document, &usual::HOLE)?;
     let point = |n: usize| {
         let (sin, cos) = (TAU * n as f64 / SIDES as f64).sin_cos();
@@ -254,7 +254,7 @@ fn array(
     };
     let [low, high] = outline.bounds();
     let middle = match &keys.middle {
-        Some(middle) => coordinates(&middle.value, document)?,
+        Some(middle) => coordinates(&middle.value, document, &usual::FABRIC)?,
         None => [0, 1].map(|n| 0.5 * (low[n] + high[n])),
     };
     let margin = match &keys.margin {
@@ -398,7 +398,7 @@ fn listed(
     }
     let mut cups: Vec<Cup> = Vec::with_capacity(count);
     for (n, point) in points.value.iter().enumerate() {
-        let place = coordinates(&point.value, document)?;
+        let place = coordinates(&point.value, document, &usual::FABRIC)?;
         let depth = outline.depth(place);
         if depth < radius * (1.0 - 1e-9) {
             let off = if depth < 0.0 { "beyond" } else { "inside" };

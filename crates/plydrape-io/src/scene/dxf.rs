@@ -69,7 +69,9 @@ fn piece(table: &Located<PieceTable>, document: &Document) -> Result<Piece, Erro
     match (block, label, point) {
         (Some(block), None, None) => Ok(Piece::Block(block.value.trim().into())),
         (None, Some(label), None) => Ok(Piece::Label(label.value.trim().into())),
-        (None, None, Some(point)) => Ok(Piece::Point(coordinates(&point.value, document)?)),
+        (None, None, Some(point)) => {
+            Ok(Piece::Point(coordinates(&point.value, document, &usual::FABRIC)?))
+        }
         (None, None, None) => Err(refused("`piece` chooses no piece")),
         _ => Err(refused("`piece` chooses in more than one way")),
     }

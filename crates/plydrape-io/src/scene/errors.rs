@@ -144,7 +144,7 @@ impl Reader<'_> {
             }
             (None, Some(value), None) => self.size(value, even, most).map(errors::Term::Bound),
             (None, None, Some(value)) => {
-                let factor = value.si(self.document)?;
+                let factor = value.si(self.document, &usual::ANY)?;
                 if (1.0..=LARGEST_FACTOR).contains(&factor) {
                     return Ok(errors::Term::Factor(factor));
                 }
@@ -174,7 +174,8 @@ impl Reader<'_> {
         largest: f64,
         most: &str,
     ) -> Result<f64, Error> {
-        let size = value.not_negative(self.document)?;
+        let size =
+            value.not_negative(self.document, &usual::error::<M>().within([0.0, largest]))?;
         if size <= largest {
             return Ok(size);
         }
@@ -210,7 +211,7 @@ impl Reader<'_> {
     }
 
     fn accepted(&self, written: &Quantity<Ratio>) -> Result<f64, Error> {
-        let share = written.positive(self.document)?;
+        let share = written.positive(self.document, &usual::ANY)?;
         if share <= 1.0 {
             return Ok(share);
         }

@@ -3,14 +3,15 @@
 use super::located::{Fixed, Located};
 use super::quantity::{Angle, Length, Quantity};
 use super::source::Document;
-use super::usual;
+use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::mold::Pose;
+use std::f64::consts::TAU;
 
 /// A heading of at most one turn to either side (rad).
 pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = angle.si(document)?;
-    if value.abs() <= std::f64::consts::TAU * (1.0 + 1e-9) {
+    let value = angle.si(document, &usual::ANGLE.within([0.0, TAU]))?;
+    if value.abs() <= TAU * (1.0 + 1e-9) {
         return Ok(value);
     }
     Err(document.error(
@@ -25,9 +26,10 @@ pub(super) fn pose(
     position: Option<&Located<Fixed<Quantity<Length>, 3>>>,
     rotation: Option<&Located<Fixed<Quantity<Angle>, 3>>>,
     document: &Document,
+    usual: &Usual,
 ) -> Result<Pose, Error> {
     let position = match position {
-        Some(position) => coordinates(&position.value, document)?,
+        Some(position) => coordinates(&position.value, document, usual)?,
         None => [0.0; 3],
     };
     let mut angles = [0.0; 3];
@@ -43,10 +45,11 @@ pub(super) fn pose(
 pub(super) fn coordinates<const N: usize>(
     values: &Fixed<Quantity<Length>, N>,
     document: &Document,
+    usual: &Usual,
 ) -> Result<[f64; N], Error> {
     let mut numbers = [0.0; N];
     for (number, value) in numbers.iter_mut().zip(&values.0) {
-        *number = value.coordinate(document, &usual::COORDINATE)?;
+        *number = value.coordinate(document, usual)?;
     }
     Ok(numbers)
 }

@@ -59,7 +59,7 @@ pub(super) fn layup(
         Some(Located { value: HeadingChoice::Best, .. }) | None => 0.0,
     };
     let origin = match &keys.origin {
-        Some(origin) => coordinates(&origin.value, document)?,
+        Some(origin) => coordinates(&origin.value, document, &usual::PLACE)?,
         None => [0.0; 2],
     };
     let Some(place) = mold.highest_point(origin) else {
@@ -137,7 +137,7 @@ fn nodes_of_cut(
     let seed = match &keys.seed {
         None | Some(Located { value: SeedChoice::Middle | SeedChoice::Best, .. }) => ply.middle(),
         Some(Located { value: SeedChoice::At(point), span }) => {
-            let uv = cut.fabric(coordinates(point, document)?);
+            let uv = cut.fabric(coordinates(point, document, &usual::FABRIC)?);
             if !(0..2).all(|n| (low[n]..=high[n]).contains(&uv[n])) {
                 return Err(document.error(
                     span.clone(),
@@ -195,7 +195,7 @@ fn nodes_of_cut(
 
 /// A shear angle to either side, below a right angle (rad).
 fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = shear.si(document)?;
+    let value = shear.si(document, &usual::ANGLE.within([0.0, std::f64::consts::FRAC_PI_2]))?;
     if value >= 0.0 {
         return shear.below_right_angle(document);
     }
@@ -228,7 +228,7 @@ impl Seed {
             SeedChoice::Middle | SeedChoice::Best => {
                 return Ok(Seed { cells: most.map(|count| 0.5 * count), span });
             }
-            SeedChoice::At(point) => coordinates(point, document)?,
+            SeedChoice::At(point) => coordinates(point, document, &usual::FABRIC)?,
         };
         let cells = [0, 1].map(|n| point[n] / ply.cell[n]);
         if (0..2).all(|n| cells[n] > -WHOLE && cells[n] < most[n] + WHOLE) {

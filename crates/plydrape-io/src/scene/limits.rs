@@ -6,6 +6,7 @@ use super::heading::coordinates;
 use super::located::Fixed;
 use super::quantity::{Length, Quantity};
 use super::source::Document;
+use super::usual;
 use crate::Error;
 use plydrape::layup::Layup;
 use plydrape::measure::{Limits, Name};
@@ -37,7 +38,8 @@ pub(super) fn limits(
     refuse(table, layup, document)?;
 
     if let Some(safety) = &table.grip_safety {
-        limits.grip_safety = safety.within_for(document, GRIP_SAFETIES, "the safety of a pad")?;
+        limits.grip_safety =
+            safety.within_for(document, GRIP_SAFETIES, "the safety of a pad", &usual::ANY)?;
     }
     if let Some(sides) = &table.workspace {
         limits.workspace = Some(workspace(sides, document)?);
@@ -65,7 +67,7 @@ fn workspace(
 ) -> Result<[[f64; 2]; 3], Error> {
     let mut out = [[0.0; 2]; 3];
     for (n, side) in sides.0.iter().enumerate() {
-        let [from, to] = coordinates(side, document)?;
+        let [from, to] = coordinates(side, document, &usual::COORDINATE)?;
         if from >= to {
             let axis = ["x", "y", "z"][n];
             let fault = if from == to { "is empty" } else { "runs backwards" };

@@ -146,8 +146,7 @@ fn from_table(
         (Some(angle), Some(test)) => {
             let test = line(test, document)?;
             source = format!("{source}; locking angle: {test}");
-            angle.positive(document)?;
-            Some(angle.below_right_angle(document)?)
+            Some(angle.acute(document)?)
         }
         (Some(angle), None) => {
             return Err(document.error(
@@ -203,7 +202,7 @@ fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, Error>
 
 /// A standard deviation as a share of the value, of which it is not more; `other` ends the remedy.
 fn scatter_share(share: &Quantity<Ratio>, other: &str, document: &Document) -> Result<f64, Error> {
-    let value = share.not_negative(document)?;
+    let value = share.not_negative(document, &usual::ANY)?;
     if value <= 1.0 {
         return Ok(value);
     }
@@ -218,7 +217,7 @@ fn scatter_share(share: &Quantity<Ratio>, other: &str, document: &Document) -> R
 
 /// A factor from 1 to [`LARGEST_FACTOR`].
 fn scatter_factor(factor: &Quantity<Ratio>, document: &Document) -> Result<f64, Error> {
-    let value = factor.positive(document)?;
+    let value = factor.positive(document, &usual::ANY)?;
     if (1.0..=LARGEST_FACTOR).contains(&value) {
         return Ok(value);
     }
@@ -310,7 +309,7 @@ fn bounded_rigidity<M: Measure>(
     document: &Document,
     usual: &Usual,
 ) -> Result<f64, Error> {
-    let value = rigidity.not_negative(document)?;
+    let value = rigidity.not_negative(document, usual)?;
     if value == 0.0 {
         return Ok(value);
     }

@@ -53,7 +53,7 @@ mod tool;
 mod trajectory;
 mod tree;
 mod units;
-mod usual;
+pub mod usual;
 
 pub use argument::{Measured, quantity};
 pub use book::{Book, BookPly, is_book, parse_book, read_book};
@@ -63,6 +63,7 @@ pub use ideal::IdealDrape;
 pub use material::{read_material, shipped_material, shipped_materials};
 pub use offset::{SeenOffset, json_offset, parse_offset, read_offset};
 pub use schema::schema;
+pub use trajectory::slow_in_seconds;
 
 use crate::Error;
 use crate::error::Diagnostic;

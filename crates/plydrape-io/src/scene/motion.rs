@@ -4,10 +4,11 @@ use super::file::{MotionKind, MotionTable};
 use super::located::{Count, Located, Whole};
 use super::places::Places;
 use super::source::Document;
+use super::usual;
 use crate::Error;
 use plydrape::geometry::vector;
 use plydrape::layup::Target;
-use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
+use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion, SHORTEST_STEP, is_too_short};
 use plydrape::ply::Ply;
 
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
@@ -55,9 +56,24 @@ pub(super) fn motion(
     };
     let last = (steps - 1) as f64;
     let duration = match keys.and_then(|k| k.duration.as_ref()) {
-        Some(duration) => duration.within_for(document, DURATIONS, "a motion")?,
+        Some(duration) => {
+            duration.within_for(document, DURATIONS, "a motion", &usual::duration())?
+        }
         None => last,
     };
+    if let Some(written) = keys.and_then(|k| k.duration.as_ref())
+        && is_too_short(duration / last)
+    {
+        return Err(document.error(
+            written.span.clone(),
+            format!(
+                "{} leaves {:.1e} s for a step",
+                document.quoted(&written.span),
+                duration / last
+            ),
+            format!("give each of the {steps} steps {SHORTEST_STEP:e} s at least"),
+        ));
+    }
     let motion = Motion {
         times: (0..steps).map(|k| duration * (k as f64 / last)).collect(),
         positions: (0..steps)

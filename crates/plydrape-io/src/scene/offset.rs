@@ -4,6 +4,7 @@ use super::located::{Fixed, Located};
 use super::quantity::{Angle, Length, Quantity};
 use super::read;
 use super::source::Document;
+use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::pick_up::Offset;
 use serde::Deserialize;
@@ -16,6 +17,16 @@ pub struct SeenOffset {
     pub offset: Offset,
     /// The largest distance of a seen point from where the offset puts it (m); none where the offset is given.
     pub residual: Option<f64>,
+    /// Whether somebody said that the ply does lie as far off as this is.
+    pub far: bool,
+}
+
+impl SeenOffset {
+    /// The same, of a ply that does lie as far off as this is if somebody else says so too.
+    #[must_use]
+    pub fn also_far(self, far: bool) -> Self {
+        SeenOffset { far: self.far || far, ..self }
+    }
 }
 
 /// The keys of the file.
@@ -29,6 +40,9 @@ struct OffsetFile {
     point: Vec<Located<PointTable>>,
     /// How far a point may be from where the others put it.
     tolerance: Option<Quantity<Length>>,
+    /// Whether the ply does lie more than 50 mm or 10° off.
+    #[serde(default)]
+    far: bool,
 }
 
 /// The table `[offset]`.
@@ -124,15 +138,16 @@ fn quoted(text: &str) -> String {
 }
 
 fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
-    let OffsetFile { offset, point, tolerance: own } = read::keys(document)?;
+    let OffsetFile { offset, point, tolerance: own, far } = read::keys(document)?;
     let pair = |fixed: &Fixed<Quantity<Length>, 2>| -> Result<[f64; 2], Error> {
-        Ok([place(&fixed.0[0], document)?, place(&fixed.0[1], document)?])
+        let [x, y] = fixed.0.each_ref().map(|given| place(given, document, &usual::PLACE));
+        Ok([x?, y?])
     };
     match (offset, point.as_slice()) {
         (Some(table), []) => {
             let OffsetTable { x, y, yaw, about } = &table.value;
             let shift = |given: &Option<Quantity<Length>>| {
-                given.as_ref().map_or(Ok(0.0), |given| place(given, document))
+                given.as_ref().map_or(Ok(0.0), |given| place(given, document, &usual::SHIFT))
             };
             let yaw = match yaw {
                 Some(yaw) => angle(yaw, document)?,
@@ -147,7 +162,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
                     "it is for seen points: leave it out",
                 ));
             }
-            Ok(SeenOffset { offset, residual: None })
+            Ok(SeenOffset { offset, residual: None, far })
         }
         (None, [first, ..]) => {
             let pairs = point
@@ -155,7 +170,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
                 .map(|point| Ok((pair(&point.value.planned)?, pair(&point.value.seen)?)));
             let pairs: Vec<_> = pairs.collect::<Result<_, Error>>()?;
             let tolerance = match own {
-                Some(own) => own.positive(document)?,
+                Some(own) => own.positive(document, &usual::LANDED)?,
                 None => tolerance,
             };
             let (offset, residual) = Offset::of_points(&pairs, tolerance).map_err(|fault| {
@@ -165,7 +180,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
                 };
                 document.error(span, fault.to_string(), fault.remedy())
             })?;
-            Ok(SeenOffset { offset, residual: Some(residual) })
+            Ok(SeenOffset { offset, residual: Some(residual), far })
         }
         (Some(table), _) => Err(document.error(
             table.span,
@@ -180,8 +195,8 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
 }
 
 /// A coordinate or a shift (m).
-fn place(given: &Quantity<Length>, document: &Document) -> Result<f64, Error> {
-    let value = given.si(document)?;
+fn place(given: &Quantity<Length>, document: &Document, usual: &Usual) -> Result<f64, Error> {
+    let value = given.si(document, &usual.within([0.0, plydrape::ply::FARTHEST]))?;
     match value.abs() <= plydrape::ply::FARTHEST {
         true => Ok(value),
         false => Err(document.error(
@@ -194,7 +209,7 @@ fn place(given: &Quantity<Length>, document: &Document) -> Result<f64, Error> {
 
 /// A yaw (rad).
 fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = given.si(document)?;
+    let value = given.si(document, &usual::YAW.within([0.0, std::f64::consts::PI]))?;
     match value.abs() <= std::f64::consts::PI {
         true => Ok(value),
         false => Err(document.error(
@@ -218,7 +233,7 @@ mod tests {
     fn an_offset_is_read_with_its_units() {
         let text =
             "[offset]\nx = \"3 mm\"\ny = -0.0015\nyaw = \"0.8 deg\"\nabout = [\"1 m\", 0.2]\n";
-        let SeenOffset { offset, residual } = parse(text).unwrap();
+        let SeenOffset { offset, residual, .. } = parse(text).unwrap();
         assert_eq!(offset.shift, [0.003, -0.0015]);
         assert!((offset.yaw - 0.8_f64.to_radians()).abs() < 1e-15);
         assert_eq!((offset.about, residual), (Some([1.0, 0.2]), None));
@@ -240,7 +255,7 @@ mod tests {
             -0.4 * s + 0.003,
             0.4 * c
         );
-        let SeenOffset { offset, residual } = parse(&text).unwrap();
+        let SeenOffset { offset, residual, .. } = parse(&text).unwrap();
         assert!((offset.yaw - 1_f64.to_radians()).abs() < 1e-14 && residual.unwrap() < 1e-14);
         let shift = offset.about([0.0, 0.0]).shift;
         assert!((shift[0] - 0.003).abs() < 1e-15 && shift[1].abs() < 1e-15);
@@ -252,13 +267,15 @@ mod tests {
         let point = |p: &str, q: &str| format!("[[point]]\nplanned = {p}\nseen = {q}\n");
         let swapped =
             point("[0, 0]", "[0, 0]") + &point("[1, 0]", "[0, 1]") + &point("[0, 1]", "[1, 0]");
-        let cases: [(&str, &str); 11] = [
+        let cases: [(&str, &str); 13] = [
             ("", "neither an offset nor points"),
             ("[offset]\nx = \"3\"\n", "has no unit"),
             ("[offset]\nx = \"3 deg\"\n", "is an angle"),
             ("[offset]\nx = nan\n", "is no"),
-            ("[offset]\nyaw = 57\n", "more than half a turn"),
-            ("[offset]\nx = 1e9\n", "beyond all cells"),
+            ("[offset]\nyaw = 57\n", "would make a yaw of 57 rad"),
+            ("[offset]\nyaw = \"270 deg\"\n", "more than half a turn"),
+            ("[offset]\nx = 3\n", "would make a shift of 3 m"),
+            ("[offset]\nx = \"1e9 m\"\n", "beyond all cells"),
             ("[offset]\nz = 1\n", "is no key here"),
             ("[offset]\nabout = [1]\n", "one value stands here"),
             ("tolerance = 1e-3\n[offset]\n", "no meaning for an offset"),
@@ -280,6 +297,9 @@ mod tests {
             ("{\"offset\": null}", "null"),
             ("{\"offset\": {\"x\": \"3\"}}", "has no unit"),
             ("{\"offset\": {\"x\": 1e400}}", "not JSON"),
+            ("{\"offset\": {\"x\": 3}}", "would make a shift of 3 m"),
+            ("{\"offset\": {\"x\": 900000}}", "would make a shift of 900000 m"),
+            ("{\"offset\": {\"yaw\": 0.8}}", "would make a yaw of 0.8 rad"),
             ("{}", "neither"),
         ] {
             let fault = json_offset(text, 2e-3).unwrap_err();

@@ -6,8 +6,9 @@ use super::located::Located;
 use super::quantity::rounded;
 use super::read;
 use super::source::Document;
-use super::table::{Column, Row, Table};
+use super::table::{Column, Plain, Row, Table};
 use super::units::Dimension;
+use super::usual;
 use crate::Error;
 use plydrape::LayupError;
 use plydrape::ply::{Grid, GripperId, Ply, gripper_name};
@@ -38,9 +39,17 @@ pub(super) struct Places {
 const COLUMNS: [Column; 5] =
     [Column::named(&["i"], Dimension::NONE), Column::named(&["j"], Dimension::NONE), X, Y, Z];
 /// The columns of coordinates.
-pub(super) const X: Column = Column::named(&["x"], Dimension::LENGTH);
-pub(super) const Y: Column = Column::named(&["y"], Dimension::LENGTH);
-pub(super) const Z: Column = Column::named(&["z"], Dimension::LENGTH);
+pub(super) const X: Column = coordinate(&["x"]);
+pub(super) const Y: Column = coordinate(&["y"]);
+pub(super) const Z: Column = coordinate(&["z"]);
+
+const fn coordinate(names: &'static [&'static str]) -> Column {
+    Column { plain: Some(&PLAIN), ..Column::named(names, Dimension::LENGTH) }
+}
+
+/// The largest coordinate in meters without a unit, as in a scene.
+const PLAIN: Plain =
+    Plain { believed: [0.0, 2.0 * usual::COORDINATE.found[1]], words: usual::COORDINATE.range };
 
 impl Places {
     /// Reads the key `positions`.
@@ -177,7 +186,7 @@ fn from_table(
             return Err(scene.error(row.span.clone(), message, help));
         }
         for position in &row.value {
-            places.points.push(coordinates(&position.value, scene)?);
+            places.points.push(coordinates(&position.value, scene, &usual::COORDINATE)?);
             places.spans.push(position.span.clone());
         }
     }
@@ -202,6 +211,7 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
             points[index] = Some(point(&row, [2, 3, 4])?);
             spans[index] = row.span.clone();
         }
+        csv.check_plain()?;
         csv.header()
     };
     if let Some(missing) = points.iter().position(Option::is_none) {

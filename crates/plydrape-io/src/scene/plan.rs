@@ -43,7 +43,7 @@ pub(super) fn plan(table: &PlanTable, grippers: usize, document: &Document) -> R
         },
         improve: table.improve.unwrap_or(default.improve),
         rate: match &table.rate {
-            Some(rate) => rate.within_for(document, RATES, "a motion file")?,
+            Some(rate) => rate.within_for(document, RATES, "a motion file", &usual::RATE)?,
             None => default.rate,
         },
     })

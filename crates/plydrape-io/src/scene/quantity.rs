@@ -3,7 +3,7 @@
 use super::located::Located;
 use super::source::Document;
 use super::units::{self, Dimension};
-use super::usual::Usual;
+use super::usual::{self, Usual};
 use crate::Error;
 use crate::error::Fault;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -122,11 +122,21 @@ impl<M> Unchecked<M> {
 pub(super) type Quantity<M> = Located<Unchecked<M>>;
 
 impl<M: Measure> Quantity<M> {
-    /// The finite value in SI units.
-    pub fn si(&self, document: &Document) -> Result<f64, Error> {
-        let value = self.si_or_infinite(document)?;
+    /// The finite value in SI units; a plain number near what is usual.
+    pub fn si(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
+        let value = self.finite(document)?;
+        self.believed(document, usual)?;
+        Ok(value)
+    }
+
+    /// The finite value in SI units, whether it is usual or not.
+    fn finite(&self, document: &Document) -> Result<f64, Error> {
+        let (value, _) = self.with_dimension(document)?;
         if value.is_finite() {
             return Ok(value);
+        }
+        if value.is_nan() {
+            return Err(self.not_a_number(document));
         }
         Err(document.error(
             self.span.clone(),
@@ -135,17 +145,22 @@ impl<M: Measure> Quantity<M> {
         ))
     }
 
-    /// The value in SI units; infinity passes, a value that is not a number does not.
-    pub fn si_or_infinite(&self, document: &Document) -> Result<f64, Error> {
+    /// The value in SI units, a plain number near what is usual; infinity passes, a value that is not a number does not.
+    pub fn si_or_infinite(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
         let (value, _) = self.with_dimension(document)?;
-        if !value.is_nan() {
-            return Ok(value);
+        if value.is_nan() {
+            return Err(self.not_a_number(document));
         }
-        Err(document.error(
+        self.believed(document, usual)?;
+        Ok(value)
+    }
+
+    fn not_a_number(&self, document: &Document) -> Error {
+        document.error(
             self.span.clone(),
             "`nan` is not a number",
             format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
-        ))
+        )
     }
 
     /// The value in SI units and its dimension, `None` where a plain number leaves it open.
@@ -182,10 +197,11 @@ impl<M: Measure> Quantity<M> {
         }
     }
 
-    /// A value above zero.
-    pub fn positive(&self, document: &Document) -> Result<f64, Error> {
-        let value = self.si(document)?;
+    /// A value above zero; a plain number near what is usual.
+    pub fn positive(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
+        let value = self.finite(document)?;
         if value > 0.0 {
+            self.believed(document, usual)?;
             return Ok(value);
         }
         let zero = if value == 0.0 { "zero" } else { "negative" };
@@ -196,20 +212,18 @@ impl<M: Measure> Quantity<M> {
         ))
     }
 
-    /// A value above zero, a plain number near what is found in practice, and within bounds, both in SI units.
+    /// A value above zero, a plain number near what is usual, and within bounds, both in SI units.
     pub fn within(
         &self,
         document: &Document,
         bounds: [f64; 2],
         usual: &Usual,
     ) -> Result<f64, Error> {
-        self.positive(document)?;
-        self.believed(document, usual)?;
-        self.within_for(document, bounds, "a ply")
+        self.within_for(document, bounds, "a ply", usual)
     }
 
-    /// Refuses a plain number that is far from what is found in practice.
-    pub fn believed(&self, document: &Document, usual: &Usual) -> Result<(), Error> {
+    /// Refuses a plain number that is far from what is usual.
+    fn believed(&self, document: &Document, usual: &Usual) -> Result<(), Error> {
         let number = match self.value.raw {
             Raw::Number(number) if number != 0.0 && number.is_finite() && !usual.holds(number) => {
                 number
@@ -217,26 +231,29 @@ impl<M: Measure> Quantity<M> {
             _ => return Ok(()),
         };
         let (written, unit) = (document.excerpt(&self.span), usual.unit);
+        let written = written.trim_matches('"');
         let meant = usual.meant(number, si::<M>);
         let meant: Vec<String> = meant.iter().map(|unit| format!("\"{written} {unit}\"")).collect();
         let question = match meant.is_empty() {
             true => String::new(),
             false => format!("did you mean {}? ", meant.join(" or ")),
         };
+        let insist = match units::unit(unit) {
+            _ if !usual.allows(number) => String::new(),
+            _ if unit.is_empty() => {
+                format!("; write \"{} %\" if you mean that", plain(100.0 * number))
+            }
+            Ok(_) => format!("; write \"{written} {unit}\" if you mean that"),
+            Err(_) => "; write it with its unit if you mean that".into(),
+        };
+        let plain_unit = match unit {
+            "" => String::new(),
+            unit => format!("plain numbers are in {unit}, and "),
+        };
         Err(document.error(
             self.span.clone(),
             format!("`{written}` would make {} {} {unit}", usual.what, plain(number)).trim_end(),
-            match units::unit(unit) {
-                _ if unit.is_empty() => format!("{question}{}", usual.range),
-                Ok(_) => format!(
-                    "{question}plain numbers are in {unit}, and {}; write \"{written} {unit}\" if you mean that",
-                    usual.range
-                ),
-                Err(_) => format!(
-                    "{question}plain numbers are in {unit}, and {}; write it with its unit if you mean that",
-                    usual.range
-                ),
-            },
+            format!("{question}{plain_unit}{}{insist}", usual.range),
         ))
     }
 
@@ -246,8 +263,9 @@ impl<M: Measure> Quantity<M> {
         document: &Document,
         [low, high]: [f64; 2],
         what: &str,
+        usual: &Usual,
     ) -> Result<f64, Error> {
-        let value = self.positive(document)?;
+        let value = self.positive(document, &usual.within([low, high]))?;
         if (low..=high).contains(&value) {
             return Ok(value);
         }
@@ -259,10 +277,11 @@ impl<M: Measure> Quantity<M> {
         ))
     }
 
-    /// A value of zero or more.
-    pub fn not_negative(&self, document: &Document) -> Result<f64, Error> {
-        let value = self.si(document)?;
+    /// A value of zero or more; a plain number near what is usual.
+    pub fn not_negative(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
+        let value = self.finite(document)?;
         if value >= 0.0 {
+            self.believed(document, usual)?;
             return Ok(value);
         }
         Err(document.error(
@@ -296,8 +315,7 @@ const SIZES: [f64; 2] = [1e-6, 1e4];
 impl Quantity<Length> {
     /// A size between 1 µm and 10 km (m).
     pub fn size(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.positive(document)?;
-        self.believed(document, usual)?;
+        let value = self.positive(document, &usual.within(SIZES))?;
         if (SIZES[0]..=SIZES[1]).contains(&value) {
             return Ok(value);
         }
@@ -306,14 +324,13 @@ impl Quantity<Length> {
 
     /// A size that may be zero, up to 10 km (m).
     pub fn size_or_zero(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.not_negative(document)?;
+        let value = self.not_negative(document, usual)?;
         if value == 0.0 { Ok(value) } else { self.size(document, usual) }
     }
 
     /// A coordinate of at most 10 km to either side (m).
     pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.si(document)?;
-        self.believed(document, usual)?;
+        let value = self.si(document, &usual.within([0.0, SIZES[1]]))?;
         if value.abs() <= SIZES[1] {
             return Ok(value);
         }
@@ -343,13 +360,14 @@ pub(super) fn rounded(value: f64) -> String {
 impl Quantity<Angle> {
     /// An angle above zero and below a right angle (rad).
     pub fn acute(&self, document: &Document) -> Result<f64, Error> {
-        self.positive(document)?;
-        self.below_right_angle(document)
+        self.below_right_angle(document)?;
+        self.positive(document, &usual::ANGLE)
     }
 
-    /// An angle from zero to below a right angle (rad).
+    /// An angle from zero to below a right angle (rad): a plain number beyond is asked about as degrees.
     pub fn below_right_angle(&self, document: &Document) -> Result<f64, Error> {
-        let value = self.not_negative(document)?;
+        // what is usual is what is possible
+        let value = self.not_negative(document, &usual::ANY)?;
         if value < std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9) {
             return Ok(value);
         }
@@ -434,7 +452,8 @@ mod tests {
 
     fn read<M: Measure>(text: &str) -> Result<f64, Error> {
         let document = Document::new("", text);
-        Located { value: Unchecked::<M>::of_argument(text), span: 0..text.len() }.si(&document)
+        Located { value: Unchecked::<M>::of_argument(text), span: 0..text.len() }
+            .si(&document, &usual::ANY)
     }
 
     /// Peirce's flexural rigidity of a width is a mass per area in mg/cm² times the cube of a bending length in cm, so in

@@ -3,6 +3,7 @@
 use super::file::{OrderKey, ReleaseTable};
 use super::located::Located;
 use super::source::Document;
+use super::usual;
 use crate::Error;
 use plydrape::layup::{Model, Release, ReleaseOrder};
 
@@ -33,9 +34,9 @@ pub(super) fn release(
     }
     let dwell = match dwell {
         None => 0.0,
-        Some(dwell) => match dwell.not_negative(document)? {
+        Some(dwell) => match dwell.not_negative(document, &usual::DWELL)? {
             0.0 => 0.0,
-            _ => dwell.within_for(document, DWELLS, "a dwell")?,
+            _ => dwell.within_for(document, DWELLS, "a dwell", &usual::DWELL)?,
         },
     };
     Ok(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell))

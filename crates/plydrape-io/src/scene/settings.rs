@@ -37,8 +37,10 @@ pub(super) fn settings(
 ) -> Result<Settings, Error> {
     let (model, usual) = (&file.model, Settings::default());
     let axial_stiffness = match &model.axial_stiffness {
-        Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
-        Some(stiffness) => stiffness.within_for(document, AXIAL_STIFFNESS, "a ply")?,
+        Some(stiffness) if stiffness.si_or_infinite(document, &usual::AXIAL)? == f64::INFINITY => {
+            f64::INFINITY
+        }
+        Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS, &usual::AXIAL)?,
         None => usual.axial_stiffness,
     };
     let gravity = match &model.gravity {
@@ -112,14 +114,12 @@ pub(super) fn contact(
             Some(Located { value: FrictionChoice::StickForEver, .. }) => Friction::StickForEver,
             Some(Located { value: FrictionChoice::Coefficient(coefficient), span }) => {
                 let coefficient = Located { value: coefficient.clone(), span: span.clone() };
-                let value = coefficient.not_negative(document)?;
-                coefficient.believed(document, &usual::FRICTION)?;
-                Friction::Coulomb(value)
+                Friction::Coulomb(coefficient.not_negative(document, &usual::FRICTION)?)
             }
             None => usual.friction,
         },
         tack: match &contact.tack {
-            Some(tack) => tack.not_negative(document)?,
+            Some(tack) => tack.not_negative(document, &usual::TACK)?,
             None => usual.tack,
         },
     })
@@ -159,14 +159,11 @@ fn sheet(table: &SheetTable, overhang: f64, document: &Document) -> Result<Sheet
 pub(super) fn held(table: &GrippersTable, cell: &Cell, document: &Document) -> Result<Cell, Error> {
     let usual = &cell.pad;
     let mount = |key: Option<&Quantity<Stiffness>>| {
-        key.map(|key| {
-            key.believed(document, &usual::MOUNT)?;
-            key.within_for(document, MOUNTS, "a gripper's mount")
-        })
-        .transpose()
+        key.map(|key| key.within_for(document, MOUNTS, "a gripper's mount", &usual::MOUNT))
+            .transpose()
     };
     let force = |key: &Option<Quantity<Force>>, other: Option<f64>| match key {
-        Some(key) => key.within_for(document, PAD_FORCES, "a pad").map(Some),
+        Some(key) => key.within_for(document, PAD_FORCES, "a pad", &usual::PAD_FORCE).map(Some),
         None => Ok(other),
     };
     let [lateral_stiffness, axial_stiffness] = match &table.stiffness {

@@ -109,7 +109,7 @@ fn rectangle(
     };
     let origin = match (&keys.origin, &keys.middle) {
         (None, None) => [0.0; 2],
-        (None, Some(place)) => ply_at(coordinates(&place.value, document)?),
+        (None, Some(place)) => ply_at(coordinates(&place.value, document, &usual::PLACE)?),
         (Some(_), Some(place)) => {
             return Err(document.error(
                 place.span.clone(),
@@ -118,7 +118,7 @@ fn rectangle(
             ));
         }
         (Some(origin), None) => match (&origin.value, target) {
-            (Place::At(origin), _) => coordinates(origin, document)?,
+            (Place::At(origin), _) => coordinates(origin, document, &usual::PLACE)?,
             (Place::Keyword(_), Some(target)) => {
                 shift(middle(&target.grippers), middle(&unmoved().grippers(ply, distances)))
             }

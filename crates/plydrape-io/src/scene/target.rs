@@ -111,10 +111,13 @@ fn wanted(
 ) -> Result<Wanted, Error> {
     let document = csv_file(&file.value, &file.span, scene, base)?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
-    for row in Table::new(&document, &[X, Y, Z], &[])?.rows() {
+    let columns = [X, Y, Z];
+    let csv = Table::new(&document, &columns, &[])?;
+    for row in csv.rows() {
         points.push(point(&row, [0, 1, 2])?);
         spans.push(row.span.clone());
     }
+    csv.check_plain()?;
     Wanted::new(mold, &points, mesh).map_err(|fault| match fault {
         LayupError::BoundaryOffMold { point, .. } => document.error(
             spans[point].clone(),

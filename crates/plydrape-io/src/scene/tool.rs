@@ -6,7 +6,7 @@ use super::layup::round;
 use super::located::Located;
 use super::quantity::{AngularRate, Length, Speed};
 use super::source::Document;
-use super::usual::Usual;
+use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::geometry::Pose;
 use plydrape::layup::Layup;
@@ -44,13 +44,13 @@ pub(super) fn tool(
     Ok(Tool {
         turn_rate: match &table.turn_rate {
             Some(rate) => {
-                rate.believed(document, &Usual::of::<AngularRate>(&Practice::TURN))?;
-                rate.within_for(document, TURNS, "a frame")?
+                let usual = Usual::of::<AngularRate>(&Practice::TURN);
+                rate.within_for(document, TURNS, "a frame", &usual)?
             }
             None => usual.turn_rate,
         },
         turn_acceleration: match &table.turn_acceleration {
-            Some(rate) => rate.within_for(document, TURNS, "a frame")?,
+            Some(rate) => rate.within_for(document, TURNS, "a frame", &usual::TURN_ACCELERATION)?,
             None => usual.turn_acceleration,
         },
         fixed_pads: fixed_pads(table, layup, start, document)?,
@@ -59,8 +59,8 @@ pub(super) fn tool(
             .as_ref()
             .map(|limit| limit.size(document, &Usual::of::<Length>(&Practice::GAP)))
             .transpose()?,
-        flange: placed(table.flange.as_ref(), document)?,
-        world: placed(table.world.as_ref(), document)?,
+        flange: placed(table.flange.as_ref(), document, &usual::FLANGE)?,
+        world: placed(table.world.as_ref(), document, &usual::COORDINATE)?,
         ..usual
     })
 }
@@ -86,10 +86,10 @@ fn fixed_pads(
     Ok(Some(layup.ply.flat_axes(start)))
 }
 
-fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, Error> {
+fn placed(table: Option<&PlacedTable>, document: &Document, usual: &Usual) -> Result<Pose, Error> {
     match table {
         Some(PlacedTable { position, rotation }) => {
-            pose(position.as_ref(), rotation.as_ref(), document)
+            pose(position.as_ref(), rotation.as_ref(), document, usual)
         }
         None => Ok(Pose::ORIGIN),
     }
@@ -102,7 +102,7 @@ fn axis(
     document: &Document,
 ) -> Result<Axis, Error> {
     let table = &written.value;
-    let stroke = coordinates(&table.stroke.value, document)?;
+    let stroke = coordinates(&table.stroke.value, document, &usual::STROKE)?;
     if !(stroke[0] <= 0.0 && 0.0 <= stroke[1] && stroke[0] < stroke[1]) {
         return Err(document.error(
             table.stroke.span.clone(),
@@ -130,8 +130,8 @@ fn axis(
     };
     let speed = match &table.speed {
         Some(speed) => {
-            speed.believed(document, &Usual::of::<Speed>(&Practice::SPEED))?;
-            speed.within_for(document, SPEEDS, "an axis")?
+            let usual = Usual::of::<Speed>(&Practice::SPEED);
+            speed.within_for(document, SPEEDS, "an axis", &usual)?
         }
         None => limits.most(Name::Speed),
     };

@@ -4,11 +4,13 @@ use super::file::MotionTable;
 use super::located::Located;
 use super::motion::DURATIONS;
 use super::places::{Places, X, Y, Z, csv_file, index, point};
+use super::quantity::rounded;
 use super::source::Document;
 use super::table::{Column, Row, Table};
 use super::units::Dimension;
 use crate::Error;
-use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion};
+use plydrape::measure::Practice;
+use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion, SHORTEST_STEP, is_too_short};
 use plydrape::ply::{GripperId, Ply, gripper_name, read_gripper_name};
 use std::ops::Range;
 use std::path::Path;
@@ -52,6 +54,10 @@ pub(super) fn trajectory(
         steps.add(&row)?;
     }
     steps.finish(csv.header())?;
+    csv.check_plain()?;
+    if !csv.has_unit(0) {
+        believed(&steps.motion, csv.header(), &document)?;
+    }
     let (motion, spans) = (steps.motion, steps.first_spans);
     let start = Places {
         points: motion.positions.first().cloned().unwrap_or_default(),
@@ -60,6 +66,30 @@ pub(super) fn trajectory(
         height: None,
     };
     Ok((motion, start))
+}
+
+/// The largest speed (m/s) of a motion at whose times all grippers are slower than grippers are, and not if its times are milliseconds.
+#[must_use]
+pub fn slow_in_seconds(motion: &Motion) -> Option<f64> {
+    let speed = motion.least_peaks(0.0).speed.value;
+    let [slowest, fastest] = Practice::SPEED.found;
+    (speed < slowest && (slowest..=fastest).contains(&(1e3 * speed))).then_some(speed)
+}
+
+/// Refuses times without a unit that look like milliseconds.
+fn believed(motion: &Motion, header: Range<usize>, document: &Document) -> Result<(), Error> {
+    let Some(speed) = slow_in_seconds(motion) else { return Ok(()) };
+    Err(document.error(
+        header,
+        format!(
+            "the column `t` has no unit, and in seconds no gripper would be faster than {} mm/s",
+            rounded(1e3 * speed)
+        ),
+        format!(
+            "did you mean ms? {}; name the unit in the header, `t (ms)` or `t (s)`",
+            Practice::SPEED.words
+        ),
+    ))
 }
 
 /// The steps of a motion file, as its rows come.
@@ -106,6 +136,15 @@ impl<'a> Steps<'a> {
                     0,
                     format!("the time falls from {} s to {written} s", last + self.first_time),
                     "sort the rows by time: every gripper at one time, then every gripper at the next",
+                ));
+            }
+            Some(last) if is_too_short(time - last) => {
+                return Err(row.fault(
+                    0,
+                    format!("the time rises by {:.1e} s from the step before", time - last),
+                    format!(
+                        "give each step {SHORTEST_STEP:e} s at least, or leave one of both steps out"
+                    ),
                 ));
             }
             _ => self.begin(time, row)?,

@@ -1,20 +1,23 @@
 //! What plies, grippers and cells physically measure, and which plain numbers are believed.
 //!
 //! A plain number is in SI units, and whoever leaves out a unit often thinks of another one: `cell = [100, 100]` would be cells of
-//! 100 m. So a plain number that is more than [`MARGIN`] away from what is found in practice is refused, with the unit in which it
-//! would make sense. A value whose unit is written out is believed: `"100 m"` is 100 m.
+//! 100 m. So every value is read with what is [`Usual`] of its key, and a plain number outside of that is refused, with the unit in which it
+//! would make sense: in scenes, offsets, options of commands and arguments of Python. A value whose unit is written out is believed: `"100 m"`
+//! is 100 m.
 
-use super::quantity::Measure;
+use super::quantity::{Measure, Time};
 use super::units::{self, Dimension};
 use plydrape::measure::Practice;
 
-/// How far a plain number may be outside of what is found in practice: ten times to either side. Units that are taken for each
-/// other differ by a thousand, so that the margin can be wide and still tells them apart.
-const MARGIN: f64 = 10.0;
+/// How far a plain number may be below and above what is found in practice. Units that are taken for each other differ by a thousand, and
+/// those that are left out are mostly the smaller ones.
+const MARGINS: [f64; 2] = [0.1, 2.0];
+/// The same of angles and shares: a degree is a sixtieth of a radian, and a percent a hundredth of one.
+const CLOSE_MARGINS: [f64; 2] = [1.0, 1.0];
 
 /// What is found in practice of one kind of value.
-#[derive(Debug)]
-pub(super) struct Usual {
+#[derive(Debug, Clone, Copy)]
+pub struct Usual {
     /// What a value makes, before the value: `cells of`.
     pub what: &'static str,
     /// The unit of a plain number, empty of a share.
@@ -25,6 +28,8 @@ pub(super) struct Usual {
     pub range: &'static str,
     /// Units that are meant where one was left out.
     pub others: &'static [&'static str],
+    /// Smallest and largest size that is possible at all (in that unit).
+    possible: [f64; 2],
 }
 
 /// The unit in which most drawings are.
@@ -34,8 +39,15 @@ macro_rules! usual {
     ($($(#[$doc:meta])* $name:ident: $what:literal, $unit:literal, $found:expr, $range:literal, $others:expr;)+) => {
         $(
             $(#[$doc])*
-            pub(super) const $name: Usual =
-                Usual { what: $what, unit: $unit, found: $found, range: $range, others: $others };
+            pub const $name: Usual =
+                Usual {
+                    what: $what,
+                    unit: $unit,
+                    found: $found,
+                    range: $range,
+                    others: $others,
+                    possible: [0.0, f64::INFINITY],
+                };
         )+
         /// All of them, for the tests.
         #[cfg(test)]
@@ -58,14 +70,68 @@ usual! {
     THICKNESS: "a thickness of", "m", [2e-5, 3e-3], "plies are 0.02 mm to 3 mm thick", &["mm", "um"];
     /// Robots reach 3 m, and a ply is picked up near its mold.
     HEIGHT: "grippers at a height of", "m", [0.0, 3.0], "grippers start up to 3 m high", LENGTHS;
-    /// The longest halls and molds.
-    COORDINATE: "a place at", "m", [0.0, 50.0], "halls and molds are up to 50 m long", LENGTHS;
+    /// The halls and molds of most cells.
+    COORDINATE: "a place at", "m", [0.0, 30.0], "halls and molds are up to 30 m long", LENGTHS;
+    /// A ply is laid near the origin of its mold.
+    PLACE: "a place at", "m", [0.0, 5.0], "plies, grippers and what is near to them are up to 5 m from the origin", LENGTHS;
+    /// A point of a ply, in the flat.
+    FABRIC: "a point of the ply at", "m", [0.0, 5.0], "points of a ply are up to 5 m from its origin", LENGTHS;
+    /// From the flange of a robot to the frame that it carries.
+    FLANGE: "a flange at", "m", [0.0, 2.0], "flanges are up to 2 m from the frame", LENGTHS;
+    /// An axis of a gripper.
+    STROKE: "a stroke to", "m", [0.0, 1.0], "strokes are up to 1 m long", LENGTHS;
+    /// From a pin to a column.
+    CYLINDER: "a cylinder with a radius of", "m", [0.0005, 0.5], "cylinders have radii of 0.5 mm to 500 mm", LENGTHS;
+    /// How far seen points may be from one another's offset.
+    LANDED: "a tolerance of", "m", [0.0, 0.01], "tolerances of positions are up to 10 mm", LENGTHS;
+    /// How far a ply lies from where it was planned.
+    SHIFT: "a shift of", "m", [0.0, 0.05], "plies are laid down within 50 mm", LENGTHS;
+    /// The same as an angle.
+    YAW: "a yaw of", "rad", [0.0, 0.175], "plies are laid down within 10 deg", &["deg"];
+    /// Half a turn to either side.
+    ANGLE: "an angle of", "rad", [0.0, 3.1416], "angles are up to half a turn, 3.1416 rad", &["deg"];
+    /// What a table of a tension test reaches.
+    STRAIN: "a strain of", "", [0.0, 0.1], "yarns stretch by up to 10 %", &["%"];
+    /// What a picture-frame test measures.
+    SHEAR_FORCE: "a shear force of", "N/m", [0.0, 5e3], "plies are sheared with up to 5000 N/m", &["mN/mm"];
+    /// What a tension test measures.
+    TENSION_FORCE: "a tension of", "N/m", [0.0, 1e6], "plies bear up to 1e6 N/m", &["N/m"];
+    /// From a flat ply to a fold.
+    CURVATURE: "a curvature of", "1/m", [0.0, 1e3], "plies are bent with up to 1000 1/m", &["1/m"];
+    /// What a bending test measures.
+    MOMENT: "a moment of", "N", [0.0, 10.0], "plies are bent with up to 10 N", &["mN"];
+    /// How long pads press.
+    DWELL: "a dwell of", "s", [0.0, 60.0], "pads press for up to 60 s", &["ms"];
+    /// Points of a motion that a machine follows.
+    RATE: "a rate of", "Hz", [1.0, 1e3], "machines take 1 Hz to 1000 Hz", &["kHz"];
+    /// From a slow frame to the wrist of a robot.
+    TURN_ACCELERATION: "an acceleration of", "rad/s^2", [1e-3, 20.0], "frames turn with 0.001 rad/s^2 to 20 rad/s^2", &["deg/s^2"];
+    /// Lines of ply, from a veil to a thick fabric of carbon.
+    AXIAL: "an axial stiffness of", "N", [1e4, 1e8], "lines of ply have 1e4 N to 1e8 N", &["kN", "MN"];
+    /// From a dry fabric to a sticky prepreg.
+    TACK: "a tack of", "Pa", [0.0, 1e4], "plies stick with up to 1e4 Pa", &[];
+    /// From a needle to a large suction plate.
+    PAD_FORCE: "a pad that holds", "N", [0.01, 500.0], "pads hold 0.01 N to 500 N", &["mN"];
+    /// How far a real cell is from its scene.
+    ERROR: "an error of", "m", [0.0, 0.02], "errors of cells are up to 20 mm", LENGTHS;
+    /// The same of angles.
+    ANGLE_ERROR: "an error of", "rad", [0.0, 0.1], "errors of angles are up to 0.1 rad, 5.7 deg", &["deg"];
+    /// The length of one catenary, or of what hangs between two grippers.
+    SPAN: "a span of", "m", [0.002, 2.0], "spans are 2 mm to 2 m long", LENGTHS;
+    /// The weight of a line of ply.
+    WEIGHT: "a line of ply of", "N/m", [1e-3, 50.0], "lines of ply weigh 0.001 N/m to 50 N/m", &["mN/m"];
+    /// What a machine tests.
+    COUPON: "a coupon of", "m", [0.005, 1.0], "coupons are 5 mm to 1 m long", LENGTHS;
+    /// How far a controller may be from a motion.
+    POSITION_ERROR: "an error of", "m", [0.0, 0.01], "errors of positions are up to 10 mm", LENGTHS;
+    /// What has no unit, or may be of any size.
+    ANY: "a value of", "", [0.0, f64::INFINITY], "numbers of any size are usual", &[];
     /// From a fillet to the barrel of a fuselage.
     RADIUS: "a radius of", "m", [0.005, 5.0], "molds have radii of 5 mm to 5 m", LENGTHS;
     /// From a needle gripper to a large suction plate.
     PAD: "a pad with a radius of", "m", [0.0, 0.1], "pads have radii of up to 100 mm", LENGTHS;
     /// From a cup to a robot's frame, a table or a gantry.
-    BODY: "a body of", "m", [0.001, 10.0], "bodies and obstacles are 1 mm to 10 m large", LENGTHS;
+    BODY: "a body of", "m", [0.001, 5.0], "bodies and obstacles are 1 mm to 5 m large", LENGTHS;
     /// From the roughness of a mold to the thickness of a thick ply.
     TOLERANCE: "a contact tolerance of", "m", [1e-5, 1e-3], "tolerances of contact are 0.01 mm to 1 mm", LENGTHS;
     /// How closely a curve of a drawing is followed.
@@ -91,7 +157,7 @@ usual! {
     /// From a loose fabric to a stitched one with resin.
     SHEAR: "a shear slope of", "N/m per radian", [0.0, 1e4], "plies have up to 1e4 N/m per radian", &[];
     /// Bellows and springs to a rigid frame.
-    MOUNT: "a mount of", "N/m", [20.0, 1e7], "mounts have 20 N/m to 1e7 N/m", &["N/mm"];
+    MOUNT: "a mount of", "N/m", [500.0, 1e7], "mounts have 500 N/m to 1e7 N/m", &["N/mm"];
     /// From ice to rubber.
     FRICTION: "a coefficient of friction of", "", [0.0, 2.0], "coefficients of friction are up to 2", &["%"];
     /// On the Moon and on Earth.
@@ -100,29 +166,48 @@ usual! {
 
 impl Usual {
     /// What is found in practice of a limit or what is like it.
-    pub fn of<M: Measure>(practice: &Practice) -> Self {
+    pub(super) fn of<M: Measure>(practice: &Practice) -> Self {
         let others: &[&str] = match M::UNIT {
             "m" => LENGTHS,
             "m/s" => &["mm/s"],
             "m/s^2" => &["mm/s^2"],
             "m/s^3" => &["mm/s^3"],
             "rad/s" => &["deg/s"],
+            "s" => &["ms"],
+            "N" => &["mN"],
+            "rad" => &["deg"],
+            "" => &["%"],
             _ => &[],
         };
         let Practice { what, found, words } = *practice;
-        Usual { what, unit: M::UNIT, found, range: words, others }
+        Usual { what, unit: M::UNIT, found, range: words, others, possible: [0.0, f64::INFINITY] }
+    }
+
+    /// The same of values whose size is possible between two (in that unit) alone.
+    pub(super) fn within(self, possible: [f64; 2]) -> Self {
+        Usual { possible, ..self }
+    }
+
+    /// Whether a number (in that unit) is possible, be it usual or not.
+    pub(super) fn allows(&self, number: f64) -> bool {
+        let [low, high] = self.possible;
+        (low..=high).contains(&number.abs())
     }
 
     /// Whether a plain number is believed. Zero and small negative numbers are not judged here: where they are wrong, it is not for
     /// their unit.
-    pub fn holds(&self, value: f64) -> bool {
+    pub(super) fn holds(&self, value: f64) -> bool {
         let [low, high] = self.found;
-        let too_small = 0.0 < value && value < low / MARGIN;
-        !too_small && value.abs() <= high * MARGIN
+        let [below, above] = match self.unit {
+            "" | "rad" | "rad/s" | "rad/s^2" => CLOSE_MARGINS,
+            _ => MARGINS,
+        };
+        let too_small = 0.0 < value && value < low * below;
+        !too_small && value.abs() <= high * above
     }
 
     /// The units in which a number would be found in practice; those in which it would be believed where there are none.
-    pub fn meant(
+    pub(super) fn meant(
         &self,
         number: f64,
         si: impl Fn(f64, Dimension) -> Option<f64>,
@@ -138,6 +223,20 @@ impl Usual {
         };
         let found = among(&|value| (low..=high).contains(&value));
         if found.is_empty() { among(&|value| self.holds(value)) } else { found }
+    }
+}
+
+/// What is usual of the duration of a motion.
+pub(super) fn duration() -> Usual {
+    Usual::of::<Time>(&Practice::DURATION)
+}
+
+/// What is usual of an error of a cell.
+pub(super) fn error<M: Measure>() -> &'static Usual {
+    match M::UNIT {
+        "m" => &ERROR,
+        "rad" => &ANGLE_ERROR,
+        _ => &ANY,
     }
 }
 
@@ -159,6 +258,111 @@ mod tests {
             let meant = usual.meant(1e3 * high, |value, _| Some(value));
             assert_eq!(meant.first(), Some(&"mm"), "{name}");
         }
+    }
+
+    /// A scene with more lines in its tables.
+    fn checked(lines: &[(&str, &str)]) -> Result<(), crate::Error> {
+        let own = [
+            ("ply", "grippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"prepreg_warm\""),
+            ("mold", "kind = \"plane\""),
+            ("target", ""),
+        ];
+        let set =
+            |name: &str, key: &str| lines.iter().any(|(n, l)| *n == name && l.starts_with(key));
+        let mut text = String::new();
+        let mut tables: Vec<&str> = own.iter().map(|(name, _)| *name).collect();
+        tables.extend(
+            lines.iter().map(|(name, _)| *name).filter(|name| own.iter().all(|(n, _)| n != name)),
+        );
+        for table in tables {
+            text += &format!("[{table}]\n");
+            let usual = own.iter().filter(|(name, _)| *name == table).flat_map(|(_, l)| l.lines());
+            for line in usual.filter(|line| !set(table, line.split(' ').next().unwrap_or(line))) {
+                text += &format!("{line}\n");
+            }
+            for (_, line) in lines.iter().filter(|(name, _)| *name == table) {
+                text += &format!("{line}\n");
+            }
+        }
+        crate::scene::parse(&text, std::path::Path::new(""), "scene.toml").map(|_| ())
+    }
+
+    /// What somebody writes who thinks of millimeters, degrees, percent, newtons per millimeter, milliseconds or grams: each is refused with that
+    /// unit, and what is proposed is not refused for its unit.
+    #[test]
+    fn a_number_in_another_unit_is_asked_about() {
+        let cases: [(&str, &str, &str); 42] = [
+            ("ply", "cell = [100, 100]", "100 mm"),
+            ("ply", "overhang = 20", "20 mm"),
+            ("ply", "thickness = 0.3", "0.3 mm"),
+            ("mold", "point = [500, 0, 0]", "500 mm"),
+            ("tool", "world = { rotation = [0, 0, 45] }", "45 deg"),
+            ("target", "origin = [100, 50]", "100 mm"),
+            ("target", "direction = 30", "30 deg"),
+            ("target", "shear = 10", "10 deg"),
+            ("target", "mesh = 5", "5 mm"),
+            ("grippers", "height = 75", "75 mm"),
+            ("grippers", "pad_radius = 15", "15 mm"),
+            ("grippers", "max_tilt = 40", "40 deg"),
+            ("grippers", "stiffness = { lateral = 20 }", "20 N/mm"),
+            ("grippers", "stiffness = { axial = 5 }", "5 N/mm"),
+            ("grippers", "slip_force = 5000", "5000 mN"),
+            ("[bodies]", "cylinder = { radius = 15, to = 0.04 }", "15 mm"),
+            ("[bodies]", "cylinder = { radius = 0.015, to = 40 }", "40 mm"),
+            ("[bodies]", "box = { size = [30, 0.03, 0.05] }", "30 mm"),
+            ("tool", "turn_rate = 30", "30 deg/s"),
+            ("tool", "turn_acceleration = 180", "180 deg/s^2"),
+            ("tool", "flange = { position = [0, 0, 300] }", "300 mm"),
+            ("tool", "axes = [{ direction = \"z\", stroke = [-20, 120] }]", "-20 mm"),
+            (
+                "tool",
+                "axes = [{ direction = \"z\", stroke = [-0.02, 0.12], speed = 200 }]",
+                "200 mm/s",
+            ),
+            ("limits", "strain = 0.5", "0.5 %"),
+            ("limits", "slack_ratio = 0.05", "0.05 %"),
+            ("limits", "overstretch = 0.2", "0.2 %"),
+            ("limits", "height = 0.5", "0.5 mm"),
+            ("limits", "position = 2", "2 mm"),
+            ("limits", "clearance = 5", "5 mm"),
+            ("limits", "gripper_distance = 50", "50 mm"),
+            ("limits", "fibre_angle = 3", "3 deg"),
+            ("limits", "out_of_plane = 1", "1 deg"),
+            ("limits", "tilt_rate = 90", "90 deg/s"),
+            ("limits", "speed = 250", "250 mm/s"),
+            ("limits", "acceleration = 1000", "1000 mm/s^2"),
+            ("limits", "jerk = 10000", "10000 mm/s^3"),
+            ("limits", "duration = 20000", "20000 ms"),
+            ("limits", "gripper_load = 10000", "10000 mN"),
+            ("motion", "duration = 20000", "20000 ms"),
+            ("sheet", "mesh = 5", "5 mm"),
+            ("contact", "tolerance = 0.2", "0.2 mm"),
+            ("release", "dwell = 500", "500 ms"),
+        ];
+        let mut missed = Vec::new();
+        for (table, line, meant) in cases {
+            let kind = match table {
+                "motion" => "kind = \"straight\"\n",
+                "[bodies]" => "name = \"cup\"\non = \"pad\"\n",
+                _ => "",
+            };
+            let asked = |line: &str| match checked(&[(table, &format!("{kind}{line}"))]) {
+                Ok(()) => String::new(),
+                Err(refused) => format!("{} {}", refused.message(), refused.help()),
+            };
+            let number = meant.split(' ').next().unwrap_or(meant);
+            let quoted = line
+                .replace(&format!(" {number}"), &format!(" \"{meant}\""))
+                .replace(&format!("[{number}"), &format!("[\"{meant}\""));
+            let (plain, with_unit) = (asked(line), asked(&quoted));
+            if !plain.contains(&format!("\"{meant}\"")) {
+                missed.push(format!("{line}: {plain}"));
+            }
+            if with_unit.contains(&format!("`{number}`")) {
+                missed.push(format!("{quoted}: {with_unit}"));
+            }
+        }
+        assert!(missed.is_empty(), "{}", missed.join("\n"));
     }
 
     /// The guide has a table of all of them.

@@ -24,11 +24,11 @@ pub use screen::{details, draped, heading, screen, verdict};
 pub(crate) use slack::slack_in_words;
 pub use steps::steps_table;
 
-use crate::result::ResultFile;
 use crate::result::sheet::ended;
 use crate::store::shown;
 use plydrape::layup::Model;
 use plydrape::measure::Verdict;
+use plydrape::outcome::Summary;
 use plydrape::scene::World;
 
 /// Most characters of a line, beside the ellipsis where it is cut.
@@ -62,8 +62,7 @@ fn fixed(value: Option<f64>, digits: usize) -> String {
 
 /// The verdict alone, in one line: accepted and in which world, or what is exceeded furthest, by the model that decides.
 #[must_use]
-pub fn verdict_in_a_line(result: &ResultFile) -> String {
-    let summary = &result.summary;
+pub fn verdict_in_a_line(summary: &Summary) -> String {
     let model = model_name(summary.model);
     if summary.accepted() {
         return format!("accepted by {model}{}", summary.world.words());
@@ -101,7 +100,10 @@ pub fn verdict_text(v: &Verdict) -> String {
 pub fn measure_text(v: &Verdict) -> String {
     let (name, unit) = (v.name.title(), unit(&v.unit));
     let (value, limit) = (significant(v.value), significant(v.limit));
-    format!("{name} {value}{unit} against {limit}{unit}")
+    match v.judged {
+        true => format!("{name} {value}{unit} against {limit}{unit}"),
+        false => format!("{name} (limit {limit}{unit})"),
+    }
 }
 
 /// The limits that no plan can keep, one in a line; empty if there are none.
@@ -124,7 +126,7 @@ fn unit(unit: &str) -> String {
 }
 
 /// Four significant digits, without zeros at the end.
-fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
         return format!("{value:.2e}");
@@ -176,7 +178,7 @@ mod tests {
 
     fn limit(name: Name, value: f64, limit: f64, ok: bool) -> Verdict {
         let (unit, at) = ("mm".into(), "gripper g0_0".into());
-        Verdict { name, value, limit, unit, ok, step: Some(30), at, place: None }
+        Verdict { name, value, limit, unit, ok, step: Some(30), at, place: None, judged: true }
     }
 
     /// The line names the limit that is exceeded most, relative to its size, even a least one; without one, how the drape ended.
@@ -189,17 +191,17 @@ mod tests {
             limit(Name::ContactShare, 10.0, 90.0, false),
         ];
         let line = "not accepted by the catenaries: contact share 10 mm against 90 mm in step 30, gripper g0_0";
-        assert_eq!(verdict_in_a_line(&result), line);
+        assert_eq!(verdict_in_a_line(&result.summary), line);
         result.summary.limits.truncate(1);
         let line = "accepted by the catenaries in an ideal cell, without errors";
-        assert_eq!(verdict_in_a_line(&result), line);
+        assert_eq!(verdict_in_a_line(&result.summary), line);
         result.summary.world = World::WithoutErrors;
-        assert_eq!(verdict_in_a_line(&result), "accepted by the catenaries without errors");
+        assert_eq!(verdict_in_a_line(&result.summary), "accepted by the catenaries without errors");
         result.summary.world = World::Errors;
-        assert_eq!(verdict_in_a_line(&result), "accepted by the catenaries");
+        assert_eq!(verdict_in_a_line(&result.summary), "accepted by the catenaries");
         result.summary.status = Status::NotAtRest;
         let line = "not accepted by the catenaries: the ply is not at rest at the end";
-        assert_eq!(verdict_in_a_line(&result), line);
+        assert_eq!(verdict_in_a_line(&result.summary), line);
     }
 
     /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
@@ -225,14 +227,14 @@ mod tests {
     #[test]
     fn the_model_beside_judges_nothing() {
         let mut result = sample::sheet(4, 2, 3);
-        let before = (verdict_in_a_line(&result), verdict(&result, Ink::Plain));
+        let before = (verdict_in_a_line(&result.summary), verdict(&result, Ink::Plain));
         let mut also = sample::draped(4, 2, 3);
         let worst = Worst { value: 90.0, at: "gripper g0_0".into(), place: None };
         also.summary.limits = vec![Verdict::of(Name::Tilt, worst, 40.0, Some(3))];
         also.summary.status = Status::Torn;
         result.also = Some(sample::also(also));
         assert!(result.summary.accepted());
-        assert_eq!(verdict_in_a_line(&result), before.0);
+        assert_eq!(verdict_in_a_line(&result.summary), before.0);
         assert!(verdict(&result, Ink::Plain).starts_with(&before.1));
     }
 

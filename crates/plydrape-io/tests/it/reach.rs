@@ -54,11 +54,11 @@ fn a_limit_that_is_added_later_takes_part_in_the_verdict() {
     let mut summary = closing("").summary;
     assert!(summary.accepted());
     let (count, kept) = (summary.limits.len(), summary.limits[0].clone());
-    let speed = |ok| Verdict { name: Name::Speed, ok, ..kept.clone() };
-    summary.judge_also([speed(true)]);
+    let duration = |ok| Verdict { name: Name::Duration, ok, ..kept.clone() };
+    summary.judge_also([duration(true)]);
     assert!(summary.accepted() && summary.limits.len() == count + 1);
     // of one limit the worse verdict stays, whichever comes first
-    summary.judge_also([speed(false), speed(true)]);
+    summary.judge_also([duration(false), duration(true)]);
     assert!(!summary.accepted());
     assert_eq!(summary.limits.len(), count + 1);
 }

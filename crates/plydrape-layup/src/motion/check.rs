@@ -3,7 +3,7 @@
 use super::path::Vector;
 use super::spacing::farthest;
 use super::tuning::TUNING;
-use super::{Bounds, Motion};
+use super::{Bounds, Motion, is_too_short};
 use crate::Error;
 use crate::ply::{FARTHEST, Ply, is_near};
 
@@ -17,7 +17,7 @@ pub const MOST_POSITIONS: usize = 50_000_000;
 const RANGE: [f64; 2] = [1e-6, 1e9];
 
 impl Ply {
-    /// Refuses a motion that has no step, times that do not ascend, or positions as [`Ply::check_places`] does.
+    /// Refuses a motion that has no step, times that do not begin at 0 or rise by less than [`super::SHORTEST_STEP`], or positions as [`Ply::check_places`] does.
     ///
     /// # Errors
     /// [`Error::StepCount`], [`Error::StepTime`], or that of [`Ply::check_places`]: the first fault, with its step.
@@ -28,7 +28,8 @@ impl Ply {
         }
         let mut before: Option<f64> = None;
         for (k, (&time, positions)) in motion.times.iter().zip(&motion.positions).enumerate() {
-            if !time.is_finite() || before.is_some_and(|before| time <= before) {
+            let late = |before: f64| !is_too_short(time - before);
+            if !(time.is_finite() && before.map_or(time == 0.0, late)) {
                 return Err(Error::StepTime { step: k + 1, time, before });
             }
             before = Some(time);

@@ -27,7 +27,7 @@ pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use peaks::{Peak, Peaks};
 pub use quickest::{Course, Limiting, Moving};
 pub use spacing::farthest;
-pub use steps::Motion;
+pub use steps::{Motion, SHORTEST_STEP, is_too_short};
 
 use crate::Error;
 use crate::geometry::vector::{norm, sub};

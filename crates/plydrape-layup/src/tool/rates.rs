@@ -3,7 +3,7 @@
 use super::{Posture, Tool};
 use crate::Error;
 use crate::geometry::vector::{cross, dot, norm, sub};
-use crate::motion::{Peak, TimedMotion};
+use crate::motion::{Motion, Peak, TimedMotion};
 use rayon::prelude::*;
 
 /// The largest rates of a tool.
@@ -41,26 +41,38 @@ impl Tool {
         let times: Vec<f64> = (0..count).map(|k| motion.duration() * k as f64 / last).collect();
         let postures: Vec<Posture> =
             times.par_iter().map(|t| self.posture(&motion.at(*t))).collect();
+        let all: Vec<usize> = (0..count).collect();
+        Ok(self.rates(&times, &postures, &all))
+    }
+
+    /// The rates between the steps of a motion, which begins and ends at rest; accelerations over a `window` (s) at least, see
+    /// [`Motion::least_peaks`].
+    #[must_use]
+    pub fn least_peaks(&self, motion: &Motion, window: f64) -> ToolPeaks {
+        let postures: Vec<Posture> =
+            motion.positions.par_iter().map(|places| self.posture(places)).collect();
+        self.rates(&motion.times, &postures, &motion.apart(window))
+    }
+
+    /// The largest rates from one posture to the next, and the largest angular acceleration over some of them.
+    fn rates(&self, times: &[f64], postures: &[Posture], apart: &[usize]) -> ToolPeaks {
         let mut found = ToolPeaks::default();
-        let mut before = ([0.0; 3], 0.0);
+        let meet = |peak: &mut Peak, value: f64, gripper: usize, time: f64| {
+            let worse = value > peak.value;
+            if worse {
+                *peak = Peak { value, gripper, time };
+            }
+            worse
+        };
+        // angular velocity from one of two postures to the other, and when
+        let turning = |a: usize, b: usize| {
+            let turn = turn_between(&postures[a].frame.axes, &postures[b].frame.axes);
+            (turn.map(|c| c / (times[b] - times[a])), 0.5 * (times[a] + times[b]))
+        };
         for (k, pair) in postures.windows(2).enumerate() {
-            let takes = times[k + 1] - times[k];
-            let middle = 0.5 * (times[k] + times[k + 1]);
-            let meet = |peak: &mut Peak, value: f64, gripper: usize, time: f64| {
-                let worse = value > peak.value;
-                if worse {
-                    *peak = Peak { value, gripper, time };
-                }
-                worse
-            };
-            let turn = turn_between(&pair[0].frame.axes, &pair[1].frame.axes);
-            let speed = turn.map(|c| c / takes);
+            let (speed, middle) = turning(k, k + 1);
             meet(&mut found.turn_rate, norm(speed), 0, middle);
-            // from rest to the middle of the first pair, then from middle to middle
-            let since = middle - before.1;
-            let gained = norm(sub(speed, before.0)) / since;
-            meet(&mut found.turn_acceleration, gained, 0, times[k]);
-            before = (speed, middle);
+            let takes = times[k + 1] - times[k];
             for (gripper, (a, b)) in pair[0].strokes.iter().zip(&pair[1].strokes).enumerate() {
                 for (n, axis) in self.axes.iter().enumerate() {
                     let share = (b[n] - a[n]).abs() / takes / axis.speed;
@@ -70,7 +82,21 @@ impl Tool {
                 }
             }
         }
-        Ok(found)
+        // from rest to the middle of the first pair, from middle to middle, and to rest
+        let mut before = ([0.0; 3], 0.0, 0.0);
+        let rest = apart.last().map(|last| ([0.0; 3], times[*last], times[*last]));
+        let pairs = apart.windows(2).map(|pair| {
+            let (speed, middle) = turning(pair[0], pair[1]);
+            (speed, middle, times[pair[0]])
+        });
+        for (speed, middle, time) in pairs.chain(rest) {
+            if middle > before.1 {
+                let gained = norm(sub(speed, before.0)) / (middle - before.1);
+                meet(&mut found.turn_acceleration, gained, 0, time);
+            }
+            before = (speed, middle, time);
+        }
+        found
     }
 }
 

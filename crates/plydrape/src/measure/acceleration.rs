@@ -9,7 +9,7 @@ impl Measure for Acceleration {
     fn description(&self) -> Description {
         let own =
             Description::new("acceleration", "acceleration", "acceleration", Unit::plain("m/s²"));
-        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
+        Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
     fn bound(&self) -> Option<Bound> {

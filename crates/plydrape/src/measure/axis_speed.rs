@@ -10,16 +10,16 @@ pub struct AxisSpeed;
 impl Measure for AxisSpeed {
     fn description(&self) -> Description {
         let own = Description::new("axis_speed", "axis_speed", "axis speed", Unit::SHARE);
-        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
+        Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
     fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
-        layup.tool.as_ref().map(|_| 1.0)
+        // a tool may have no axes
+        layup.tool.as_ref().filter(|tool| !tool.axes.is_empty()).map(|_| 1.0)
     }
 
     fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
         let (peaks, tool) = (whole.tool?, whole.layup.tool.as_ref()?);
-        // a tool may have no axes
         tool.axes.get(peaks.axis)?;
         let peak = peaks.axis_share;
         let site = Site::Axis(peaks.axis, peak.gripper);

@@ -81,26 +81,56 @@ impl Practice {
     /// What robots do.
     pub const SPEED: Practice = Practice {
         what: "a speed of",
-        found: [1e-3, 5.0],
-        words: "grippers move at 1 mm/s to 5 m/s",
+        found: [1e-3, 2.0],
+        words: "grippers move at 1 mm/s to 2 m/s",
     };
-    /// What robots do; the fastest pick small parts with 15 times the acceleration of gravity.
+    /// What robots do that carry a tool; the fastest pick small parts with more.
     pub const ACCELERATION: Practice = Practice {
         what: "an acceleration of",
-        found: [0.01, 150.0],
-        words: "robots accelerate with 0.01 m/s^2 to 150 m/s^2",
+        found: [0.01, 50.0],
+        words: "robots accelerate with 0.01 m/s^2 to 50 m/s^2",
     };
     /// What robots do.
     pub const JERK: Practice = Practice {
         what: "a jerk of",
-        found: [0.05, 5e3],
-        words: "robots have jerks of 0.05 m/s^3 to 5000 m/s^3",
+        found: [0.05, 1e3],
+        words: "robots have jerks of 0.05 m/s^3 to 1000 m/s^3",
+    };
+    /// How long a ply is carried.
+    pub const DURATION: Practice = Practice {
+        what: "a duration of",
+        found: [0.1, 300.0],
+        words: "motions take 0.1 s to 300 s",
+    };
+    /// What a gripper bears.
+    pub const FORCE: Practice = Practice {
+        what: "a force of",
+        found: [0.01, 500.0],
+        words: "grippers bear 0.01 N to 500 N",
+    };
+    /// How far yarns may be stretched.
+    pub const STRETCH: Practice = Practice {
+        what: "a strain of",
+        found: [0.0, 0.1],
+        words: "limits of strains are up to 10 %",
+    };
+    /// How far fibers may be from their angle.
+    pub const LEAN: Practice = Practice {
+        what: "an angle of",
+        found: [0.0, 0.35],
+        words: "limits of fiber angles are up to 0.35 rad, 20 deg",
+    };
+    /// Fabric that is not drawn taut.
+    pub const SLACK: Practice = Practice {
+        what: "a share of slack of",
+        found: [0.0, 0.02],
+        words: "limits of slack are up to 2 %",
     };
     /// Half a turn a second is fast for a gripper that holds fabric.
     pub const TURN: Practice = Practice {
         what: "a rate of",
-        found: [1e-3, 3.0],
-        words: "grippers and frames turn at 0.001 rad/s to 3 rad/s",
+        found: [1e-3, 3.5],
+        words: "grippers and frames turn at 0.001 rad/s to 3.5 rad/s",
     };
 }
 
@@ -145,7 +175,7 @@ impl Bound {
     /// A force above zero.
     #[must_use]
     pub const fn force(about: &'static str) -> Self {
-        Bound::within(about, [0.0, f64::INFINITY], "a force").between()
+        Bound::within(about, [0.0, f64::INFINITY], "a force").found(Practice::FORCE).between()
     }
 
     /// Without the ends of its range.

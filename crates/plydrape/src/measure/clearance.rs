@@ -4,7 +4,8 @@
 //! count as negative distances.
 
 use super::{
-    Bound, Description, Found, Limits, Measure, Name, Observation, Sense, Unit, WholeMotion, Worth,
+    Bound, Course, Description, Found, Limits, Measure, Name, Observation, Sense, Unit,
+    WholeMotion, Worth,
 };
 use crate::clearance::{self, Nearest};
 use crate::layup::Layup;
@@ -54,7 +55,10 @@ impl Measure for Clearance {
         if layup.bodies.is_empty() {
             return None;
         }
-        let attitudes = whole.attitudes?;
+        // between the steps of a motion that was given, every step has looked
+        let (Course::Smooth(motion), Some(attitudes)) = (motion, whole.attitudes) else {
+            return None;
+        };
         let nearest = Nearest::of_motion(layup, least(limits), rate, motion, attitudes)?;
         Some((found(&nearest, nearest.time), Some(nearest.time)))
     }

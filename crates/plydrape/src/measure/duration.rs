@@ -1,7 +1,7 @@
 //! Duration: how long the motion has taken. Where pads let go after its end, it ends when they do, because until then the cell is busy
 //! and the ply is held.
 
-use super::{Bound, Description, Found, Measure, Observation, Scope, Unit, Worth};
+use super::{Bound, Description, Found, Measure, Observation, Practice, Scope, Unit, Worth};
 use crate::state::Site;
 
 /// Duration; see the head of this file.
@@ -16,6 +16,7 @@ impl Measure for Duration {
     fn bound(&self) -> Option<Bound> {
         Some(
             Bound::within("Longest time that the motion may take", [1e-6, 1e7], "a motion")
+                .found(Practice::DURATION)
                 .such_as(30.0),
         )
     }

@@ -2,7 +2,7 @@
 //! line it is that from end to end of what has landed of it, of a cell that of its two mid-lines.
 
 use super::out_of_plane::parts;
-use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Scope, Unit};
+use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Practice, Scope, Unit};
 use crate::geometry::vector::{cross, dot, norm, unit};
 use crate::layup::Layup;
 
@@ -18,6 +18,7 @@ impl Measure for FibreAngle {
     fn bound(&self) -> Option<Bound> {
         Some(
             Bound::angle("Angle along the mold between landed fibers and those of the ideal drape")
+                .found(Practice::LEAN)
                 .usually(3.0 * DEGREE, "a usual tolerance of ply angles, ±3°"),
         )
     }

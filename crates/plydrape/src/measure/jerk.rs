@@ -8,7 +8,7 @@ pub struct Jerk;
 impl Measure for Jerk {
     fn description(&self) -> Description {
         let own = Description::new("jerk", "jerk", "jerk", Unit::plain("m/s³"));
-        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
+        Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
     fn bound(&self) -> Option<Bound> {

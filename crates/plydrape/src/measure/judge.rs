@@ -32,7 +32,7 @@ impl<'a> Judge<'a> {
         let judged = match measure.scope() {
             Scope::EveryStep | Scope::End => true,
             Scope::Time => self.timed,
-            Scope::Whole => false,
+            Scope::Motion | Scope::Whole => false,
         };
         measure.limit(self.layup, self.limits).filter(|_| judged)
     }
@@ -127,7 +127,8 @@ pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
 }
 
 fn reported(value: impl Fn(Name) -> Option<f64>) -> Numbers {
-    let names = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
+    let of_steps = |name: &&Name| !matches!(name.measure().scope(), Scope::Motion | Scope::Whole);
+    let names = Name::ALL.iter().filter(of_steps);
     // what the model does not measure is missing
     names.filter_map(|name| Some((*name, Some(value(*name)?)))).collect()
 }

@@ -1,6 +1,6 @@
 //! Limits of an accepted drape: a map from measures to bounds.
 
-use super::{ByName, Name, Preset, slack_of_angle};
+use super::{ByName, Name, Preset, Scope, Verdict, slack_of_angle};
 use crate::layup::Layup;
 use crate::motion::Bounds;
 
@@ -85,6 +85,29 @@ impl Limits {
     pub fn with(mut self, name: Name, bound: f64) -> Self {
         self.set(name, Some(bound));
         self
+    }
+
+    /// The limits of a layup that none of these verdicts is on, in the measure's own unit: of a motion in time, and those that are neither usual nor
+    /// of a preset, whether the layup has what they measure or not.
+    #[must_use]
+    pub fn unjudged(&self, layup: &Layup, verdicts: &[Verdict]) -> Vec<(Name, f64)> {
+        let usual = Limits::of(layup);
+        let usual = match self.preset {
+            Some(preset) => usual.with_preset(preset),
+            None => usual,
+        };
+        let limit = |name: &Name| {
+            let measure = name.measure();
+            if verdicts.iter().any(|verdict| verdict.name == *name) {
+                return None;
+            }
+            let set = self.get(*name).filter(|bound| usual.get(*name) != Some(*bound));
+            let own = set.map(|bound| bound / measure.unit().si);
+            let of_motion =
+                || measure.limit(layup, self).filter(|_| measure.scope() == Scope::Motion);
+            Some((*name, own.or_else(of_motion)?))
+        };
+        Name::ALL.iter().filter_map(limit).collect()
     }
 
     /// Every bound (SI), in the order of [`Name::ALL`].

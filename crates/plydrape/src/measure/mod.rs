@@ -92,7 +92,8 @@ use tuning::TUNING;
 use unit::DEGREE;
 pub use unit::Unit;
 pub use verdict::Verdict;
-pub use whole::WholeMotion;
+pub(crate) use whole::verdicts_of_steps;
+pub use whole::{Course, WholeMotion};
 pub(crate) use workspace::outside_workspace;
 
 use crate::layup::{Layup, Model};
@@ -128,7 +129,9 @@ pub enum Scope {
     End,
     /// Of the motion in time: it has no meaning where the steps have no times yet, as in a search.
     Time,
-    /// Of a whole motion or plan, found outside the drape.
+    /// Of the motion in time alone, whatever the ply does: every motion is judged by it, be it given or planned.
+    Motion,
+    /// Of a whole drape or plan, found outside of its steps.
     Whole,
 }
 

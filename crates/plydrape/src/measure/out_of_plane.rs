@@ -1,6 +1,6 @@
 //! Fiber angle out of plane: the largest angle at the end between a fiber of the ply and the tangent plane of the mold under it.
 
-use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Scope, Unit};
+use super::{Bound, DEGREE, Description, Found, Measure, Most, Observation, Practice, Scope, Unit};
 use crate::geometry::Point;
 use crate::geometry::vector::{along, dot, norm};
 use crate::layup::Layup;
@@ -22,10 +22,14 @@ impl Measure for OutOfPlane {
     }
 
     fn bound(&self) -> Option<Bound> {
-        Some(Bound::angle("Angle between the fibers of the ply and the mold at the end").usually(
-            3.0 * DEGREE,
-            "our choice: the usual tolerance of ply angles, taken out of the plane too",
-        ))
+        Some(
+            Bound::angle("Angle between the fibers of the ply and the mold at the end")
+                .found(Practice::LEAN)
+                .usually(
+                    3.0 * DEGREE,
+                    "our choice: the usual tolerance of ply angles, taken out of the plane too",
+                ),
+        )
     }
 
     fn applies(&self, layup: &Layup) -> bool {

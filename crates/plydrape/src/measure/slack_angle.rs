@@ -5,7 +5,7 @@
 //! ruck it is steeper ([`super::Name::WrinkleAngle`]).
 
 use super::slack_ratio::loosest_edge;
-use super::{Bound, DEGREE, Description, Found, Measure, Observation, Scope, Unit};
+use super::{Bound, DEGREE, Description, Found, Measure, Observation, Practice, Scope, Unit};
 use crate::layup::Layup;
 
 /// Slack angle; see the head of this file.
@@ -24,7 +24,7 @@ impl Measure for SlackAngle {
 
     fn bound(&self) -> Option<Bound> {
         let about = "Slack as a fiber angle, 2√ε of the share ε; it sets `slack_ratio` where that is not given";
-        Some(Bound::angle(about).such_as(2.6 * DEGREE))
+        Some(Bound::angle(about).found(Practice::LEAN).such_as(2.6 * DEGREE))
     }
 
     fn applies(&self, layup: &Layup) -> bool {

@@ -2,7 +2,7 @@
 //!
 //! Its place is that of the largest slack in the edge.
 
-use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
+use super::{Bound, Description, Found, Measure, Most, Observation, Practice, Scope, Unit};
 use crate::layup::Layup;
 use crate::state::Site;
 use std::collections::BTreeMap;
@@ -20,6 +20,7 @@ impl Measure for SlackRatio {
     fn bound(&self) -> Option<Bound> {
         Some(
             Bound::share("Slack of a catenary, all its segments, as a share of its length")
+                .found(Practice::SLACK)
                 .usually(0.0005, "our choice: spread over an edge, a fiber angle of 2.6°"),
         )
     }

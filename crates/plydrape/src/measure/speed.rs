@@ -8,7 +8,7 @@ pub struct Speed;
 impl Measure for Speed {
     fn description(&self) -> Description {
         let own = Description::new("speed", "speed", "speed", Unit::plain("m/s"));
-        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
+        Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
     fn bound(&self) -> Option<Bound> {

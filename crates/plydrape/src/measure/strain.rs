@@ -3,7 +3,7 @@
 //! The contact tolerance ε lets a point of the ply be ε off its place, and so changes a path of length s by up to ε²/2s. In a segment of ten
 //! tolerances that alone is 0.5 % of strain: for a shorter segment, ten tolerances take the place of its length.
 
-use super::{Bound, Description, Found, Measure, Most, Observation, TUNING, Unit};
+use super::{Bound, Description, Found, Measure, Most, Observation, Practice, TUNING, Unit};
 
 /// Local strain; see the head of this file.
 pub struct Strain;
@@ -16,6 +16,7 @@ impl Measure for Strain {
     fn bound(&self) -> Option<Bound> {
         Some(
             Bound::share("Strain of a line along a fiber or of a segment of it")
+                .found(Practice::STRETCH)
                 .usually(0.005, "our choice: carbon fibers break at some three times that"),
         )
     }

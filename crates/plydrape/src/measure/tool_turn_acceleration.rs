@@ -14,7 +14,7 @@ impl Measure for ToolTurnAcceleration {
             "tool turn acceleration",
             Unit::DEGREE_PER_SECOND_SQUARED,
         );
-        Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
+        Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
     fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {

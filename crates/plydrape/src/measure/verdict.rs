@@ -25,6 +25,14 @@ pub struct Verdict {
     pub at: String,
     /// Place of the worst value in space (m), where it has one.
     pub place: Option<[f64; 3]>,
+    /// Whether it could be judged; if not, `at` says why, the value is none, and it does not hold.
+    #[cfg_attr(feature = "serde", serde(default = "judged", skip_serializing_if = "Clone::clone"))]
+    pub judged: bool,
+}
+
+#[cfg(feature = "serde")]
+fn judged() -> bool {
+    true
 }
 
 impl Verdict {
@@ -40,7 +48,14 @@ impl Verdict {
                 Sense::AtLeast => value >= limit * (1.0 - TUNING.limit_rounding),
             };
         let [value, limit] = [value, limit].map(|value| value * unit.factor);
-        Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place }
+        Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place, judged: true }
+    }
+
+    /// The verdict on a limit (in the measure's unit) that could not be judged, and why. It does not hold.
+    #[must_use]
+    pub fn unjudged(name: Name, limit: f64, why: &str) -> Verdict {
+        let worst = Worst { value: 0.0, at: format!("not judged: {why}"), place: None };
+        Verdict { ok: false, judged: false, ..Verdict::of(name, worst, limit, None) }
     }
 
     /// Whether its limit is the least that is allowed.
@@ -56,7 +71,7 @@ impl Verdict {
     pub fn ratio(&self) -> f64 {
         let Verdict { value, limit, .. } = *self;
         let whole = self.name.measure().unit().factor;
-        if !value.is_finite() {
+        if !(value.is_finite() && self.judged) {
             return f64::INFINITY;
         }
         let ratio = match self.is_least() {

@@ -1,8 +1,9 @@
 //! A whole motion in time as a measure sees it.
 
+use super::observation::rate_window;
 use super::{Found, Limits, Name, Verdict, Worst};
 use crate::layup::Layup;
-use crate::motion::{Attitudes, Peak, Peaks, TimedMotion};
+use crate::motion::{Attitudes, Motion, Peak, Peaks, TimedMotion};
 use crate::state::Site;
 use crate::tool::ToolPeaks;
 
@@ -14,15 +15,59 @@ pub struct WholeMotion<'a> {
     /// The limits of the scene.
     pub limits: &'a Limits,
     /// The motion.
-    pub motion: &'a TimedMotion,
+    pub motion: Course<'a>,
     /// Orientations of the grippers along it; `None` before a model has draped along it.
     pub attitudes: Option<&'a Attitudes>,
     /// The largest speed, acceleration and jerk.
     pub peaks: &'a Peaks,
     /// How fast the tool turns and its axes move; `None` without a tool.
     pub tool: Option<&'a ToolPeaks>,
-    /// Samples a second of the motion as it is written (Hz).
+    /// Samples a second of a smooth motion as it is written (Hz).
     pub rate: f64,
+}
+
+/// How a motion goes in time.
+#[derive(Debug, Clone, Copy)]
+pub enum Course<'a> {
+    /// Smoothly, by a time law: its peaks are exact.
+    Smooth(&'a TimedMotion),
+    /// Through the steps of a motion that was given: its peaks are those that no way from one to the next can avoid.
+    Steps(&'a Motion),
+}
+
+impl Course<'_> {
+    fn times(&self) -> &[f64] {
+        match self {
+            Course::Smooth(motion) => motion.times(),
+            Course::Steps(motion) => &motion.times,
+        }
+    }
+
+    fn gripper_at(&self, gripper: usize, time: f64) -> [f64; 3] {
+        match self {
+            Course::Smooth(motion) => motion.gripper_at(gripper, time),
+            Course::Steps(motion) => motion.gripper_at(gripper, time),
+        }
+    }
+}
+
+/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged.
+#[must_use]
+pub(crate) fn verdicts_of_steps(layup: &Layup, limits: &Limits) -> Vec<Verdict> {
+    let (carried, _) = layup.carried();
+    let motion = &carried.motion;
+    let window = rate_window(motion.times.last().copied().unwrap_or(0.0));
+    let tool = layup.tool.as_ref().map(|tool| tool.least_peaks(&layup.motion, window));
+    let whole = WholeMotion {
+        layup,
+        limits,
+        motion: Course::Steps(motion),
+        attitudes: None,
+        peaks: &motion.least_peaks(window),
+        tool: tool.as_ref(),
+        rate: 0.0,
+    };
+    whole.verdicts()
 }
 
 impl WholeMotion<'_> {
@@ -42,7 +87,7 @@ impl WholeMotion<'_> {
     /// The largest value of a gripper along the motion, where the gripper is then, and its time (s).
     pub(super) fn gripper_peak(&self, peak: Peak) -> (Found, Option<f64>) {
         let Peak { value, gripper, time } = peak;
-        let place = Some(self.motion.at(time)[gripper]);
+        let place = Some(self.motion.gripper_at(gripper, time));
         (Found { value, site: Site::Gripper(gripper), place }, Some(time))
     }
 
@@ -78,7 +123,7 @@ mod tests {
         let whole = WholeMotion {
             layup: &layup,
             limits: &limits,
-            motion,
+            motion: Course::Smooth(motion),
             attitudes: None,
             peaks: motion.peaks(),
             tool: None,

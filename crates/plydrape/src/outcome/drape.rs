@@ -105,6 +105,17 @@ pub struct DrapeWatch<'a> {
 /// # Errors
 /// Those of [`super::check_model`] if the scene lacks what the model needs.
 pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, Error> {
+    let mut drape = drape_places(scene, model, watch)?;
+    drape.summary.judge_motion(&scene.layup, &scene.limits);
+    Ok(drape)
+}
+
+/// Drapes as [`drape()`], without the limits of the motion in time: a search judges those of the motion that it finds.
+pub(crate) fn drape_places(
+    scene: &Scene,
+    model: Model,
+    watch: &mut DrapeWatch,
+) -> Result<Drape, Error> {
     check_catenaries(&scene.layup, model)?;
     let (carried, tool) = scene.layup.carried();
     let mut recorder = Recorder::new(&carried, &scene.limits);

@@ -33,8 +33,8 @@ mod tolerance_tests;
 
 pub(crate) use check::check_catenaries;
 pub use check::check_model;
-pub(crate) use drape::drape_catenaries;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
+pub(crate) use drape::{drape_catenaries, drape_places};
 pub use forecast::{Effort, Forecast, Pace};
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Watch};
@@ -82,6 +82,7 @@ pub fn simulate(
 ) -> Result<Outcome, Error> {
     let model = scene.layup.settings.model;
     let mut drape = keeping_states(scene, model, &|| false, &mut progress)?;
+    drape.summary.judge_motion(&scene.layup, &scene.limits);
     let also = also(scene, &drape.summary, &mut progress)?;
     let watch = Watch { stop: &|| false, done: &|_, _| {} };
     if !drape.summary.interrupted() {
@@ -106,7 +107,7 @@ pub fn also(
     Ok(Some(Drape { summary: drape.summary.unjudged(), ..drape }))
 }
 
-/// A drape by a model, with the states of the sheet that the scene keeps.
+/// A drape by a model without the limits of the motion in time, with the states of the sheet that the scene keeps.
 pub(crate) fn keeping_states(
     scene: &Scene,
     model: Model,
@@ -121,7 +122,7 @@ pub(crate) fn keeping_states(
         }
         progress(step)
     };
-    let mut drape = drape(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
+    let mut drape = drape_places(scene, model, &mut DrapeWatch { stop, see: &mut see })?;
     if let Some(sheet) = &mut drape.sheet {
         sheet.states = states;
     }

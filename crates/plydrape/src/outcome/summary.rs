@@ -2,8 +2,8 @@
 
 use super::{SampleVerdict, Tolerance};
 use crate::draping::record::CatenaryId;
-use crate::layup::Model;
-use crate::measure::{Name, Numbers, Verdict};
+use crate::layup::{Layup, Model};
+use crate::measure::{self, Limits, Name, Numbers, Verdict};
 use crate::scene::{Scene, World};
 use crate::sheet::{self, Event};
 use crate::state::Site;
@@ -163,6 +163,30 @@ impl Summary {
                 Some(_) => {}
                 None => self.limits.push(verdict),
             }
+        }
+    }
+
+    /// Judges the motion of a layup in time by its steps, as it was given.
+    pub fn judge_motion(&mut self, layup: &Layup, limits: &Limits) {
+        self.judge_also(measure::verdicts_of_steps(layup, limits));
+        self.judge_rest(layup, limits);
+    }
+
+    /// Says of every limit of a finished drape that none of its verdicts is on that it was not judged, so that it is not accepted: of those that
+    /// somebody has set, because a usual limit is of the model that measures it, and of those of a motion in time.
+    pub fn judge_rest(&mut self, layup: &Layup, limits: &Limits) {
+        if self.status != Status::Converged {
+            return;
+        }
+        for (name, limit) in limits.unjudged(layup, &self.limits) {
+            let why = match name.measure().description().model {
+                Some(Model::Sheet) if self.model != Model::Sheet => "the sheet alone measures it",
+                Some(Model::Catenaries) if self.model != Model::Catenaries => {
+                    "catenaries alone measure it"
+                }
+                _ => "this scene has nothing to measure it on",
+            };
+            self.limits.push(Verdict::unjudged(name, limit, why));
         }
     }
 

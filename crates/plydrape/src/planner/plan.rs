@@ -12,7 +12,7 @@ use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
 use crate::Error;
 use crate::layup::Model;
-use crate::measure::{Name, Verdict, WholeMotion, Worst};
+use crate::measure::{Course, Name, Verdict, WholeMotion, Worst};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{self, Outcome, Robustness, Watch};
 use crate::scene::{PlanMethod, Scene};
@@ -147,7 +147,7 @@ pub(super) fn finish(
     let whole = WholeMotion {
         layup: &scene.layup,
         limits: &scene.limits,
-        motion,
+        motion: Course::Smooth(motion),
         attitudes: Some(&decided.attitudes),
         peaks: motion.peaks(),
         tool: peaks.as_ref(),
@@ -156,6 +156,7 @@ pub(super) fn finish(
     summary.judge_also(infeasible_limits(scene));
     summary.judge_also(own_limits);
     summary.judge_also(whole.verdicts());
+    summary.judge_rest(&scene.layup, &scene.limits);
     Ok(limited_by)
 }
 

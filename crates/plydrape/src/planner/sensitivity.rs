@@ -26,7 +26,8 @@ pub fn outcome(
     let mut draping = Draping::new(layup);
     let mut see = |step: usize, _: Option<&crate::sheet::State>| progress(step);
     let mut watch = DrapeWatch { stop: &|| false, see: &mut see };
-    let (drape, shape) = drape_catenaries(layup, &scene.limits, &mut draping, &mut watch);
+    let (mut drape, shape) = drape_catenaries(layup, &scene.limits, &mut draping, &mut watch);
+    drape.summary.judge_motion(layup, &scene.limits);
     let last_step = LastStep::new(layup, &mut draping, &shape?);
     Some(Outcome { drape, last_step })
 }

@@ -39,7 +39,7 @@ fn table() -> String {
             Scope::EveryStep => "every step",
             Scope::End => "end",
             Scope::Time => "every step of a motion with times",
-            Scope::Whole => "whole motion",
+            Scope::Motion | Scope::Whole => "whole motion",
         };
         let model = match measure.description().model {
             Some(Model::Sheet) => "sheet",

@@ -85,15 +85,20 @@ fn applying(scene: &Scene, scopes: &[Scope]) -> BTreeSet<Name> {
     Name::ALL.iter().copied().filter(applies).collect()
 }
 
-fn names(limits: &[Verdict]) -> BTreeSet<Name> {
+/// What was judged; what was not is a limit of the model that does not decide, which somebody has set.
+fn names(limits: &[Verdict], model: Model) -> BTreeSet<Name> {
     let names: BTreeSet<Name> = limits.iter().map(|verdict| verdict.name).collect();
     assert_eq!(names.len(), limits.len(), "judged twice: {limits:?}");
-    names
+    for verdict in limits.iter().filter(|verdict| !verdict.judged) {
+        assert_eq!(verdict.name.measure().description().model, Some(model.other()), "{verdict:?}");
+        assert!(!verdict.ok && verdict.at.contains("not judged"), "{verdict:?}");
+    }
+    limits.iter().filter(|verdict| verdict.judged).map(|verdict| verdict.name).collect()
 }
 
 /// Whatever decides, what the pads and the joints bear counts.
 fn assert_cups_are_judged(summary: &Summary) {
-    let names = names(&summary.limits);
+    let names = names(&summary.limits, summary.model);
     for name in [Name::Tilt, Name::TiltRate, Name::GripperLoad, Name::GripperPull, Name::Strain] {
         assert!(names.contains(&name), "{:?} {name:?}", summary.model);
     }
@@ -110,13 +115,13 @@ fn every_limit_is_judged_along_a_given_motion() {
         let mut expected = applying(&scene, &[Scope::EveryStep, Scope::End]);
         let go_on = || false;
         let found = judge(&scene.layup, &scene.limits, usize::MAX, &go_on).unwrap();
-        assert_eq!(names(&found.limits), expected, "{model:?} {gives}, as a search judges");
+        assert_eq!(names(&found.limits, model), expected, "{model:?} {gives}, as a search judges");
 
         let summary = summary(&scene);
         assert_eq!(summary.status, Status::Converged);
-        expected.extend(applying(&scene, &[Scope::Time]));
+        expected.extend(applying(&scene, &[Scope::Time, Scope::Motion]));
         expected.insert(Name::ToolResidual);
-        assert_eq!(names(&summary.limits), expected, "{model:?} {gives}");
+        assert_eq!(names(&summary.limits, model), expected, "{model:?} {gives}");
         assert_cups_are_judged(&summary);
     }
 }
@@ -153,12 +158,12 @@ fn every_limit_is_judged_along_a_planned_motion() {
         (scene.plan.steps, scene.plan.evaluations) = (8, 1);
         let planned = plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
         let summary = &planned.outcome.drape.summary;
-        let all = [Scope::EveryStep, Scope::End, Scope::Time, Scope::Whole];
+        let all = [Scope::EveryStep, Scope::End, Scope::Time, Scope::Motion, Scope::Whole];
         let mut expected = applying(&scene, &all);
         // asked of what all other limits accept
         assert!(!summary.accepted());
         expected.remove(&Name::Sensitivity);
-        assert_eq!(names(&summary.limits), expected, "{model:?} {gives}");
+        assert_eq!(names(&summary.limits, model), expected, "{model:?} {gives}");
         assert_cups_are_judged(summary);
     }
 }

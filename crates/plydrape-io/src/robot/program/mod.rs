@@ -29,6 +29,7 @@ use plydrape::LayupError;
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::{cross, dot, norm};
 use plydrape::measure::Name;
+use plydrape::outcome::Summary;
 use plydrape::ply::{GripperId, gripper_name};
 use plydrape::scene::BookPly;
 pub use plydrape::sheet::{Event, EventKind};
@@ -140,11 +141,12 @@ impl Program {
             events => events.to_vec(),
         };
 
+        let judged = result.judged_again();
         let program = Program {
             name: result.scene.title.clone(),
             book_ply: result.scene.book_ply.clone(),
-            accepted: result.summary.accepted(),
-            verdict: Program::verdict(result),
+            accepted: judged.accepted(),
+            verdict: Program::verdict(result, &judged),
             times,
             rate,
             flange,
@@ -157,9 +159,9 @@ impl Program {
         Ok(program)
     }
 
-    /// The verdict on a result, in one line.
-    pub(crate) fn verdict(result: &ResultFile) -> String {
-        let verdict = table::verdict_in_a_line(result);
+    /// The verdict on a result, as it was judged again, in one line.
+    pub(crate) fn verdict(result: &ResultFile, judged: &Summary) -> String {
+        let verdict = table::verdict_in_a_line(judged);
         match result.plan.as_ref().and_then(shown::picked_up) {
             Some(picked_up) => format!("{verdict}; {picked_up}"),
             None => verdict,

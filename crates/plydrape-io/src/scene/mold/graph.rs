@@ -83,7 +83,7 @@ fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, Error> {
     };
     let mut ranges = [[0.0; 2]; 2];
     for (found, written) in ranges.iter_mut().zip([x, y]) {
-        let [low, high] = coordinates(&written.value, keys.document)?;
+        let [low, high] = coordinates(&written.value, keys.document, &usual::COORDINATE)?;
         if low >= high {
             return Err(keys.document.error(
                 written.span.clone(),

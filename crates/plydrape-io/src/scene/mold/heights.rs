@@ -27,6 +27,7 @@ pub(super) fn heights(
         points.push(point(&row, [0, 1, 2])?);
         spans.push(row.span.clone());
     }
+    csv.check_plain()?;
     if points.is_empty() {
         return Err(document.error(
             csv.header(),

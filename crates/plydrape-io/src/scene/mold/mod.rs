@@ -11,6 +11,7 @@ use super::heading::pose;
 use super::located::Located;
 use super::source::Document;
 use crate::Error;
+use crate::scene::usual;
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::ops::Range;
@@ -130,7 +131,7 @@ impl Keys<'_> {
     /// Where the mold stands and how it is turned.
     fn pose(&self) -> Result<Pose, Error> {
         let MoldTable { position, rotation, .. } = self.table;
-        pose(position.as_ref(), rotation.as_ref(), self.document)
+        pose(position.as_ref(), rotation.as_ref(), self.document, &usual::COORDINATE)
     }
 
     /// A pose that leaves the mold's z axis pointing upwards.

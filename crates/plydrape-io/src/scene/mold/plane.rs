@@ -6,12 +6,13 @@ use crate::scene::file::MoldTable;
 use crate::scene::heading::{coordinates, heading};
 use crate::scene::quantity::{Quantity, Ratio};
 use crate::scene::source::Document;
+use crate::scene::usual;
 use plydrape::mold::{Mold, Plane};
 
 /// Checks the keys of a plane.
 pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Error> {
     let point = match &table.point {
-        Some(point) => coordinates(&point.value, document)?,
+        Some(point) => coordinates(&point.value, document, &usual::COORDINATE)?,
         None => [0.0; 3],
     };
     let normal = match (&table.normal, &table.tilt) {
@@ -73,7 +74,8 @@ fn unit_normal(
     [x, y, z]: &[Quantity<Ratio>; 3],
     document: &Document,
 ) -> Result<Option<[f64; 3]>, Error> {
-    let [x, y, z] = [x.si(document)?, y.si(document)?, z.si(document)?];
+    let [x, y, z] = [x, y, z].map(|n| n.si(document, &usual::ANY));
+    let [x, y, z] = [x?, y?, z?];
     // Scaled by the largest component first, so that no square overflows.
     let largest = x.abs().max(y.abs()).max(z.abs());
     if largest < f64::MIN_POSITIVE {

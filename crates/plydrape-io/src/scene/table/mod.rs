@@ -146,6 +146,11 @@ impl<'a> Table<'a> {
         })
     }
 
+    /// Whether the unit of an expected column is said.
+    pub fn has_unit(&self, column: usize) -> bool {
+        self.found.columns[column].1.is_some()
+    }
+
     /// Refuses numbers without a unit whose largest is not what is found in practice.
     ///
     /// # Errors

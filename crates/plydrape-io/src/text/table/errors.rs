@@ -153,6 +153,7 @@ mod tests {
                 step: Some(3),
                 at,
                 place: None,
+                judged: true,
             }
         };
         result.summary.limits = vec![limit(39.0, true)];

@@ -59,7 +59,7 @@ fn row(verdict: &Verdict, sample: Option<&SampleVerdict>) -> Vec<String> {
     };
     let mut row = vec![
         verdict.name.title(),
-        significant(verdict.value),
+        if verdict.judged { significant(verdict.value) } else { "–".into() },
         significant(verdict.limit),
         verdict.unit.to_string(),
         used(verdict),

@@ -32,7 +32,7 @@ pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Err
     let stop = || state.report().is_break();
     let mut see = |_: usize, _: Option<&crate::sheet::State>| ControlFlow::Continue(());
     let mut watch = DrapeWatch { stop: &stop, see: &mut see };
-    let drape = outcome::drape(&scene, layup.settings.model, &mut watch)?;
+    let drape = outcome::drape_places(&scene, layup.settings.model, &mut watch)?;
     let judged = Judged::of(&drape);
     Ok(ComparedDrape { drape, judged, time })
 }

@@ -7,7 +7,7 @@
 use super::Plan;
 use crate::clearance::Nearest;
 use crate::geometry::vector::distance;
-use crate::measure::{Name, Observation, Past, Verdict, WholeMotion, Worst};
+use crate::measure::{Course, Name, Observation, Past, Scope, Verdict, WholeMotion, Worst};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{Step, Summary};
 use crate::pick_up::Moved;
@@ -126,16 +126,16 @@ impl Outcome<'_> {
         let whole = WholeMotion {
             layup: &scene.layup,
             limits: &scene.limits,
-            motion: self.motion,
+            motion: Course::Smooth(self.motion),
             // the nearest bodies were looked for above, without the landing, which stays
             attitudes: None,
             peaks: self.motion.peaks(),
             tool: self.tool.as_ref(),
             rate: scene.plan.rate,
         };
-        let rates = whole.verdicts();
-        summary.limits.retain(|verdict| rates.iter().all(|other| other.name != verdict.name));
-        summary.judge_also(rates);
+        // no verdict on the planned motion stands for this one
+        summary.limits.retain(|verdict| verdict.name.measure().scope() != Scope::Motion);
+        summary.judge_also(whole.verdicts());
         if let Some(tool) = &scene.layup.tool {
             let carried = tool.carry(self.motion.positions()).record;
             if let Some(planned) = &plan.summary.tool {
@@ -144,6 +144,7 @@ impl Outcome<'_> {
                 summary.follow_tool(scene, record);
             }
         }
+        summary.judge_rest(&scene.layup, &scene.limits);
         summary
     }
 

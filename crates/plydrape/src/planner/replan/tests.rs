@@ -7,7 +7,7 @@ use crate::clearance::{self, Poses};
 use crate::geometry::vector::{distance, norm, sub};
 use crate::layup::{Layup, Model, Settings, SheetSettings, Target};
 use crate::material::{Section, ShearCurve, TensionLaw};
-use crate::measure::{Limits, Name, Verdict};
+use crate::measure::{Limits, Name, Scope, Verdict};
 use crate::mold::{Face, Mold, Pose, Sphere};
 use crate::motion::Motion;
 use crate::outcome::{Drape, simulate};
@@ -195,7 +195,12 @@ fn no_offset_gives_the_plan_itself() {
     assert_eq!(&replanned.motion, replanner.planned());
     assert_eq!((replanned.longer, &replanned.steps), (1.0, &found.drape.steps));
     let planned = &found.drape.summary;
-    assert_eq!(replanned.summary.limits[..planned.limits.len()], planned.limits[..]);
+    // of the motion in time the plan of this test has what its steps say, and the correction its peaks
+    let of_ply = |summary: &Summary| -> Vec<Verdict> {
+        let limits = summary.limits.iter();
+        limits.filter(|v| v.name.measure().scope() != Scope::Motion).cloned().collect()
+    };
+    assert_eq!(of_ply(&replanned.summary), of_ply(planned));
     assert_eq!(replanned.summary.worst, planned.worst);
     assert_eq!(replanned.summary.last, planned.last);
 }
@@ -244,6 +249,11 @@ fn a_drape_along_the_corrected_motion_finds_the_moved_record() {
         let mut own = replanned.summary.limits.iter();
         let own = own.find(|other| other.name == verdict.name).unwrap();
         assert_eq!(own.ok, verdict.ok, "{own:?} {verdict:?}");
+        // the steps of a motion never say more than its peaks
+        if verdict.name.measure().scope() == Scope::Motion {
+            assert!(verdict.value > 0.0 && verdict.value <= own.value, "{own:?} {verdict:?}");
+            continue;
+        }
         assert!(near(own.value, verdict.value, 2e-3), "{own:?} {verdict:?}");
     }
 }
