@@ -2,10 +2,10 @@
 
 use crate::failure::Done;
 use crate::numbers::written;
+use crate::results;
 use plydrape::measure::Preset;
 use plydrape::scene::CellPreset;
 use std::fmt::Write as _;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// List the presets of `[limits]` and of `[cell]`, each figure with its source.
@@ -19,9 +19,7 @@ const WIDTH: usize = 99;
 
 /// Prints the presets.
 pub fn run(_: &Arguments) -> Done {
-    let mut out = io::stdout().lock();
-    out.write_all(text().as_bytes())?;
-    out.flush()?;
+    results::print(&text(), &[])?;
     Ok(ExitCode::SUCCESS)
 }
 

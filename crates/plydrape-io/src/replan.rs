@@ -110,6 +110,7 @@ impl PlannedResult {
             sheet_states: states,
             steps,
             also: None,
+            files: result.files.clone(),
             motion: OnceLock::new(),
         };
         Ok(corrected.along(record, motion, attitudes))

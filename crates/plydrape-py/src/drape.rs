@@ -14,7 +14,7 @@ use plydrape::outcome::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, PlanRecord};
 use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
-use plydrape_io::result::sheet;
+use plydrape_io::result::{SceneEcho, sheet};
 use plydrape_io::scene::{Measured, SceneFile};
 use plydrape_io::text::forecast;
 use plydrape_io::{Error, ResultFile};
@@ -234,8 +234,9 @@ pub fn plan(
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
     scene.plan.improve = improve.unwrap_or(scene.plan.improve);
     let time = time.map(|time| duration(&time)).transpose()?;
+    let echo = SceneEcho::new(&scene, None);
     let checkpoint: Option<Checkpoint> =
-        checkpoint.map(plan_file::read).transpose().map_err(|fault| {
+        checkpoint.map(|text| plan_file::read(text, &echo)).transpose().map_err(|fault| {
             PyValueError::new_err(format!(
                 "checkpoint is no plan.json of this version: {fault}; plan anew"
             ))
@@ -251,7 +252,7 @@ pub fn plan(
             let over = time.is_some_and(|time| began.elapsed() >= time);
             let stage = match &progress.forecast {
                 Some(takes) => {
-                    format!("{}: {}", progress.stage, forecast::decision(takes, cells)).into()
+                    format!("{}: {}", progress.stage, forecast::decision(takes, None, cells)).into()
                 }
                 None => Cow::Borrowed(progress.stage),
             };
@@ -435,7 +436,7 @@ impl Plan {
     /// The checkpoint from which a later search continues: the text of plan.json.
     #[getter]
     fn checkpoint(&self) -> PyResult<String> {
-        plan_file::text(&self.checkpoint).map_err(|fault| error::output(&fault))
+        plan_file::text(&self.checkpoint, &self.result.scene).map_err(|fault| error::output(&fault))
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a

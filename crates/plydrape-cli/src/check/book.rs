@@ -4,6 +4,7 @@ use super::{drawing, mold, warnings};
 use crate::failure::Done;
 use crate::numbers::degrees;
 use crate::outcome;
+use crate::results;
 use plydrape::mold::MeshReport;
 use plydrape_io::scene::{BookPly, read_book};
 use plydrape_io::store::shown;
@@ -15,18 +16,17 @@ use std::process::ExitCode;
 pub(super) fn check(path: &Path, quiet: bool) -> Done {
     let book = read_book(path)?;
     if !quiet {
-        let mut out = io::stdout().lock();
-        writeln!(out, "{}", book.title)?;
-        for (noun, text) in mold::of(&book.mold, book.mesh.as_ref()) {
-            writeln!(out, "  {noun:<9} {text}")?;
+        let mut text = format!("{}\n", book.title);
+        for (noun, line) in mold::of(&book.mold, book.mesh.as_ref()) {
+            text += &format!("  {noun:<9} {line}\n");
         }
         for (n, ply) in book.plies.iter().enumerate() {
-            writeln!(out, "  {:<9} {}", format!("ply {}", n + 1), ply.name)?;
+            text += &format!("  {:<9} {}\n", format!("ply {}", n + 1), ply.name);
             for line in lines(ply) {
-                writeln!(out, "  {:<9}   {line}", "")?;
+                text += &format!("  {:<9}   {line}\n", "");
             }
         }
-        out.flush()?;
+        results::print(&text, &[])?;
     }
     outcome::warn(&book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
     for ply in &book.plies {

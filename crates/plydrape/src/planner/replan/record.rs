@@ -131,7 +131,7 @@ impl Outcome<'_> {
             attitudes: None,
             peaks: self.motion.peaks(),
             tool: self.tool.as_ref(),
-            rate: scene.plan.rate,
+            rate: self.motion.fitting_rate(scene.plan.rate),
         };
         let rates = whole.verdicts();
         summary.limits.retain(|verdict| rates.iter().all(|other| other.name != verdict.name));
@@ -159,7 +159,7 @@ impl Outcome<'_> {
         let way = Nearest::of_motion_within(
             &scene.layup,
             least,
-            scene.plan.rate,
+            self.motion.fitting_rate(scene.plan.rate),
             self.motion,
             self.attitudes,
             times,
