@@ -169,8 +169,8 @@ pub fn judge_by(
 ///     Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
 ///     `plan` are used up or the time is over, instead of what the scene says.
 /// time : float or str, optional
-///     Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
-///     drape that decides on that plan may take a little longer.
+///     Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; what
+///     follows it ends after as much again, and a plan whose drape or sample is not complete then is not accepted.
 /// checkpoint : str, optional
 ///     Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
 /// also : {"sheet", "catenaries"}, optional
@@ -246,6 +246,9 @@ pub fn plan(
     }
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();
+        if let Some(time) = time {
+            watch.end_after(2 * time);
+        }
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
         let cells = errors.map_or(0, |errors| errors.samples);
         let planned = planner::plan_without_errors(&scene, checkpoint.as_ref(), &mut |progress| {

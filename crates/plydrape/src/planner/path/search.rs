@@ -152,9 +152,18 @@ impl Search<'_, '_> {
                 self.decide_on_best(f64::INFINITY);
             }
             None => {
-                let mut families = Strategy::families(scene, |shape| fronts.steepest(shape));
+                // none of it counts once the search is stopped
+                let goes_on = || state.report().is_continue();
+                let steepest = |shape: Strategy| match goes_on() {
+                    true => fronts.steepest(shape),
+                    false => shape.slope,
+                };
+                let mut families = Strategy::families(scene, steepest);
                 // what grippers alone cannot do comes last
-                let excess = |strategy: &Strategy| fronts.excess(*strategy).max(1.0);
+                let excess = |strategy: &Strategy| match goes_on() {
+                    true => fronts.excess(*strategy).max(1.0),
+                    false => 1.0,
+                };
                 let excess: Vec<f64> = families.par_iter().map(excess).collect();
                 let mut order: Vec<usize> = (0..families.len()).collect();
                 order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
