@@ -5,7 +5,7 @@
 
 use super::arguments::Arguments;
 use super::found::Found;
-use super::{checkpoint, say_infeasible};
+use super::{WHOLE, checkpoint, say_infeasible};
 use crate::failure::{Done, Failure};
 use crate::outcome;
 use crate::results::{place, print};
@@ -206,7 +206,7 @@ fn one(
     // a ply of which nothing is there yet is planned anew
     let earlier = earlier.filter(|dir| has_plan(dir));
     let earlier = earlier.map(|dir| checkpoint(&dir, scene)).transpose()?;
-    let interrupt = eyes.interrupt.within(time.map(|time| 2 * time));
+    let interrupt = eyes.interrupt.within(time.map(|time| time.mul_f64(WHOLE)));
     let search = Search::new(scene, arguments.without_errors, time, &interrupt, true);
     let mut search = search.kept_in(&folder, scene);
     let watch = &mut |progress: &Progress| eyes.watch(&mut search, progress);

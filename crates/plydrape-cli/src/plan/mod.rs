@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         )]);
     }
 
-    let interrupt = interrupt.within(time.map(|time| 2 * time));
+    let interrupt = interrupt.within(time.map(|time| time.mul_f64(WHOLE)));
     let search = Search::new(&scene, arguments.without_errors, time, &interrupt, quiet);
     let mut search = search.kept_in(&folder, &scene);
     let watch = &mut |progress: &Progress| search.watch(progress);
@@ -111,6 +111,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     asked.print(quiet, &printed, &text, &files)?;
     Ok(found.code(interrupted))
 }
+
+/// The part of the time of a search after which what follows it ends too: all is over within twice that time, files included.
+const WHOLE: f64 = 1.8;
 
 /// Shortest and longest time of a search (s).
 const TIMES: [f64; 2] = [1e-3, 1e7];

@@ -5,7 +5,7 @@ use super::evaluation::{self, ENDS};
 use super::infeasible_limits::infeasible_limits;
 use super::journal::Known;
 use super::path::Strategy;
-use super::quickest::{Quickest, quickest};
+use super::quickest::quickest;
 use super::record::LimitedBy;
 use super::search_state::SearchState;
 use super::tuning::TUNING;
@@ -127,9 +127,14 @@ impl Decision {
             self.decided.drape.summary.judge_also(own_limits);
             return Ok(());
         }
-        let Quickest { motion, limited_by } = quickest(scene, &self.motion, &self.decided.drape);
-        if motion != self.motion {
-            self.retime(scene, motion, state, counted)?;
+        let mut limited_by = Vec::new();
+        // half a drape has no least time, and who broke it off waits
+        if !self.decided.drape.summary.interrupted() {
+            let found = quickest(scene, &self.motion, &self.decided.drape);
+            if found.motion != self.motion {
+                self.retime(scene, found.motion, state, counted)?;
+            }
+            limited_by = found.limited_by;
         }
         let Decision { asked, motion, decided, .. } = self;
         let summary = &mut decided.drape.summary;
