@@ -3131,8 +3131,8 @@ def plan(
         Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
         `plan` are used up or the time is over, instead of what the scene says.
     time : float or str, optional
-        Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
-        drape that decides on that plan may take a little longer.
+        Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; what
+        follows it ends after as much again, and a plan whose drape or sample is not complete then is not accepted.
     checkpoint : str, optional
         Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
     also : {"sheet", "catenaries"}, optional

@@ -218,8 +218,8 @@ COMMANDS = (
     (5, (*DRAPE, "--json")),
     (8, ("net", NAME, "-o", "out")),
     (2, ("net", NAME, "-o", "out", "--json")),
-    (6, ("plan", NAME, "-o", "out", "--threads", "1")),
-    (2, ("plan", NAME, "-o", "out", "--threads", "1", "--method", "stepwise", "--json")),
+    (6, ("plan", NAME, "--anyway", "-o", "out", "--threads", "1")),
+    (2, ("plan", NAME, "--anyway", "-o", "out", "--threads", "1", "--method", "stepwise", "--json")),
 )
 
 KIND = Kind(

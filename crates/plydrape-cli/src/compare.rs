@@ -2,7 +2,7 @@
 //! do not.
 
 use crate::failure::Done;
-use crate::results::Results;
+use crate::results::{Results, place};
 use crate::search::Search;
 use crate::watch::Interrupt;
 use plydrape::measure::Verdict;
@@ -28,8 +28,8 @@ struct Printed<'a> {
 
 /// Drapes by all strategies, writes the table, and judges.
 pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: bool) -> Done {
-    let folder = Folder::claim(&results.folder("compare"), "plan --compare")?;
-    folder.refuse_inputs(&[NAME], &scene.files)?;
+    let folder = Folder::claim(&results.folder("compare"), "plan --compare", &scene.files)?;
+    folder.refuse_taken(&[NAME])?;
 
     let mut search = Search::of(StrategyName::ALL.len(), "strategies", None, interrupt, quiet);
     let compared = compare(scene, &mut |progress| search.watch(progress));
@@ -38,7 +38,8 @@ pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: b
     let interrupted = compared.interrupted;
     let best = compared.best().map(|(name, _)| name).filter(|_| !interrupted);
     let rows: Vec<Row> = compared.strategies.into_iter().map(Row::new).collect();
-    let files = comparison::write_into(folder, &rows, &scene.files)?;
+    let (folder, _kept) = place(folder, interrupted, |dir| !dir.join(NAME).exists())?;
+    let files = comparison::write_into(folder, &rows)?;
 
     let found = infeasible_limits(scene);
     let mut text = format!("{}\n\n", scene.title);

@@ -1,10 +1,10 @@
 //! `plydrape completions` and `plydrape man`: made from the definition of the command line.
 
 use crate::Cli;
-use crate::failure::Done;
+use crate::failure::{Done, Failure};
+use crate::results;
 use clap::CommandFactory;
 use clap_complete::Shell;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Print completions for a shell.
@@ -22,18 +22,16 @@ pub struct Man {}
 pub fn completions(arguments: &Completions) -> Done {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut Cli::command(), "plydrape", &mut text);
-    let mut out = io::stdout().lock();
-    out.write_all(&text)?;
-    out.flush()?;
+    results::print(&String::from_utf8_lossy(&text), &[])?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Prints the manual page.
 pub fn man(_: &Man) -> Done {
     let mut text = Vec::new();
-    clap_mangen::Man::new(Cli::command()).render(&mut text)?;
-    let mut out = io::stdout().lock();
-    out.write_all(&text)?;
-    out.flush()?;
+    clap_mangen::Man::new(Cli::command())
+        .render(&mut text)
+        .map_err(|error| Failure::stdout(&error, &[]))?;
+    results::print(&String::from_utf8_lossy(&text), &[])?;
     Ok(ExitCode::SUCCESS)
 }

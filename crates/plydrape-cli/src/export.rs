@@ -3,6 +3,7 @@
 use crate::argument::value;
 use crate::failure::{Done, Failure};
 use crate::results;
+use crate::watch::whole;
 use clap::ValueEnum;
 use plydrape_io::export;
 use plydrape_io::result::read;
@@ -112,9 +113,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let result = read::read(&file)?;
     let beside = || file.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let files = export::write(&result, arguments.to.of(), &options, &folder)?;
+    let files = export::files(&result, arguments.to.of(), &options)?;
+    let read = [&result.files[..], &arguments.template].concat();
+    let files = whole(|| export::put(&files, &folder, &read))?;
     if !quiet {
-        results::list(&files)?;
+        results::print(&results::list(&files), &files)?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -47,8 +47,6 @@ pub enum Failure {
     /// Standard output could not be written; the files are.
     #[error("standard output cannot be written: {reason}")]
     Stdout {
-        /// What kind of fault it is.
-        kind: io::ErrorKind,
         /// What the system says.
         reason: String,
         /// The files that were written before.
@@ -74,16 +72,11 @@ impl Failure {
 
     /// Standard output that could not be written, after these files were.
     pub fn stdout(error: &io::Error, files: &[PathBuf]) -> Self {
-        let (kind, reason) = (error.kind(), error.to_string());
-        Failure::Stdout { kind, reason, files: files.to_vec() }
+        Failure::Stdout { reason: error.to_string(), files: files.to_vec() }
     }
 
     /// Shows the failure on standard error and gives its exit code.
     pub fn report(&self) -> ExitCode {
-        // A reader that has seen enough, such as `head`, is no failure.
-        if matches!(self, Failure::Stdout { kind: io::ErrorKind::BrokenPipe, .. }) {
-            return ExitCode::SUCCESS;
-        }
         // where standard error cannot be written either, the exit code is all that can be said
         let _ = write!(io::stderr(), "{}", Rendered(&Shown(self)));
         let cause = match self {
@@ -95,12 +88,6 @@ impl Failure {
             Failure::Stdout { .. } => 4,
             _ => 2,
         })
-    }
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Failure::stdout(&error, &[])
     }
 }
 

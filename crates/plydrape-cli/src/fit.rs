@@ -3,10 +3,11 @@
 use crate::argument::value;
 use crate::failure::{Done, Failure};
 use crate::new::put;
+use crate::results;
+use crate::watch::whole;
 use plydrape_io::fit::{Request, Test, fit};
 use plydrape_io::scene::{Measured, usual};
 use plydrape_io::store::shown;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -130,12 +131,11 @@ const LENGTHS: [f64; 2] = [1e-6, 1e4];
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let request = arguments.test.request()?;
     let fitted = fit(&request)?;
-    let mut out = io::stdout().lock();
     let toml = fitted.toml();
     let mut files = Vec::new();
     if let Some(file) = &arguments.output {
         let folder = file.parent().filter(|f| *f != Path::new("")).unwrap_or(Path::new("."));
-        put(file, folder, &toml).map_err(|error| Failure::output(file, &error))?;
+        whole(|| put(file, folder, &toml)).map_err(|error| Failure::output(file, &error))?;
         files.push(file.clone());
     }
     let text = match &arguments.output {
@@ -147,9 +147,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         }
         None => toml,
     };
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| Failure::stdout(&error, &files))?;
+    results::print(&text, &files)?;
     Ok(ExitCode::SUCCESS)
 }
 

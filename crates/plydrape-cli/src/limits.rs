@@ -2,12 +2,12 @@
 
 use crate::failure::Done;
 use crate::numbers::written;
+use crate::results;
 use plydrape::measure::Preset;
 use plydrape::scene::CellPreset;
 use plydrape_io::store::json;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// List the presets of `[limits]` and of `[cell]`, each figure with its source.
@@ -52,12 +52,10 @@ const WIDTH: usize = 99;
 /// Prints the presets.
 pub fn run(arguments: &Arguments) -> Done {
     let text = match arguments.json {
-        true => json::of(&presets())? + "\n",
+        true => json::of(&presets())?,
         false => text(),
     };
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()?;
+    results::print(&text, &[])?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -73,6 +73,10 @@ enum Command {
 
 fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
+    // these keep what they have done when a signal ends them
+    if !matches!(command, Command::Simulate(_) | Command::Plan(_) | Command::Study(_)) {
+        watch::end_when_asked();
+    }
     let done = match command {
         Command::Simulate(arguments) => simulate::run(&arguments, quiet),
         Command::Plan(arguments) => plan::run(&arguments, quiet),

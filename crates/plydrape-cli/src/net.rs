@@ -2,6 +2,7 @@
 
 use crate::failure::Done;
 use crate::results::Results;
+use crate::watch::whole;
 use plydrape::net::Net;
 use plydrape_io::write::net::{Findings, Summary, write_all};
 use serde::Serialize;
@@ -43,7 +44,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 
     let findings = Findings::of(net, mold, ideal.wanted.as_ref(), ideal.seeds.clone());
     let summary = Summary::of(net, &findings, Some(ideal.shear_limit));
-    let files = write_all(net, mold, &findings, &ideal.title, &results.folder("net"))?;
+    let (title, dir) = (&ideal.title, results.folder("net"));
+    let files = whole(|| write_all(net, mold, &findings, title, &dir, &ideal.files))?;
     let text = format!("{}\n\n{}", ideal.title, summary.table());
     results.print(quiet, &Printed { summary: &summary, time_ms }, &text, &files)?;
     Ok(if summary.accepted { ExitCode::SUCCESS } else { ExitCode::from(1) })

@@ -1,6 +1,8 @@
 //! `plydrape new`: writes a commented scene to start from.
 
 use crate::failure::{Done, Failure};
+use crate::results;
+use crate::watch::whole;
 use plydrape_io::scene::TEMPLATE;
 use plydrape_io::store::shown;
 use std::fs;
@@ -26,7 +28,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let folder = file.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let made = !folder.exists();
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
-    if let Err(error) = put(&file, folder, TEMPLATE) {
+    if let Err(error) = whole(|| put(&file, folder, TEMPLATE)) {
         if made {
             // only an empty folder goes, and only the one made here
             let _ = fs::remove_dir(folder);
@@ -35,9 +37,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     }
     if !quiet {
         let shown = shown::path(&file);
-        let mut out = io::stdout().lock();
-        writeln!(out, "{shown} is written; next: plydrape check {shown}")
-            .map_err(|error| Failure::stdout(&error, &[file]))?;
+        results::print(&format!("{shown} is written; next: plydrape check {shown}\n"), &[file])?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -4,6 +4,7 @@ use crate::failure::{Done, Failure};
 use crate::numbers::{degrees, millimetres, short};
 use crate::outcome::{code, is_unsolved};
 use crate::results;
+use crate::watch::whole;
 use plydrape::measure::Verdict;
 use plydrape::mold::Pose;
 use plydrape::planner::replan::{Replanned, Replanner};
@@ -15,7 +16,7 @@ use plydrape_io::store::json;
 use plydrape_io::text::table;
 use plydrape_io::{Error, Folder, write_into};
 use serde::Serialize;
-use std::io::{self, BufRead, Read, Write};
+use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -27,7 +28,7 @@ it comes to the planned landing and keeps its verdict. Speed, acceleration, jerk
 tool's rates are judged again, and the motion is made slower where it would be too fast. An offset that cannot be taken out before the ply \
 meets the mold is refused with exit code 2.
 
-With --picked, writes the files of a plan (all but plan.json) into the folder. The file holds [offset] with x, y and yaw, and `about`, the point \
+With --picked, writes the files of a plan (all but plan.json) into the folder, which cannot be that of the plan itself. The file holds [offset] with x, y and yaw, and `about`, the point \
 that the ply is turned about (the middle of the grippers at the start unless given), or two or more [[point]] with `planned` and `seen`. \
 `far = true` beside them says that the ply does lie more than 50 mm or 10° off.
 
@@ -142,21 +143,28 @@ fn once(
     let result_file = read::file_of(&arguments.result);
     let beside = || result_file.parent().unwrap_or(Path::new("")).join("replan");
     let output = arguments.output.clone().unwrap_or_else(beside);
-    let folder = Folder::claim(&output, "replan")?;
     let replanned = planned.replan(replanner, &seen)?;
-    if arguments.json {
-        let answer = Answer::of(planned, replanner, &replanned, arguments.rate)?;
-        print(&json::of(&answer)?)?;
-    }
+    let answer = match arguments.json {
+        true => json::of(&Answer::of(planned, replanner, &replanned, arguments.rate)?)?,
+        false => String::new(),
+    };
     let said = said(&seen, &replanned);
-    let result = planned.corrected(replanned, folder.stage())?;
-    if !arguments.json && !quiet {
-        print(&table::screen(&result, &said, results::ink()))?;
-    }
-    let files = write_into(folder, &result, &[], &[result_file.to_path_buf(), file.into()])?;
-    if !arguments.json && !quiet {
-        results::list(&files)?;
-    }
+    let read = [&planned.result().files[..], &[file.into()]].concat();
+    let (result, files) = whole(|| {
+        let folder = Folder::claim(&output, "replan", &read)?;
+        let result = planned.corrected(replanned, folder.stage())?;
+        let files = write_into(folder, &result, &[])?;
+        Ok::<_, Error>((result, files))
+    })?;
+    let text = match arguments.json {
+        true => answer,
+        false if quiet => String::new(),
+        false => {
+            let screen = table::screen(&result, &said, results::ink());
+            format!("{}\n{}", screen.trim_end(), results::list(&files))
+        }
+    };
+    results::print(&text, &files)?;
     Ok(code(false, is_unsolved(&result), result.summary.accepted()))
 }
 
@@ -189,15 +197,19 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
                 help: "give one offset a line".into(),
             }),
         };
-        match answer {
+        let text = match answer {
             Ok((text, keeps)) => {
                 accepted &= keeps;
-                print(&text)?;
+                text
             }
             Err(refusal) => {
                 refused = true;
-                print(&json::of(&refusal)?)?;
+                json::of(&refusal)?
             }
+        };
+        // nobody asks for what nobody reads
+        if !results::shown(&text, &[])? {
+            break;
         }
     }
     Ok(if refused { ExitCode::from(2) } else { code(false, unsolved, accepted) })
@@ -299,11 +311,4 @@ fn said(seen: &SeenOffset, replanned: &Replanned) -> String {
         false => format!("\nmotion of {duration:.1} s, as planned"),
     };
     text
-}
-
-/// Prints a text that ends a line.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    let written = writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush());
-    written.map_err(|error| Failure::stdout(&error, &[]))
 }

@@ -2,6 +2,7 @@
 
 use crate::failure::Done;
 use crate::results;
+use crate::watch::whole;
 use plydrape_io::page;
 use plydrape_io::result::read;
 use plydrape_io::store::folder;
@@ -32,9 +33,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         _ => PathBuf::from("."),
     };
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let files = folder::add(&folder, "report", &[("report.html", html.as_bytes())])?;
+    let page = [("report.html", html.as_bytes())];
+    let files = whole(|| folder::add(&folder, "report", &page, &result.files))?;
     if !quiet {
-        results::list(&files)?;
+        results::print(&results::list(&files), &files)?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,18 +1,44 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
 use crate::failure::Failure;
-use plydrape_io::ResultFile;
+use crate::outcome::warn;
 use plydrape_io::store::{json, shown};
 use plydrape_io::text::table::{self, Ink};
+use plydrape_io::{Folder, ResultFile, rerun};
 use serde::Serialize;
 use std::env;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// Prints the files that were written: of one its path, of several their folder and their names.
-pub fn list(files: &[PathBuf]) -> Result<(), Failure> {
+/// Prints a text, after these files were written. A reader that has seen enough, such as `head`, is no failure and changes no exit code.
+pub fn print(text: &str, files: &[PathBuf]) -> Result<(), Failure> {
+    shown(text, files).map(drop)
+}
+
+/// Prints a text as [`print`] does, and returns whether somebody reads it.
+pub fn shown(text: &str, files: &[PathBuf]) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
-    wrote(&mut out, files).map_err(|error| Failure::stdout(&error, files))
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(Failure::stdout(&error, files)),
+    }
+}
+
+/// The folder for the files of a run, and the claimed one if another one takes its place: beside what is there, if the run was interrupted and
+/// is not better than that. Says where that is on standard error.
+pub fn place(
+    folder: Folder,
+    interrupted: bool,
+    is_better: impl Fn(&Path) -> bool,
+) -> Result<(Folder, Option<Folder>), Failure> {
+    let beside = if interrupted { rerun::beside(&folder, is_better)? } else { None };
+    let Some(other) = beside else { return Ok((folder, None)) };
+    let [kept, to] = [&folder, &other].map(|folder| shown::path(folder.path()));
+    warn(&[format!(
+        "this run was interrupted, and what {kept} holds is no worse and stays: the files of this run are in {to}"
+    )]);
+    Ok((other, Some(folder)))
 }
 
 /// Colors where standard output is a terminal, unless the environment asks for none.
@@ -25,20 +51,20 @@ pub fn ink() -> Ink {
     }
 }
 
-fn wrote(out: &mut impl Write, files: &[PathBuf]) -> io::Result<()> {
+/// The files that were written: of one its path, of several their folder and their names.
+pub fn list(files: &[PathBuf]) -> String {
     match files {
-        [] => {}
-        [file] => writeln!(out, "wrote {}", shown::path(file))?,
+        [] => String::new(),
+        [file] => format!("wrote {}\n", shown::path(file)),
         [first, ..] => {
             let folder = first.parent().filter(|folder| *folder != Path::new(""));
-            writeln!(out, "wrote {}:", shown::path(folder.unwrap_or(Path::new("."))))?;
+            let folder = shown::path(folder.unwrap_or(Path::new(".")));
             let name = |file: &PathBuf| shown::path(file.file_name().map_or(file, Path::new));
-            names(&files.iter().map(name).collect::<Vec<_>>())
-                .iter()
-                .try_for_each(|line| writeln!(out, "  {line}"))?;
+            let lines = names(&files.iter().map(name).collect::<Vec<_>>());
+            let lines = lines.iter().map(|line| format!("  {line}\n"));
+            format!("wrote {folder}:\n{}", lines.collect::<String>())
         }
     }
-    out.flush()
 }
 
 /// Widest line of names.
@@ -103,16 +129,11 @@ impl Results {
         text: &str,
         files: &[PathBuf],
     ) -> Result<(), Failure> {
-        let json = match self.json {
-            true => Some(json::of(object)?),
-            false => None,
+        let text = match self.json {
+            true => json::of(object)?,
+            false if quiet => return Ok(()),
+            false => format!("{text}\n{}", list(files)),
         };
-        let mut out = io::stdout().lock();
-        let written = match json {
-            Some(json) => write!(out, "{json}").and_then(|()| out.flush()),
-            None if quiet => Ok(()),
-            None => writeln!(out, "{text}").and_then(|()| wrote(&mut out, files)),
-        };
-        written.map_err(|error| Failure::stdout(&error, files))
+        print(&text, files)
     }
 }

@@ -1,10 +1,13 @@
 //! A search for a plan under someone's eyes: when it ends, and how far it is.
 
+use crate::outcome::warn;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::planner::Progress;
 use plydrape::scene::{PlanMethod, Scene};
+use plydrape_io::result::SceneEcho;
 use plydrape_io::text::{forecast, table};
+use plydrape_io::{Error, Folder, plan};
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -32,6 +35,38 @@ pub struct Search<'a> {
     cells: usize,
     bar: ProgressBar,
     lines: Option<Lines>,
+    kept: Option<Kept<'a>>,
+}
+
+/// Where the state of a search is put by.
+struct Kept<'a> {
+    folder: &'a Folder,
+    scene: SceneEcho,
+    /// When it is next.
+    due: Duration,
+    /// Drapes at the last time.
+    drapes: usize,
+}
+
+/// Shortest and longest time between two times (s): the first one is soon, and none loses more than half a minute.
+const KEPT: [f64; 2] = [1.0, 20.0];
+
+impl Kept<'_> {
+    /// Puts the state by, if that is due and it is another one.
+    fn put_by(&mut self, progress: &Progress, elapsed: Duration) -> Result<(), Error> {
+        let drapes = progress.candidates + progress.decisions;
+        // what follows the search is not judged again by it, so that all of it is put by before
+        let due = elapsed >= self.due || progress.finishing;
+        if !due || drapes == self.drapes {
+            return Ok(());
+        }
+        let Some(checkpoint) = (progress.checkpoint)() else { return Ok(()) };
+        let seconds = elapsed.as_secs_f64();
+        self.due = Duration::from_secs_f64(seconds + seconds.clamp(KEPT[0], KEPT[1]));
+        self.drapes = drapes;
+        let text = plan::text(&checkpoint, &self.scene)?;
+        self.folder.put_by(plan::RUNNING, &text.as_bytes())
+    }
 }
 
 impl<'a> Search<'a> {
@@ -70,17 +105,31 @@ impl<'a> Search<'a> {
         }
         let lines = (!quiet && !io::stderr().is_terminal()).then(Lines::default);
         let began = Instant::now();
-        Search { interrupt, time, began, ended: None, unit, cells: 0, bar, lines }
+        let (ended, cells, kept) = (None, 0, None);
+        Search { interrupt, time, began, ended, unit, cells, bar, lines, kept }
+    }
+
+    /// The same with its state put by in a folder now and then.
+    pub fn kept_in(self, folder: &'a Folder, scene: &Scene) -> Self {
+        let due = Duration::from_secs_f64(KEPT[0]);
+        let scene = SceneEcho::new(scene, None);
+        Search { kept: Some(Kept { folder, scene, due, drapes: 0 }), ..self }
     }
 
     /// Shows how far the search is, and says whether it goes on. A plan that is being finished is let go on after the first
-    /// request to end, not after the second.
+    /// request to end, not after the second, nor beyond the time of the interrupt.
     pub fn watch(&mut self, progress: &Progress) -> ControlFlow<()> {
         let elapsed = self.began.elapsed();
         self.show(progress, elapsed);
+        if let Some(Err(fault)) = self.kept.as_mut().map(|kept| kept.put_by(progress, elapsed)) {
+            // the search is no worse; what it finds is written where this disk lets it
+            warn(&[format!("the state of the search is not kept: {fault}")]);
+            self.kept = None;
+        }
         let ended = if progress.finishing {
-            self.interrupt.asked_again().is_break().then_some(Ended::Interrupted)
-        } else if self.interrupt.asked().is_break() {
+            let late = self.interrupt.is_late().then_some(Ended::TimeOver);
+            if self.interrupt.is_signalled_again() { Some(Ended::Interrupted) } else { late }
+        } else if self.interrupt.is_signalled() {
             Some(Ended::Interrupted)
         } else {
             self.time.filter(|time| elapsed >= *time).map(|_| Ended::TimeOver)
@@ -179,10 +228,13 @@ fn line(progress: &Progress, unit: &str, cells: usize, elapsed: Duration) -> Str
 fn state(progress: &Progress, cells: usize, at_terminal: bool) -> String {
     let again = if at_terminal { " (Ctrl-C twice ends that too)" } else { "" };
     let again = if progress.finishing { again } else { "" };
-    let takes = progress
-        .forecast
-        .map_or_else(String::new, |takes| format!(": {}", forecast::decision(&takes, cells)));
-    let done = format!("{}{again}{takes}", progress.stage);
+    let step = progress.step.map(|[done, of]| format!(", step {done} of {of}"));
+    let takes = progress.forecast.map(|takes| {
+        let left = progress.left.filter(|_| step.is_some());
+        format!(": {}", forecast::decision(&takes, left, cells))
+    });
+    let [step, takes] = [step, takes].map(Option::unwrap_or_default);
+    let done = format!("{}{step}{again}{takes}", progress.stage);
     let decided = match (progress.decided, progress.decisions) {
         (false, _) => ", by its ranking".into(),
         (true, 1) => String::new(),
@@ -192,6 +244,8 @@ fn state(progress: &Progress, cells: usize, at_terminal: bool) -> String {
         _ if progress.best.is_empty() => return done,
         (Some(worst), _) => table::measure_text(worst),
         (None, _) if !progress.accepted => "all limits are kept".into(),
+        // a sample of them judges after the search
+        (None, _) if cells > 0 => "all limits are kept without errors".into(),
         (None, Some(closest)) => format!("accepted, {}", table::measure_text(closest)),
         (None, None) => "accepted".into(),
     };
@@ -237,9 +291,12 @@ mod tests {
             finishing: false,
             stage: "deciding",
             forecast: None,
+            step: None,
+            left: None,
             best,
             decided: true,
             accepted,
+            checkpoint: &|| None,
         }
     }
 
@@ -273,6 +330,13 @@ mod tests {
         );
         let shown = line(&deciding, "candidates", 64, seconds(9));
         assert!(shown.ends_with(", then at most 64 cells with errors, about 20 min"), "{shown}");
+        let under_way =
+            Progress { step: Some([34, 90]), left: Some(Duration::from_secs(25)), ..deciding };
+        let shown = line(&under_way, "candidates", 0, seconds(24));
+        assert!(
+            shown.ends_with(", deciding, step 34 of 90: 961 nodes, about 25 s left"),
+            "{shown}"
+        );
     }
 
     #[test]
@@ -295,6 +359,8 @@ mod tests {
         let best = [height(0.4)];
         let shown = line(&progress(&best, true), "candidates", 0, seconds(60));
         assert!(shown.ends_with(": accepted, height 0.4 mm against 0.5 mm"), "{shown}");
+        let shown = line(&progress(&best, true), "candidates", 64, seconds(60));
+        assert!(shown.ends_with(": all limits are kept without errors"), "{shown}");
         let ranked = Progress { decided: false, ..progress(&best, false) };
         let shown = line(&ranked, "candidates", 0, seconds(60));
         assert!(shown.ends_with(", by its ranking: all limits are kept"), "{shown}");

@@ -4,12 +4,13 @@ use crate::errors;
 use crate::failure::Done;
 use crate::model::{self, ModelName};
 use crate::outcome::{Printed, exit_code, warn};
-use crate::results::Results;
+use crate::results::{self, Results};
 use crate::watch::Interrupt;
 use plydrape::mold::MeshReport;
 use plydrape::outcome::Robustness;
+use plydrape_io::rerun::is_better;
 use plydrape_io::text::table;
-use plydrape_io::{Folder, NAMES, ResultFile, scene, write_into};
+use plydrape_io::{Folder, ResultFile, names, scene, write_into};
 
 /// Drape the ply along the trajectories of a scene; steps, limits, verdict, files.
 #[derive(Debug, clap::Args)]
@@ -42,14 +43,14 @@ pub struct Arguments {
 
 /// Simulates, writes the files and judges.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
-    let results = &arguments.results;
+    let asked = &arguments.results;
     // first of all, so that even a long read ends in files of what was done
     let interrupt = Interrupt::listen();
     let [model, also] = [arguments.model, arguments.also].map(|name| name.map(Into::into));
-    let scene = scene::read_for(&results.scene, model, also)?;
+    let scene = scene::read_for(&asked.scene, model, also)?;
     warn(&scene.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
-    let folder = Folder::claim(&results.folder("results"), "simulate")?;
-    folder.refuse_inputs(&NAMES[..5], &scene.files)?;
+    let folder = Folder::claim(&asked.folder("results"), "simulate", &scene.files)?;
+    folder.refuse_taken(&names(&scene, false))?;
 
     // the model that decides, then the other one if it is asked for
     let (decides, dir) = (scene.layup.settings.model, folder.stage());
@@ -63,10 +64,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         let robustness = Robustness::of_simulated(&scene);
         interrupted |= !errors::judge(&mut result, &robustness, took, &interrupt, quiet);
     }
-    let files = write_into(folder, &result, &[], &scene.files)?;
+    interrupted |= result.summary.interrupted();
+    let (folder, _kept) = results::place(folder, interrupted, |dir| is_better(&result, dir))?;
+    let files = write_into(folder, &result, &[])?;
 
-    let mut text = results.text(&result, &table::draped(&result, took));
-    text += errors::left_out(&result, interrupted);
-    results.print(quiet, &Printed::of(&result, took), &text, &files)?;
+    let mut text = asked.text(&result, &table::draped(&result, took));
+    text += errors::left_out(&result, interrupted, &interrupt);
+    asked.print(quiet, &Printed::of(&result, took), &text, &files)?;
     Ok(exit_code(&result, interrupted))
 }

@@ -5,13 +5,13 @@ mod text;
 
 use crate::argument::{refused, value};
 use crate::failure::{Done, Failure};
+use crate::results;
 use plydrape::catenary::{EndCondition, Profile, Root, Span, SpanState, Station};
 use plydrape::elastica::{Bending, HeavyStrip, Shape};
 use plydrape::material::{MomentCurve, Section};
 use plydrape_io::scene::{Measured, read_material, usual};
 use plydrape_io::store::json;
 use serde::Serialize;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Solve one span of ply between two ends: its force, sag, slopes and shape.
@@ -125,14 +125,11 @@ pub fn run(arguments: &Arguments) -> Done {
         Theory::SmallSag => Solved::new(span, curve.is_some())?,
         Theory::Exact => Solved::exact(span, curve)?,
     };
-    let mut out = io::stdout().lock();
-    if arguments.json {
-        let text = json::of(&solved.printed())?;
-        out.write_all(text.as_bytes())?;
-    } else {
-        out.write_all(text::of(&solved).as_bytes())?;
-    }
-    out.flush()?;
+    let text = match arguments.json {
+        true => json::of(&solved.printed())?,
+        false => text::of(&solved),
+    };
+    results::print(&text, &[])?;
     Ok(ExitCode::SUCCESS)
 }
 

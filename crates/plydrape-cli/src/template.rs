@@ -1,9 +1,9 @@
 //! `plydrape template`: the templates of programs for robots, to be copied and changed.
 
 use crate::failure::Done;
+use crate::results;
 use clap::ValueEnum;
 use plydrape_io::robot::program::Robot;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Print the template of a program for a robot, so that you can change it.
@@ -40,8 +40,6 @@ pub fn run(arguments: &Arguments) -> Done {
         Name::Urscript => (Robot::Urscript, 0),
     };
     let (_, text) = robot.shipped()[n];
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()?;
+    results::print(text, &[])?;
     Ok(ExitCode::SUCCESS)
 }

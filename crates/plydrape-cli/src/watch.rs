@@ -3,40 +3,80 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 /// Ctrl-C, or a request of the system to end (SIGTERM), as a question that work asks now and then, instead of an end in
-/// the middle of it. It counts how often that was asked for.
-pub struct Interrupt(Arc<AtomicUsize>);
+/// the middle of it. It counts how often that was asked for. Work that has a time ends then, too.
+pub struct Interrupt {
+    signals: Arc<AtomicUsize>,
+    until: Option<Instant>,
+}
+
+/// Held while files are written that no signal may cut off.
+static WRITING: Mutex<()> = Mutex::new(());
+
+/// Ends the program with exit code 130 on Ctrl-C or SIGTERM, from now on; files that are being written become whole first. It is for commands
+/// that keep nothing of what they have begun.
+pub fn end_when_asked() {
+    // a second handler cannot be set; then Ctrl-C ends the program as it always did
+    let _ = ctrlc::set_handler(|| {
+        let _whole = WRITING.lock();
+        std::process::exit(130);
+    });
+}
+
+/// Writes files that become whole before a signal ends the program.
+pub fn whole<T>(write: impl FnOnce() -> T) -> T {
+    let _held = WRITING.lock();
+    write()
+}
 
 impl Interrupt {
+    /// Of work that nobody interrupts, or that ends with the program.
+    pub fn never() -> Self {
+        Interrupt { signals: Arc::default(), until: None }
+    }
+
     /// Listens from now on.
     pub fn listen() -> Self {
-        let signals = Arc::new(AtomicUsize::new(0));
-        let counted = Arc::clone(&signals);
+        let interrupt = Interrupt::never();
+        let counted = Arc::clone(&interrupt.signals);
         // a second handler cannot be set; then Ctrl-C ends the program as it always did
         let _ = ctrlc::set_handler(move || {
             counted.fetch_add(1, Ordering::Relaxed);
         });
-        Interrupt(signals)
+        interrupt
+    }
+
+    /// The same for work that ends after a time too, counted from now.
+    pub fn within(&self, time: Option<Duration>) -> Self {
+        let until = time.and_then(|time| Instant::now().checked_add(time));
+        Interrupt { signals: Arc::clone(&self.signals), until }
     }
 
     /// Whether to go on.
     pub fn asked(&self) -> ControlFlow<()> {
-        self.asked_times(1)
-    }
-
-    /// Whether to go on with what is finished after the first request: whether there was no second one.
-    pub fn asked_again(&self) -> ControlFlow<()> {
-        self.asked_times(2)
-    }
-
-    fn asked_times(&self, times: usize) -> ControlFlow<()> {
-        match self.0.load(Ordering::Relaxed) >= times {
+        match self.is_signalled() || self.is_late() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
+    }
+
+    /// Whether there was a signal.
+    pub fn is_signalled(&self) -> bool {
+        self.signals.load(Ordering::Relaxed) > 0
+    }
+
+    /// Whether there was a second signal, which ends what is finished after the first one.
+    pub fn is_signalled_again(&self) -> bool {
+        self.signals.load(Ordering::Relaxed) > 1
+    }
+
+    /// Whether the time is over.
+    pub fn is_late(&self) -> bool {
+        self.until.is_some_and(|until| Instant::now() >= until)
     }
 }
 

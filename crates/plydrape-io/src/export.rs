@@ -111,10 +111,17 @@ pub fn write(
     options: &Options,
     dir: &Path,
 ) -> Result<Vec<PathBuf>, Error> {
-    let files = files(result, format, options)?;
+    put(&files(result, format, options)?, dir, &result.files)
+}
+
+/// Writes files as [`write`] does, by a run that has `read` others: none of them is replaced.
+///
+/// # Errors
+/// [`Error`], as for [`crate::write_all`].
+pub fn put(files: &Files, dir: &Path, read: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, content)| (name.as_str(), content.as_slice())).collect();
-    folder::add(dir, "export", &files)
+    folder::add(dir, "export", &files, read)
 }
 
 #[cfg(test)]

@@ -23,6 +23,7 @@ pub mod page;
 pub mod plan;
 pub mod read;
 pub mod replan;
+pub mod rerun;
 pub mod result;
 pub mod robot;
 pub mod scene;
@@ -38,6 +39,8 @@ pub use error::{Diagnostic, Error};
 pub use result::ResultFile;
 pub use store::folder::{Content, Files, Folder, Staged};
 
+use plydrape::layup::Model;
+use plydrape::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// Name and version of this program, as it stands in what it writes.
@@ -52,7 +55,7 @@ pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));
 /// [`Error`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
 /// the folder is then as it was.
 pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, Error> {
-    write_into(Folder::claim(dir, "simulate")?, result, &[], &[])
+    write_into(Folder::claim(dir, "simulate", &result.files)?, result, &[])
 }
 
 /// The names of the files of [`write_all`], and of those that a plan has beside them.
@@ -66,8 +69,15 @@ pub const NAMES: [&str; 7] = [
     "plan.json",
 ];
 
-/// As [`write_all`] into a folder that is claimed already, with `more` files (plain name and content) behind them; files
-/// that the run has `read` are not removed.
+/// Those of [`NAMES`] that a drape of a scene will have, or a plan of it.
+#[must_use]
+pub fn names(scene: &Scene, planned: bool) -> Vec<&'static str> {
+    let draped = scene.also || scene.layup.settings.model == Model::Sheet;
+    let names = if planned { &NAMES[..] } else { &NAMES[..5] };
+    names.iter().copied().filter(|name| draped || *name != result::sheet::NAME).collect()
+}
+
+/// As [`write_all`] into a folder that is claimed already, with `more` files (plain name and content) behind them.
 ///
 /// # Errors
 /// As [`write_all`].
@@ -75,9 +85,8 @@ pub fn write_into(
     folder: Folder,
     result: &ResultFile,
     more: &[(&str, &dyn Content)],
-    read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, Error> {
-    stage_into(folder, result, more, read)?.write()
+    stage_into(folder, result, more)?.write()
 }
 
 /// The same, but the files only stand ready, see [`Staged`].
@@ -88,7 +97,6 @@ pub fn stage_into(
     folder: Folder,
     result: &ResultFile,
     more: &[(&str, &dyn Content)],
-    read: &[PathBuf],
 ) -> Result<Staged, Error> {
     // First of all: no number that is not finite goes on.
     result.check_finite()?;
@@ -106,7 +114,7 @@ pub fn stage_into(
         result.sheet_states.as_ref().map(|states| (result::sheet::NAME, states as &dyn Content)),
     );
     files.extend(more);
-    folder.stage_files(&files, read)
+    folder.stage_files(&files)
 }
 
 #[cfg(test)]

@@ -123,6 +123,7 @@ impl PlannedResult {
             sheet_states: states,
             steps,
             also: None,
+            files: result.files.clone(),
             motion: OnceLock::new(),
         };
         Ok(corrected.along(record, motion, attitudes))

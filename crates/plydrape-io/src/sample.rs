@@ -282,6 +282,7 @@ fn frame(grid: Grid) -> ResultFile {
         sheet_states: None,
         steps: Vec::new(),
         also: None,
+        files: Vec::new(),
         motion: OnceLock::new(),
         summary: Summary {
             model: Model::Catenaries,

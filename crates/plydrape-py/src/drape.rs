@@ -14,7 +14,7 @@ use plydrape::outcome::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, PlanRecord};
 use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
-use plydrape_io::result::sheet;
+use plydrape_io::result::{SceneEcho, sheet};
 use plydrape_io::scene::{Measured, SceneFile, usual};
 use plydrape_io::text::forecast;
 use plydrape_io::{Error, ResultFile};
@@ -169,8 +169,8 @@ pub fn judge_by(
 ///     Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
 ///     `plan` are used up or the time is over, instead of what the scene says.
 /// time : float or str, optional
-///     Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
-///     drape that decides on that plan may take a little longer.
+///     Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; what
+///     follows it ends after as much again, and a plan whose drape or sample is not complete then is not accepted.
 /// checkpoint : str, optional
 ///     Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
 /// also : {"sheet", "catenaries"}, optional
@@ -234,8 +234,9 @@ pub fn plan(
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
     scene.plan.improve = improve.unwrap_or(scene.plan.improve);
     let time = time.map(|time| duration(&time)).transpose()?;
+    let echo = SceneEcho::new(&scene, None);
     let checkpoint: Option<Checkpoint> =
-        checkpoint.map(plan_file::read).transpose().map_err(|fault| {
+        checkpoint.map(|text| plan_file::read(text, &echo)).transpose().map_err(|fault| {
             PyValueError::new_err(format!(
                 "checkpoint is no plan.json of this version: {fault}; plan anew"
             ))
@@ -245,13 +246,16 @@ pub fn plan(
     }
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();
+        if let Some(time) = time {
+            watch.end_after(2 * time);
+        }
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
         let cells = errors.map_or(0, |errors| errors.samples);
         let planned = planner::plan_without_errors(&scene, checkpoint.as_ref(), &mut |progress| {
             let over = time.is_some_and(|time| began.elapsed() >= time);
             let stage = match &progress.forecast {
                 Some(takes) => {
-                    format!("{}: {}", progress.stage, forecast::decision(takes, cells)).into()
+                    format!("{}: {}", progress.stage, forecast::decision(takes, None, cells)).into()
                 }
                 None => Cow::Borrowed(progress.stage),
             };
@@ -435,7 +439,7 @@ impl Plan {
     /// The checkpoint from which a later search continues: the text of plan.json.
     #[getter]
     fn checkpoint(&self) -> PyResult<String> {
-        plan_file::text(&self.checkpoint).map_err(|fault| error::output(&fault))
+        plan_file::text(&self.checkpoint, &self.result.scene).map_err(|fault| error::output(&fault))
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a

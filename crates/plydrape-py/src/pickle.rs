@@ -63,7 +63,7 @@ pub fn state<'py>(
     if let Ok(plan) = value.cast::<Plan>() {
         let plan = plan.get();
         let (result, file) = of_result(py, &plan.result, whole)?;
-        let checkpoint = text(plan_file::text(&plan.checkpoint))?;
+        let checkpoint = text(plan_file::text(&plan.checkpoint, &plan.result.scene))?;
         let Plan { decisions, time_over, .. } = *plan;
         let state = PlanState { result, checkpoint, decisions, time_over };
         return Ok((text(json::of(&state))?, file));
@@ -216,7 +216,8 @@ fn plan(state: &str, file: Option<&[u8]>) -> PyResult<Plan> {
     let fault = |what: &dyn std::fmt::Display| PyValueError::new_err(what.to_string());
     let record = result.plan.clone().ok_or_else(|| fault(&"the result was not planned"))?;
     let motion = record.motion().map_err(|found| fault(&found))?;
-    let checkpoint = plan_file::read(&state.checkpoint).map_err(|found| fault(&found))?;
+    let checkpoint =
+        plan_file::read(&state.checkpoint, &result.scene).map_err(|found| fault(&found))?;
     let PlanState { decisions, time_over, .. } = state;
     Ok(Plan { result: Arc::new(result), record, motion, checkpoint, decisions, time_over })
 }

@@ -827,7 +827,7 @@ impl Result {
         let text = self.html(py)?;
         let place = path.parent().filter(|dir| !dir.as_os_str().is_empty());
         let place = place.map_or_else(|| PathBuf::from("."), PathBuf::from);
-        folder::add(&place, "report", &[(name, text.as_bytes())])
+        folder::add(&place, "report", &[(name, text.as_bytes())], &self.0.files)
             .map_err(|fault| error::output(&fault))?;
         Ok(path)
     }

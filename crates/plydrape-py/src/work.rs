@@ -13,8 +13,8 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// How often signals are looked for.
 const OFTEN: Duration = Duration::from_millis(20);
@@ -23,12 +23,20 @@ const OFTEN: Duration = Duration::from_millis(20);
 #[derive(Default)]
 pub struct Watch {
     stopped: AtomicBool,
+    until: OnceLock<Instant>,
     done: AtomicUsize,
     most: AtomicUsize,
     stage: Mutex<Cow<'static, str>>,
 }
 
 impl Watch {
+    /// Ends the work after a time from now, whatever it does.
+    pub fn end_after(&self, time: Duration) {
+        if let Some(until) = Instant::now().checked_add(time) {
+            let _ = self.until.set(until);
+        }
+    }
+
     /// Says how far the work is; breaks if it shall end.
     pub fn tell(
         &self,
@@ -52,7 +60,8 @@ impl Watch {
 
     /// Breaks if the work shall end.
     pub fn flow(&self) -> ControlFlow<()> {
-        match self.stopped.load(Ordering::Relaxed) {
+        let late = self.until.get().is_some_and(|until| Instant::now() >= *until);
+        match late || self.stopped.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }

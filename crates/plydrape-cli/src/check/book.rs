@@ -4,6 +4,7 @@ use super::{Noun, drawing, mold, nouns, warnings};
 use crate::failure::Done;
 use crate::numbers::degrees;
 use crate::outcome;
+use crate::results;
 use plydrape::mold::MeshReport;
 use plydrape_io::scene::{BookPly, read_book};
 use plydrape_io::store::{json, shown};
@@ -42,22 +43,21 @@ pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
         });
         let plies = plies.collect();
         let printed = Printed { title: &book.title, summary: nouns(&mold), plies, warnings: &mesh };
-        writeln!(io::stdout(), "{}", json::of(&printed)?)?;
+        results::print(&json::of(&printed)?, &[])?;
         return Ok(ExitCode::SUCCESS);
     }
     if !quiet {
-        let mut out = io::stdout().lock();
-        writeln!(out, "{}", book.title)?;
-        for (noun, text) in mold {
-            writeln!(out, "  {noun:<9} {text}")?;
+        let mut text = format!("{}\n", book.title);
+        for (noun, line) in mold {
+            text += &format!("  {noun:<9} {line}\n");
         }
         for (n, ply) in book.plies.iter().enumerate() {
-            writeln!(out, "  {:<9} {}", format!("ply {}", n + 1), ply.name)?;
+            text += &format!("  {:<9} {}\n", format!("ply {}", n + 1), ply.name);
             for line in lines(ply) {
-                writeln!(out, "  {:<9}   {line}", "")?;
+                text += &format!("  {:<9}   {line}\n", "");
             }
         }
-        out.flush()?;
+        results::print(&text, &[])?;
     }
     outcome::warn(&mesh);
     for ply in &book.plies {

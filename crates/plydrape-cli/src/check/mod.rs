@@ -17,14 +17,13 @@ use crate::model;
 use crate::numbers::{degrees, millimetres, short};
 use crate::outcome::warn;
 use crate::results;
-use crate::watch::Interrupt;
+use crate::watch::{Interrupt, whole};
 use plydrape::material::{Material, Scatter, Section, ShearCurve, Spread, TensionLaw};
 use plydrape::ply::Ply;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::store::{json, shown};
 use plydrape_io::{Content, Folder, ResultFile, page};
 use serde::Serialize;
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -104,23 +103,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let scene = plydrape_io::scene::read(&arguments.scene)?;
     let (lines, warnings) = (summary(&scene), warnings::warnings(&scene));
     let files = match arguments.html {
-        true => page(&scene, arguments, &lines, &warnings)?,
+        true => whole(|| page(&scene, arguments, &lines, &warnings))?,
         false => Vec::new(),
     };
     if arguments.json {
         let title = &scene.title;
         let printed = Printed { title, summary: nouns(&lines), warnings: &warnings, files: &files };
-        writeln!(io::stdout(), "{}", json::of(&printed)?)?;
+        results::print(&json::of(&printed)?, &files)?;
         return Ok(ExitCode::SUCCESS);
     }
     if !quiet {
-        let mut out = io::stdout().lock();
-        writeln!(out, "{}", scene.title)?;
-        for (noun, text) in &lines {
-            writeln!(out, "  {noun:<9} {text}")?;
-        }
-        out.flush()?;
-        results::list(&files)?;
+        let lines = lines.iter().map(|(noun, text)| format!("  {noun:<9} {text}\n"));
+        let text =
+            format!("{}\n{}{}", scene.title, lines.collect::<String>(), results::list(&files));
+        results::print(&text, &files)?;
     }
     warn(&warnings);
     Ok(ExitCode::SUCCESS)
@@ -134,18 +130,18 @@ fn page(
     warnings: &[String],
 ) -> Result<Vec<PathBuf>, Failure> {
     let beside = || arguments.scene.with_extension("check");
-    let folder = Folder::claim(&arguments.output.clone().unwrap_or_else(beside), "check")?;
-    folder.refuse_inputs(&[PAGE], &scene.files)?;
+    let dir = arguments.output.clone().unwrap_or_else(beside);
+    let folder = Folder::claim(&dir, "check", &scene.files)?;
+    folder.refuse_taken(&[PAGE])?;
     let mut held = scene.clone();
     held.scene.layup.motion.positions.truncate(1);
     held.scene.layup.motion.times.truncate(1);
     held.scene.layup.release = None;
-    let interrupt = Interrupt::listen();
     let model = held.layup.settings.model;
-    let drape = model::drape(&held, model, folder.stage(), &interrupt, true)?;
+    let drape = model::drape(&held, model, folder.stage(), &Interrupt::never(), true)?;
     let result = ResultFile::new(&held, held.input.clone(), drape);
     let html = page::look_html(scene, result, lines, warnings)?;
-    Ok(folder.write(&[(PAGE, &html.as_bytes() as &dyn Content)], &scene.files)?)
+    Ok(folder.write(&[(PAGE, &html.as_bytes() as &dyn Content)])?)
 }
 
 /// The nouns of a scene, each in a line.

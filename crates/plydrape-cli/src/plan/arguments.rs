@@ -14,18 +14,21 @@ use std::path::PathBuf;
 #[command(after_help = "\
 The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers \
 start where they start in `simulate`: of a motion from a file only the first step is used, and a \
-`duration` in [motion] is refused: limits.duration is what a plan keeps. What no \
-plan can keep is said first. The search ends with a plan that keeps all limits with a margin. The best \
-plan found is written even if it is not accepted. Ctrl-C or SIGTERM ends the search, finishes the best \
-plan so far and writes it; a second one ends that too. Without a terminal, how far the search is stands on \
-standard error once a minute.
+`duration` in [motion] is refused: limits.duration is what a plan keeps. Limits that no plan can keep are said, and \
+nothing is planned then, with exit code 1, unless --anyway asks for it. The search ends with the first plan that keeps all limits with a margin. The best \
+plan found is written even if it is not accepted, whatever ends the search. Ctrl-C or SIGTERM ends it, finishes the best \
+plan so far and writes it; a second one ends that too. The exit code is 0 if that plan is accepted, else 130; where a better plan is in the folder already, the files \
+go beside it. Without a terminal, how far the search is stands on standard error once a minute.
+
+While it searches, search.json in the folder holds all that was judged so far, at most half a minute old. After a crash or a power cut, --continue goes on \
+from there, to the same plan.
 
 One model drapes and decides, that of the scene: its steps, its limits and its verdict are printed, written and returned as the exit \
 code. With --also the other model is draped along the plan too and shown beside it; it never judges.
 
 The plan is then judged with errors. With [errors] in the scene, a sample of complete drapes of cells that are off by them decides \
 too, at most 64 unless set there. The verdict says which errors the plan tolerates, of each gripper's position where the scene has none. \
---time does not bound these drapes; Ctrl-C ends them, and the plan is written without what they would say.
+Ctrl-C ends these drapes, as does twice the time of --time; the plan is then written without what they would say, and is not accepted if the sample is missing.
 
 Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html and plan.json, and sheet.npz \
 where the sheet was draped, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
@@ -56,8 +59,7 @@ pub struct Arguments {
     #[arg(long)]
     improve: bool,
 
-    /// End the search after this time, e.g. 5min or 90s, with the best plan so far; the drape that decides on it may
-    /// take a little longer.
+    /// End the search after this time, e.g. 5min or 90s, with the best plan so far; what follows ends after as much again.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(super) time: Option<String>,
 
@@ -77,7 +79,11 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 
-    /// Go on from the plan in the folder of an earlier run.
+    /// Plan although no plan can keep the limits of the scene, to see how near one comes.
+    #[arg(long, conflicts_with = "compare")]
+    pub(super) anyway: bool,
+
+    /// Go on from the folder of an earlier run: of one that was cut off, to the plan that it would have found.
     #[arg(long = "continue", value_name = "DIR")]
     pub(super) earlier: Option<PathBuf>,
 }
@@ -103,10 +109,9 @@ impl From<Method> for PlanMethod {
 impl Arguments {
     /// Whether something is asked for that only a scene of one ply has.
     pub(super) fn of_one_ply(&self) -> Option<&'static str> {
-        match (self.compare, &self.earlier, self.also) {
-            (true, ..) => Some("--compare"),
-            (_, Some(_), _) => Some("--continue"),
-            (.., Some(_)) => Some("--also"),
+        match (self.compare, self.also) {
+            (true, _) => Some("--compare"),
+            (_, Some(_)) => Some("--also"),
             _ => None,
         }
     }

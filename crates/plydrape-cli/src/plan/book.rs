@@ -5,23 +5,26 @@
 
 use super::arguments::Arguments;
 use super::found::Found;
+use super::{WHOLE, checkpoint, say_infeasible};
 use crate::failure::{Done, Failure};
 use crate::outcome;
-use crate::search::{Ended, Search, SharedLines};
+use crate::results::{place, print};
+use crate::search::{Search, SharedLines};
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
+use plydrape::measure::Verdict;
 use plydrape::mold::MeshReport;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Progress};
-use plydrape_io::scene::{Book, read_book};
+use plydrape_io::scene::{Book, BookPly, read_book};
 use plydrape_io::store::folder::write_together;
 use plydrape_io::text::table;
 use plydrape_io::write::book::{self, NAMES, PlyRecord};
-use plydrape_io::{Folder, Staged, plan};
+use plydrape_io::{Folder, Staged, names, plan};
 use serde::Serialize;
-use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
@@ -42,6 +45,8 @@ struct Ready {
     record: PlyRecord,
     staged: Staged,
     interrupted: bool,
+    /// It is accepted, and nothing is missing.
+    done: bool,
     unsolved: bool,
 }
 
@@ -66,26 +71,43 @@ pub fn plan(
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
     outcome::warn(&book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::of).collect();
+    if !found.is_empty() {
+        let lines = found.iter().map(|ply| format!("ply {}: {}", ply.ply, ply.text()));
+        say_infeasible(&lines.collect::<String>(), &found, arguments, quiet)?;
+        if !arguments.anyway {
+            return Ok(ExitCode::from(1));
+        }
+    }
+    if let Some(dir) = &arguments.earlier
+        && !(0..book.plies.len()).any(|n| has_plan(&dir.join(book.plies[n].folder(n))))
+    {
+        return Err(Failure::Refused {
+            message: format!("there is no plan to go on from in `{}`", dir.display()),
+            help: "--continue takes the folder of an earlier `plydrape plan` of this book".into(),
+        });
+    }
     let dir = results.folder("plan");
-    let folder = Folder::claim(&dir, "plan")?;
-    folder.refuse_inputs(&NAMES, &book.files)?;
+    let folder = Folder::claim(&dir, "plan", &book.files)?;
+    folder.refuse_taken(&NAMES)?;
     let folders: Vec<Mutex<Option<Folder>>> = {
         let claimed = book.plies.iter().enumerate().map(|(n, ply)| {
-            let folder = Folder::claim(&dir.join(ply.folder(n)), "plan")?;
-            folder.refuse_inputs(&plydrape_io::NAMES, &book.files)?;
+            let claimed = Folder::claim(&dir.join(ply.folder(n)), "plan", &book.files);
+            let free = claimed
+                .and_then(|folder| folder.refuse_taken(&names(&ply.scene, true)).map(|()| folder));
+            let folder = free.map_err(|cause| of_ply(&ply.name, cause.into()))?;
             Ok(Mutex::new(Some(folder)))
         });
         claimed.collect::<Result<_, Failure>>()?
     };
-    let verbose = !quiet && !results.json;
-    if verbose {
-        announce(&book)?;
+    if !quiet && !results.json {
+        print(&format!("{}\n\n", book.title), &[])?;
     }
 
     let began = Instant::now();
     let eyes = Eyes::new(interrupt, book.plies.len(), quiet);
     let count = book.plies.len();
-    let done: Vec<Mutex<Option<Result<Ready, Failure>>>> =
+    let planned: Vec<Mutex<Option<Result<Ready, Failure>>>> =
         (0..count).map(|_| Mutex::new(None)).collect();
     let next = AtomicUsize::new(0);
     let workers = rayon::current_num_threads().clamp(1, count);
@@ -100,7 +122,7 @@ pub fn plan(
                     let found = one(arguments, &book, n, folder, &eyes, time)
                         .map_err(|cause| of_ply(&book.plies[n].name, cause));
                     eyes.finished(found.is_err());
-                    if let Ok(mut place) = done[n].lock() {
+                    if let Ok(mut place) = planned[n].lock() {
                         *place = Some(found);
                     }
                 }
@@ -110,16 +132,25 @@ pub fn plan(
     eyes.bar.finish_and_clear();
 
     let (mut records, mut staged) = (Vec::new(), Vec::new());
-    let (mut interrupted, mut unsolved) = (false, false);
-    for place in done {
+    let (mut interrupted, mut unsolved, mut done) = (false, false, true);
+    for place in planned {
         let Some(found) = place.into_inner().unwrap_or_default() else { continue };
         let ready = found?;
         interrupted |= ready.interrupted;
         unsolved |= ready.unsolved;
+        done &= ready.done;
         records.push(ready.record);
         staged.push(ready.staged);
     }
-    staged.push(book::stage_into(folder, &book, &records, interrupted, &book.files)?);
+    let (folder, kept) = place(folder, interrupted, |dir| book::is_better(&records, dir))?;
+    let dir = folder.path().to_path_buf();
+    if kept.is_some() {
+        let moved = staged.into_iter().zip(&records).map(|(staged, ply)| {
+            staged.moved_to(Folder::claim(&dir.join(&ply.folder), "plan", &book.files)?)
+        });
+        staged = moved.collect::<Result<_, _>>()?;
+    }
+    staged.push(book::stage_into(folder, &book, &records, interrupted)?);
     let mut files = write_together(staged)?.pop().unwrap_or_default();
     files.extend(records.iter().map(|ply| dir.join(&ply.folder)).collect::<Vec<PathBuf>>());
 
@@ -127,7 +158,7 @@ pub fn plan(
     let time_s = began.elapsed().as_secs_f64();
     let printed = Printed { title: &book.title, accepted, interrupted, plies: &records, time_s };
     results.print(quiet, &printed, &text(&records, interrupted, time_s), &files)?;
-    Ok(outcome::code(interrupted, unsolved, accepted))
+    Ok(outcome::code(interrupted && !(accepted && done), unsolved, accepted))
 }
 
 fn of_ply(name: &str, cause: Failure) -> Failure {
@@ -138,18 +169,27 @@ fn of_ply(name: &str, cause: Failure) -> Failure {
     }
 }
 
-/// What is said before the plans are looked for.
-fn announce(book: &Book) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    writeln!(out, "{}\n", book.title)?;
-    for ply in &book.plies {
-        let found = infeasible_limits(&ply.scene);
-        if !found.is_empty() {
-            writeln!(out, "ply {}: {}", ply.name, table::infeasible_limits(&found))?;
-        }
+/// Whether a search of one ply can go on from its folder.
+fn has_plan(dir: &Path) -> bool {
+    [plan::FILE, plan::RUNNING].iter().any(|file| dir.join(file).exists())
+}
+
+/// The limits of a ply that no plan can keep.
+#[derive(Serialize)]
+struct Infeasible<'a> {
+    ply: &'a str,
+    limits: Vec<Verdict>,
+}
+
+impl<'a> Infeasible<'a> {
+    fn of(ply: &'a BookPly) -> Option<Self> {
+        let limits = infeasible_limits(&ply.scene);
+        (!limits.is_empty()).then_some(Infeasible { ply: &ply.name, limits })
     }
-    out.flush()?;
-    Ok(())
+
+    fn text(&self) -> String {
+        table::infeasible_limits(&self.limits)
+    }
 }
 
 /// Plans one ply and stages its files.
@@ -162,17 +202,24 @@ fn one(
     time: Option<Duration>,
 ) -> Result<Ready, Failure> {
     let scene = &book.plies[index].scene;
-    let mut search = Search::new(scene, arguments.without_errors, time, eyes.interrupt, true);
+    let earlier = arguments.earlier.as_deref().map(|dir| dir.join(book.plies[index].folder(index)));
+    // a ply of which nothing is there yet is planned anew
+    let earlier = earlier.filter(|dir| has_plan(dir));
+    let earlier = earlier.map(|dir| checkpoint(&dir, scene)).transpose()?;
+    let interrupt = eyes.interrupt.within(time.map(|time| time.mul_f64(WHOLE)));
+    let search = Search::new(scene, arguments.without_errors, time, &interrupt, true);
+    let mut search = search.kept_in(&folder, scene);
     let watch = &mut |progress: &Progress| eyes.watch(&mut search, progress);
-    let planned = planner::plan_without_errors(scene, None, watch);
+    let planned = planner::plan_without_errors(scene, earlier.as_ref(), watch);
     let (_, ended) = search.finish();
-    let found = arguments.judged(scene, planned?, folder.stage(), eyes.interrupt, true)?;
-    let Found { result, checkpoint, interrupted, .. } = &found;
+    let found = arguments.judged(scene, planned?, folder.stage(), &interrupt, true)?;
+    let Found { result, checkpoint, .. } = &found;
     let record = PlyRecord::of(book, index, result);
-    let interrupted = ended == Some(Ended::Interrupted) || *interrupted;
+    let interrupted = found.is_interrupted(ended, &interrupt);
+    let done = found.is_done();
     let unsolved = outcome::is_unsolved(result);
-    let staged = plan::stage_into(folder, result, checkpoint, &book.files)?;
-    Ok(Ready { record, staged, interrupted, unsolved })
+    let staged = plan::stage_into(folder, result, checkpoint)?;
+    Ok(Ready { record, staged, interrupted, done, unsolved })
 }
 
 /// What is printed for people.

@@ -2,6 +2,8 @@
 
 use super::arguments::Arguments;
 use crate::failure::Failure;
+use crate::outcome::{code, is_unsolved};
+use crate::search::Ended;
 use crate::watch::Interrupt;
 use crate::{errors, model};
 use plydrape::outcome::Robustness;
@@ -10,6 +12,7 @@ use plydrape_io::ResultFile;
 use plydrape_io::scene::SceneFile;
 use serde::Serialize;
 use std::path::Path;
+use std::process::ExitCode;
 use std::time::Duration;
 
 /// The motion in a few numbers; largest values of any gripper.
@@ -47,8 +50,26 @@ pub(super) struct Found {
     pub(super) decisions: usize,
     /// How long the model took that decides.
     pub(super) solving: Duration,
-    /// Whether somebody broke off what follows the search.
-    pub(super) interrupted: bool,
+    /// Whether what follows the search was broken off.
+    pub(super) broken_off: bool,
+}
+
+impl Found {
+    /// Whether a signal ended the search, or what follows it.
+    pub(super) fn is_interrupted(&self, ended: Option<Ended>, interrupt: &Interrupt) -> bool {
+        ended == Some(Ended::Interrupted) || self.broken_off && interrupt.is_signalled()
+    }
+
+    /// Whether it is accepted, and nothing is missing.
+    pub(super) fn is_done(&self) -> bool {
+        self.result.summary.accepted() && !self.broken_off
+    }
+
+    /// The exit code: a plan that is accepted is what was looked for, whatever ended the search.
+    pub(super) fn code(&self, interrupted: bool) -> ExitCode {
+        let accepted = self.result.summary.accepted();
+        code(interrupted && !self.is_done(), is_unsolved(&self.result), accepted)
+    }
 }
 
 impl Arguments {
@@ -67,12 +88,12 @@ impl Arguments {
         let along = planner::along(scene, &planned.motion);
         let steps = planned.motion.steps();
         let mut result = ResultFile::planned(scene, scene.input.clone(), planned, stage)?;
-        let mut interrupted = model::show_also(&mut result, &along, stage, interrupt, quiet)?;
+        let mut broken_off = model::show_also(&mut result, &along, stage, interrupt, quiet)?;
         if !self.without_errors {
             let robustness = Robustness::of_planned(scene, steps);
-            interrupted |= !errors::judge(&mut result, &robustness, solving, interrupt, quiet);
+            broken_off |= !errors::judge(&mut result, &robustness, solving, interrupt, quiet);
         }
-        interrupted |= result.summary.interrupted();
-        Ok(Found { result, checkpoint, motion, decisions, solving, interrupted })
+        broken_off |= result.summary.interrupted();
+        Ok(Found { result, checkpoint, motion, decisions, solving, broken_off })
     }
 }

@@ -10,21 +10,24 @@ use crate::argument;
 use crate::errors;
 use crate::failure::{Done, Failure};
 use crate::numbers::short;
-use crate::outcome::{self, exit_code};
+use crate::outcome::{self, warn};
+use crate::results;
 use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use found::{Found, Motion};
 use plydrape::mold::MeshReport;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Checkpoint, Progress};
-use plydrape::scene::PlanMethod;
+use plydrape::scene::{PlanMethod, Scene};
+use plydrape_io::rerun::is_better;
+use plydrape_io::result::SceneEcho;
 use plydrape_io::scene::{Measured, usual};
-use plydrape_io::store::input;
+use plydrape_io::store::{input, json, shown};
 use plydrape_io::text::table;
-use plydrape_io::{Folder, NAMES, plan};
+use plydrape_io::{Folder, names, plan};
 use serde::Serialize;
-use std::io::{self, Write};
 use std::path::Path;
+use std::process::ExitCode;
 use std::time::Duration;
 
 /// What `--json` prints: the finished drape, and the plan it follows.
@@ -37,11 +40,14 @@ struct Printed<'a> {
     evaluations: usize,
     decisions: usize,
     motion: &'a Motion,
+    /// Samples a second that the scene asks for and that motion.csv has (Hz).
+    #[serde(skip)]
+    rates: [f64; 2],
 }
 
 /// Plans, drapes, writes the files and judges.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
-    let results = &arguments.results;
+    let asked = &arguments.results;
     // first of all, so that even a long read ends in files
     let interrupt = Interrupt::listen();
     let time = arguments.time.as_deref().map(time).transpose()?;
@@ -49,33 +55,48 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
-    if plydrape_io::scene::is_book(&results.scene) {
+    if plydrape_io::scene::is_book(&asked.scene) {
         return book::plan(arguments, &interrupt, time, quiet);
     }
     let also = arguments.also.map(Into::into);
-    let mut scene = plydrape_io::scene::read_for(&results.scene, None, also)?;
+    let mut scene = plydrape_io::scene::read_for(&asked.scene, None, also)?;
     arguments.apply(&mut scene)?;
-    outcome::warn(&scene.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
-    let earlier = arguments.earlier.as_deref().map(checkpoint).transpose()?;
+    warn(&scene.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    let earlier = arguments.earlier.as_deref();
+    let earlier = earlier.map(|dir| checkpoint(dir, &scene)).transpose()?;
     if arguments.compare {
-        return crate::compare::run(results, &scene, &interrupt, quiet);
+        return crate::compare::run(asked, &scene, &interrupt, quiet);
     }
-    let folder = Folder::claim(&results.folder("plan"), "plan")?;
-    folder.refuse_inputs(&NAMES, &scene.files)?;
     let infeasible = infeasible_limits(&scene);
-    if !quiet && !results.json && !infeasible.is_empty() {
-        let mut out = io::stdout().lock();
-        writeln!(out, "{}", table::infeasible_limits(&infeasible))?;
-        out.flush()?;
+    if !infeasible.is_empty() {
+        let end = !arguments.anyway;
+        say_infeasible(&table::infeasible_limits(&infeasible), &infeasible, arguments, quiet)?;
+        if end {
+            return Ok(ExitCode::from(1));
+        }
+    }
+    let folder = Folder::claim(&asked.folder("plan"), "plan", &scene.files)?;
+    folder.refuse_taken(&names(&scene, true))?;
+    if earlier.is_none() && folder.path().join(plan::RUNNING).exists() {
+        let dir = shown::path(folder.path());
+        warn(&[format!(
+            "a search was cut off in {dir}, and this one begins anew; `--continue {dir}` goes on from there"
+        )]);
     }
 
-    let mut search = Search::new(&scene, arguments.without_errors, time, &interrupt, quiet);
+    let interrupt = interrupt.within(time.map(|time| time.mul_f64(WHOLE)));
+    let search = Search::new(&scene, arguments.without_errors, time, &interrupt, quiet);
+    let mut search = search.kept_in(&folder, &scene);
     let watch = &mut |progress: &Progress| search.watch(progress);
     let planned = planner::plan_without_errors(&scene, earlier.as_ref(), watch);
     let (took, ended) = search.finish();
     let found = arguments.judged(&scene, planned?, folder.stage(), &interrupt, quiet)?;
     let Found { result, checkpoint, motion, decisions, solving, .. } = &found;
-    let files = plan::write_into(folder, result, checkpoint, &scene.files)?;
+    let interrupted = found.is_interrupted(ended, &interrupt);
+    let (folder, kept) = results::place(folder, interrupted, |dir| is_better(result, dir))?;
+    let files = plan::write_into(folder, result, checkpoint)?;
+    // what is beside is where the search goes on from
+    kept.map_or(Ok(()), |kept| kept.remove(plan::RUNNING))?;
     let printed = Printed {
         drape: outcome::Printed::of(result, *solving),
         method: scene.plan.method,
@@ -83,12 +104,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),
         decisions: *decisions,
         motion,
+        rates: [scene.plan.rate, result.plan.as_ref().map_or(scene.plan.rate, |plan| plan.rate)],
     };
-    let mut text = results.text(result, &text(&printed, ended, time));
-    text += errors::left_out(result, found.interrupted);
-    results.print(quiet, &printed, &text, &files)?;
-    Ok(exit_code(result, ended == Some(Ended::Interrupted) || found.interrupted))
+    let mut text = asked.text(result, &text(&printed, ended, time));
+    text += errors::left_out(result, found.broken_off, &interrupt);
+    asked.print(quiet, &printed, &text, &files)?;
+    Ok(found.code(interrupted))
 }
+
+/// The part of the time of a search after which what follows it ends too: all is over within twice that time, files included.
+const WHOLE: f64 = 1.8;
 
 /// Shortest and longest time of a search (s).
 const TIMES: [f64; 2] = [1e-3, 1e7];
@@ -103,22 +128,50 @@ fn time(text: &str) -> Result<Duration, Failure> {
 /// Largest plan.json that is read (bytes).
 const LARGEST_CHECKPOINT: u64 = 1 << 30;
 
-/// The checkpoint of an earlier search in its folder.
-fn checkpoint(folder: &Path) -> Result<Checkpoint, Failure> {
-    let file = folder.join("plan.json");
-    let refused = |reason: String, help: &str| Failure::Refused {
+/// The checkpoint of an earlier search in its folder: of the one that was cut off there, or else of the one that has ended.
+fn checkpoint(folder: &Path, scene: &Scene) -> Result<Checkpoint, Failure> {
+    let cut_off = folder.join(plan::RUNNING).exists();
+    let name = if cut_off { plan::RUNNING } else { plan::FILE };
+    let refused = |reason: String, help: String| Failure::Refused {
         message: format!("there is no plan to go on from in `{}`: {reason}", folder.display()),
-        help: help.into(),
+        help,
     };
-    let text = input::text(&file, LARGEST_CHECKPOINT).map_err(|error| {
-        let help = "--continue takes the folder of an earlier `plydrape plan`, with its plan.json";
-        refused(format!("plan.json cannot be read, {error}"), help)
+    let text = input::text(&folder.join(name), LARGEST_CHECKPOINT).map_err(|error| {
+        let help = "--continue takes the folder of an earlier `plydrape plan`, with its plan.json, or the search.json of one that was cut off";
+        refused(format!("{name} cannot be read, {error}"), help.into())
     })?;
-    plan::read(&text).map_err(|error| {
-        let help =
-            "plan.json is not as this version of plydrape writes it: plan anew, without --continue";
+    plan::read(&text, &SceneEcho::new(scene, None)).map_err(|error| {
+        let help = format!(
+            "{name} is not as this version of plydrape writes it: plan anew, without --continue"
+        );
         refused(error.to_string(), help)
     })
+}
+
+/// What `--json` prints of a scene with limits that no plan can keep, where none is looked for.
+#[derive(Serialize)]
+struct Infeasible<'a, T> {
+    accepted: bool,
+    infeasible_limits: &'a [T],
+}
+
+/// Says which limits no plan can keep, and that no plan is looked for unless that is asked for.
+fn say_infeasible<T: Serialize>(
+    text: &str,
+    limits: &[T],
+    arguments: &Arguments,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let said = match (arguments.results.json, arguments.anyway) {
+        (true, true) => return Ok(()),
+        (true, false) => json::of(&Infeasible { accepted: false, infeasible_limits: limits })?,
+        _ if quiet => return Ok(()),
+        (false, true) => format!("{text}\n"),
+        (false, false) => format!(
+            "{text}nothing is planned: change the scene or its limits, or see with --anyway how near a plan comes\n"
+        ),
+    };
+    results::print(&said, &[])
 }
 
 /// What was found and how long that took, in two lines.
@@ -132,6 +185,14 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
             )
         }
     };
+    let rate = match printed.rates {
+        [asked, rate] if rate < asked => format!(
+            "\nmotion.csv has {} samples a second: {} are too many for so long a motion",
+            short(rate),
+            short(asked)
+        ),
+        _ => String::new(),
+    };
     let ended = match (ended, time) {
         (Some(Ended::Interrupted), _) => ", interrupted: the best so far".into(),
         (Some(Ended::TimeOver), Some(time)) => {
@@ -141,7 +202,7 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
     };
     let Motion { duration_s, max_speed, max_acceleration, max_jerk, .. } = printed.motion;
     format!(
-        "{tried} in {:.1} s{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³",
+        "{tried} in {:.1} s{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³{rate}",
         printed.plan_time_s,
         short(*max_speed),
         short(*max_acceleration),

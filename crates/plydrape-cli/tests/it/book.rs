@@ -156,6 +156,28 @@ fn a_book_is_written_whole_or_not_at_all() {
     assert_eq!(contents(&folder.path().join("plies.plan")).len(), 1, "only the file in the way");
 }
 
+/// Every ply goes on from its own folder, and is planned anew where it has none there.
+#[test]
+fn a_book_goes_on_from_the_folder_of_an_earlier_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = book(folder.path(), BOOK);
+    let out = folder.path().join("plies.plan");
+    let go_on = ["--without-errors", "--quiet", "--time", "1ms", "--continue"];
+    let quick = &go_on[..4];
+    assert!(plan(&path, quick).stderr.is_empty());
+    let missing = out.join("02_beside");
+    std::fs::remove_dir_all(&missing).unwrap();
+    let next = plan(&path, &[&go_on[..], &[out.to_str().unwrap()]].concat());
+    assert!(next.stderr.is_empty(), "{}", text(&next.stderr));
+    assert!(missing.join("plan.json").exists());
+    // a plan of another ply is none to go on from
+    let other = out.join("01_base/plan.json");
+    let swapped = std::fs::read_to_string(&other).unwrap().replacen("0.1", "0.2", 1);
+    std::fs::write(&other, swapped).unwrap();
+    let refused = plan(&path, &[&go_on[..], &[out.to_str().unwrap()]].concat());
+    assert_eq!(refused.status.code(), Some(2));
+}
+
 #[test]
 fn check_says_what_lies_on_what() {
     let folder = tempfile::tempdir().unwrap();
@@ -196,11 +218,14 @@ fn commands_of_one_ply_say_that_this_is_a_book() {
         let said = one_line(&output.stderr);
         assert!(said.contains("this is a plybook") && said.contains("`plydrape plan`"), "{said}");
     }
-    for option in [&["--compare"][..], &["--continue", "somewhere"]] {
+    for (option, fault) in [
+        (&["--compare"][..], "--compare is for a single ply, and this is a plybook"),
+        (&["--continue", "somewhere"], "there is no plan to go on from in `somewhere`"),
+    ] {
         let output = plan(&path, option);
         assert_eq!(output.status.code(), Some(2), "{option:?}");
         let said = one_line(&output.stderr);
-        assert!(said.contains(option[0]) && said.contains("plybook"), "{said}");
+        assert!(said.contains(fault), "{said}");
     }
     assert_eq!(files(folder.path()), ["plies.toml"]);
 }

@@ -9,6 +9,8 @@ mod compare;
 mod drawing;
 mod errors;
 mod export;
+#[cfg(unix)]
+mod inputs;
 mod limits;
 mod net;
 mod output_streams;

@@ -40,6 +40,123 @@ fn standard_output_that_is_full_is_exit_four_with_the_files_that_are_written() {
     }
 }
 
+/// A reader that has gone away changes neither the files nor the exit code, which is that of the verdict.
+#[cfg(unix)]
+#[test]
+fn a_reader_that_goes_away_changes_no_file_and_no_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = example("01_flat_sheared_mold");
+    let run = |arguments: &[&str], reader: Stdio| {
+        let output = command().args(arguments).current_dir(folder.path()).stdout(reader).output();
+        let output = output.unwrap();
+        assert!(output.stderr.is_empty(), "{arguments:?}: {}", text(&output.stderr));
+        output.status.code()
+    };
+    // a pipe without a reader
+    let closed = || {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        Stdio::from(writer)
+    };
+    let planned = folder.path().join("flat.toml");
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n\
+                material = \"krogh2018\"\n[mold]\nkind = \"plane\"\n[grippers]\n\
+                spacing = [0.098, 0.098]\nheight = 0.075\n[target]\norigin = [0, 0]\n\
+                [plan]\nsteps = 30\nevaluations = 1\n";
+    std::fs::write(&planned, text).unwrap();
+    std::fs::write(folder.path().join("pick.toml"), "[offset]\nx = \"1 mm\"\n").unwrap();
+    let scene = scene.to_str().unwrap();
+    for (arguments, file) in [
+        (&["simulate", scene, "-o", "out"][..], Some("out/result.json")),
+        (&["simulate", scene, "-o", "out", "--json"], None),
+        (&["plan", "flat.toml", "--without-errors"], Some("flat.plan/plan.json")),
+        (&["replan", "flat.plan", "--picked", "pick.toml"], Some("flat.plan/replan/result.json")),
+        (
+            &["replan", "flat.plan", "--picked", "pick.toml", "--json", "-o", "r"],
+            Some("r/steps.csv"),
+        ),
+        (&["export", "flat.plan", "--to", "vtk"], Some("flat.plan/vtk/drape.pvd")),
+        (&["report", "out", "-o", "page"], Some("page/report.html")),
+        (&["net", scene, "-o", "net"], Some("net/nodes.csv")),
+        (&["check", scene], None),
+        (&["schema"], None),
+    ] {
+        let code = run(arguments, closed());
+        let written = file.is_none_or(|file| folder.path().join(file).is_file());
+        assert!(written, "{arguments:?}: {file:?} is not written");
+        assert_eq!(code, run(arguments, Stdio::null()), "{arguments:?}");
+    }
+    assert_eq!(run(&["simulate", scene, "-o", "out"], closed()), Some(1));
+}
+
+/// Signals end what keeps nothing of its work with 130, whenever they come: files are whole or not there, and no hidden folder is left.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_exports_and_corrections_without_a_trace() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    let scene = example("01_flat_sheared_mold");
+    command().arg("simulate").arg(scene).arg("-o").arg(&run).arg("--quiet").output().unwrap();
+    let mut ends = [0, 0];
+    for wait in [0, 2, 5, 10, 20, 30, 40, 60, 80, 120, 5000] {
+        let out = folder.path().join(format!("out {wait}"));
+        let mut export = command();
+        export.args(["export", "--to", "vtk", "-o"]).args([&out, &run]);
+        let child = export.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        // it ends before the signal where that comes late
+        let id = child.id().to_string();
+        let signal = format!("sleep {}; kill -TERM {id}", f64::from(wait) * 1e-3);
+        let mut killer = Command::new("sh").args(["-c", &signal]).stderr(Stdio::null()).spawn();
+        let output = child.wait_with_output().unwrap();
+        if let Ok(killer) = &mut killer {
+            let _ = killer.kill();
+            let _ = killer.wait();
+        }
+        let written = out.join("drape.pvd").is_file();
+        match output.status.code() {
+            Some(0) => assert!(written),
+            Some(130) => ends[0] += 1,
+            // before it listens
+            None => ends[1] += 1,
+            code => panic!("{code:?}: {}", text(&output.stderr)),
+        }
+        let left: Vec<String> = std::fs::read_dir(&out)
+            .into_iter()
+            .flatten()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .filter(|name| name.starts_with(".plydrape-"))
+            .collect();
+        assert!(left.is_empty(), "{wait}: {left:?}");
+        assert!(written || !out.exists(), "{wait}: {:?}", crate::common::files(&out));
+    }
+    assert!(ends[0] > 0, "{ends:?}");
+
+    // one that waits for offsets
+    let scene = folder.path().join("flat.toml");
+    std::fs::write(
+        &scene,
+        "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n\
+         material = \"krogh2018\"\n[mold]\nkind = \"plane\"\n[grippers]\n\
+         spacing = [0.098, 0.098]\nheight = 0.075\n[target]\norigin = [0, 0]\n\
+         [plan]\nsteps = 30\nevaluations = 1\n",
+    )
+    .unwrap();
+    command().args(["plan", "--without-errors", "--quiet"]).arg(&scene).output().unwrap();
+    let mut replan = command();
+    replan.args(["replan", "--json"]).arg(scene.with_extension("plan"));
+    let mut child = replan.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    std::io::Write::write_all(&mut input, b"{\"offset\": {\"x\": \"1 mm\"}}\n").unwrap();
+    // it listens once it has answered
+    let mut answer = String::new();
+    let mut answers = std::io::BufReader::new(child.stdout.take().unwrap());
+    std::io::BufRead::read_line(&mut answers, &mut answer).unwrap();
+    assert!(answer.contains("\"accepted\""), "{answer}");
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    drop(input);
+}
+
 /// The exit code stands, whatever becomes of the message.
 #[cfg(target_os = "linux")]
 #[test]

@@ -111,23 +111,36 @@ fn json_is_one_object_with_the_drape_and_the_plan() {
     assert!(names.contains(&"gripper_distance"), "{names:?}");
 }
 
-/// A workspace below the start: named before the table of steps, in the limits, and nothing is kept back.
+/// A workspace below the start: nothing is planned, unless that is asked for. Then it is named before the table of steps and in the limits, and
+/// nothing is kept back.
 #[test]
-fn what_no_plan_can_keep_is_said_first_and_the_plan_is_written_all_the_same() {
+fn what_no_plan_can_keep_ends_the_command_unless_a_plan_is_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let limits = "\n[limits]\nworkspace = [[-1, 1], [-1, 1], [-1, \"60 mm\"]]\n";
     let scene = scene(folder.path(), &format!("{SCENE}{limits}"));
-    let output = plan(&scene, &[]);
-    assert_eq!(output.status.code(), Some(1));
-    let shown = text(&output.stdout);
     let first =
         "no plan can keep these limits:\n  workspace 15 mm against 0 mm in step 1, gripper g0_0";
+    let output = plan(&scene, &[]);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    assert!(shown.starts_with(first) && shown.contains("--anyway"), "{shown}");
+    let printed: Value = serde_json::from_slice(&plan(&scene, &["--json"]).stdout).unwrap();
+    assert_eq!(printed["accepted"], false);
+    assert_eq!(printed["infeasible_limits"][0]["name"], "workspace");
+    assert!(!folder.path().join("flat.plan").exists());
+    let checked = command().arg("check").arg(&scene).output().unwrap();
+    assert!(one_line(&checked.stderr).contains("no plan can keep this limit: workspace 15 mm"));
+
+    let output = plan(&scene, &["--anyway"]);
+    assert_eq!(output.status.code(), Some(1));
+    let shown = text(&output.stdout);
     let place = shown.find(first).unwrap_or_else(|| panic!("{shown}"));
     assert!(place < shown.find("\nstep ").unwrap(), "{shown}");
     assert!(shown.contains("\nnot accepted by the catenaries: workspace 15 mm"), "{shown}");
     assert_eq!(files(&folder.path().join("flat.plan")), FILES);
 
-    let printed: Value = serde_json::from_slice(&plan(&scene, &["--json"]).stdout).unwrap();
+    let output = plan(&scene, &["--json", "--anyway"]);
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(printed["accepted"], false);
     // known before and found by the drape, it is one limit with one verdict
     let limits = printed["limits"].as_array().unwrap();
@@ -152,7 +165,7 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
         (slow, "move limit 75.", "gripper g1_1 in 11 moves"),
     ] {
         let folder = tempfile::tempdir().unwrap();
-        let output = plan(&scene(folder.path(), &text), &[]);
+        let output = plan(&scene(folder.path(), &text), &["--anyway"]);
         let shown = infeasible_limits(&output);
         assert_eq!(output.status.code(), Some(1), "{shown}");
         assert!(shown.contains(message) && shown.contains(place), "{message}, {place}: {shown}");
@@ -253,6 +266,7 @@ fn help_names_every_option_and_every_file() {
         "--time",
         "--threads",
         "--continue",
+        "--anyway",
         "--compare",
         "--also",
         "--verbose",
@@ -360,6 +374,25 @@ fn improving_takes_more_drapes_and_is_never_worse() {
     assert_eq!(ranked(&printed), ranked(&improved));
 }
 
+/// 75 mm at 1 μm/s take some twenty hours, which are too many samples at 100 Hz: the plan is written with fewer, and that is said.
+#[test]
+fn a_rate_that_does_not_fit_a_motion_is_lowered_and_that_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), &format!("{SCENE}\n[limits]\nspeed = \"1 um/s\"\n"));
+    let output = plan(&scene, &["--without-errors"]);
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    let said = "Hz: 100 are too many for so long a motion\n".replace("Hz", "samples a second");
+    assert!(shown.contains(&said), "{shown}");
+    assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+    let result = std::fs::read(folder.path().join("flat.plan/result.json")).unwrap();
+    let result: Value = serde_json::from_slice(&result).unwrap();
+    let rate = result["plan"]["rate"].as_f64().unwrap();
+    let last = result["steps"].as_array().unwrap().last().unwrap();
+    let duration = last["time"].as_f64().unwrap();
+    assert!(duration > 7e4 && rate * duration <= 1e4 && rate * duration > 8e3, "{rate} {duration}");
+}
+
 /// A time that is over ends a search as its verdict says, not as an interruption.
 #[test]
 fn a_search_ends_when_its_time_is_over() {
@@ -396,9 +429,9 @@ fn long_sheet(mesh: &str) -> String {
 
 /// Signals that a running plan is sent, after so many milliseconds each; what it prints.
 #[cfg(unix)]
-fn signalled(scene: &Path, signals: &[(u64, &str)]) -> Output {
+fn signalled(scene: &Path, flags: &[&str], signals: &[(u64, &str)]) -> Output {
     let mut command = command();
-    command.arg("plan").arg(scene).arg("--json");
+    command.arg("plan").arg(scene).arg("--json").args(flags);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     for (wait, signal) in signals {
         std::thread::sleep(std::time::Duration::from_millis(*wait));
@@ -416,7 +449,7 @@ fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
     let folder = tempfile::tempdir().unwrap();
     let path = scene(folder.path(), &long_sheet("10 mm"));
     for (wait, signal) in [(300, "-TERM"), (1000, "-INT"), (2500, "-TERM")] {
-        let output = signalled(&path, &[(wait, signal)]);
+        let output = signalled(&path, &[], &[(wait, signal)]);
         assert_eq!(output.status.code(), Some(130), "{wait} {}", text(&output.stderr));
         assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
         let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -435,7 +468,7 @@ fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
 fn a_second_signal_ends_the_last_drape_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = scene(folder.path(), &long_sheet("3 mm"));
-    let output = signalled(&path, &[(1000, "-INT"), (1000, "-TERM")]);
+    let output = signalled(&path, &[], &[(1000, "-INT"), (1000, "-TERM")]);
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(printed["status"], "interrupted", "{printed}");
@@ -447,13 +480,68 @@ fn a_second_signal_ends_the_last_drape_too() {
     assert_eq!(written["summary"]["limits"], printed["limits"]);
 }
 
+/// A plan that is accepted is what was looked for, whatever ends the search for a better one.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_that_finds_an_accepted_plan_exits_with_zero() {
+    let folder = tempfile::tempdir().unwrap();
+    let easy = SCENE.replace("evaluations = 2", "evaluations = 1000000\nimprove = true");
+    let path = scene(folder.path(), &easy);
+    let output = signalled(&path, &["--without-errors"], &[(2000, "-INT")]);
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(printed["accepted"], true, "{printed}");
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(printed["evaluations"].as_u64().unwrap() < 1_000_000);
+    assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+}
+
+/// A search that was killed is in its folder, whole; the next one is told so, and going on from there makes the files of an undisturbed one to
+/// the last byte. An earlier plan in that folder stays until then.
+#[cfg(unix)]
+#[test]
+fn a_search_that_is_killed_goes_on_to_the_same_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let dome = long().replace("1000000", "600").replace("catenaries", "sheet");
+    let path = scene(folder.path(), &format!("{dome}\n[sheet]\nmesh = \"12 mm\"\n"));
+    let out = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (whole, killed) = (out("whole"), out("killed"));
+    let flags = ["--without-errors", "--quiet", "-o"];
+    let undisturbed = plan(&path, &[&flags[..], &[&whole]].concat());
+    let bytes = |folder: &str| {
+        let names = files(Path::new(folder)).into_iter();
+        names.map(|name| std::fs::read(Path::new(folder).join(name)).unwrap()).collect::<Vec<_>>()
+    };
+    plan(&path, &[&flags[..], &[&killed, "--method", "stepwise"]].concat());
+    let before = files(Path::new(&killed));
+    let mut search = command();
+    search.arg("plan").arg(&path).args(flags).arg(&killed);
+    let mut child = search.stderr(Stdio::piped()).spawn().unwrap();
+    let kept = Path::new(&killed).join("search.json");
+    while !kept.exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let mut with_state = before;
+    with_state.push("search.json".into());
+    with_state.sort();
+    assert_eq!(files(Path::new(&killed)), with_state, "the search was over: make it longer");
+
+    let told = plan(&path, &[&flags[..], &[&killed, "--time", "1ms"]].concat());
+    assert!(one_line(&told.stderr).contains("a search was cut off in"), "{}", text(&told.stderr));
+    let went_on = plan(&path, &[&flags[..], &[&killed, "--continue", &killed]].concat());
+    assert_eq!(went_on.status.code(), undisturbed.status.code(), "{}", text(&went_on.stderr));
+    assert_eq!(files(Path::new(&killed)), files(Path::new(&whole)));
+    assert!(bytes(&killed) == bytes(&whole));
+}
+
 /// A long search, that no plan can end early by being accepted: the best so far, in files that are whole.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_complete_files_of_the_best_plan() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path(), &long());
-    let output = signalled(&scene, &[(700, "-INT")]);
+    let output = signalled(&scene, &[], &[(700, "-INT")]);
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
 
     let out = folder.path().join("flat.plan");

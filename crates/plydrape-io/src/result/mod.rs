@@ -32,7 +32,7 @@ use plydrape::scene::{BookPly, Scene};
 use plydrape::sheet::Event;
 use plydrape::tool::Tool;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 /// A whole result: what the model that decides says of a scene, and what the other one says beside if it was asked.
@@ -54,6 +54,8 @@ pub struct ResultFile {
     pub steps: Vec<Step>,
     /// The drape by the other model, if it was asked for; it is shown and judges nothing.
     pub also: Option<Also>,
+    /// The files from which it was read, or from which the plan was that it corrects; none of one that was draped.
+    pub files: Vec<PathBuf>,
     /// The motion of a plan with the orientations along it: those that were judged, or made once of plan and steps.
     pub(crate) motion: OnceLock<Arc<Turned>>,
 }
@@ -152,6 +154,7 @@ impl ResultFile {
             sheet_states: drape.states,
             steps: drape.steps,
             also: None,
+            files: Vec::new(),
             motion: OnceLock::new(),
         }
     }

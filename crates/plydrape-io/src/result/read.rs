@@ -11,7 +11,7 @@ use super::refusal;
 use super::step::StepColumns;
 use super::{Also, ResultFile};
 use crate::Error;
-use crate::result::sheet::SheetKept;
+use crate::result::sheet::{self, SheetKept};
 use crate::store::file_kind::FileKind;
 use crate::store::format::{FILE, FORMAT, VERSION};
 use crate::store::shown::excerpt;
@@ -60,7 +60,9 @@ pub fn read(path: &Path) -> Result<ResultFile, Error> {
     }
     let file = File::open(path).map_err(fault)?;
     // what is added to it meanwhile is not read
-    read_from(&mut Bounded { reader: BufReader::new(file), size }, path)
+    let mut result = read_from(&mut Bounded { reader: BufReader::new(file), size }, path)?;
+    result.files = vec![path.into(), folder.join(sheet::NAME)];
+    Ok(result)
 }
 
 /// The same from the bytes of a file; its path stands in messages.
@@ -195,6 +197,7 @@ fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, Stri
         sheet_states: read.sheet_states.map(|seal| SheetKept::read(seal.into_owned(), folder)),
         steps,
         also: also.transpose()?,
+        files: Vec::new(),
         motion: OnceLock::new(),
     };
     if catenaries != result.steps_of(Model::Catenaries).is_some() {

@@ -13,7 +13,7 @@ use plydrape::mold::Mold;
 use plydrape::motion::Motion;
 use plydrape::net::{Net, Seeds, Wanted};
 use plydrape::ply::Ply;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The ideal drape of a scene, whether or not grippers could bring the ply there.
 #[derive(Debug, Clone)]
@@ -34,6 +34,8 @@ pub struct IdealDrape {
     pub shear_limit: f64,
     /// What of a mesh is hardly meant, each in a sentence.
     pub warnings: Vec<String>,
+    /// The scene and the files that it names.
+    pub files: Vec<PathBuf>,
 }
 
 /// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
@@ -73,5 +75,6 @@ pub(super) fn ideal_drape(
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
     let title = title(file.title.as_ref(), document, base)?;
     let warnings = report.map_or_else(Vec::new, |report| report.warnings());
-    Ok(IdealDrape { title, ply: layup.ply, mold, net, seeds, wanted, shear_limit, warnings })
+    let (ply, files) = (layup.ply, super::named(document, base));
+    Ok(IdealDrape { title, ply, mold, net, seeds, wanted, shear_limit, warnings, files })
 }

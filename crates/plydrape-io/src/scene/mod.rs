@@ -128,7 +128,9 @@ fn choose_models(file: &mut file::SceneKeys, model: Option<Model>, also: Option<
 /// The first fault found, with its place and a remedy. A ply that runs off the mold or folds is none.
 pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, Error> {
     let (document, base) = open(path)?;
-    ideal::ideal_drape(&keys(&document)?, &document, base)
+    let mut ideal = ideal::ideal_drape(&keys(&document)?, &document, base)?;
+    ideal.files.push(path.into());
+    Ok(ideal)
 }
 
 /// The text of a scene file, and the folder of the files it names.
@@ -227,8 +229,19 @@ fn scene(document: &source::Document, base: &Path) -> Result<SceneFile, Error> {
     check::scene(&keys(document)?, None, document, base)
 }
 
-/// Files that a text may name: every value that is the path of one, relative to `base`.
+/// Files that a text may name: every value that is the path of one, relative to `base`, and those that such a file names if it is TOML, as
+/// that of a material or of a cell.
 fn named(document: &source::Document, base: &Path) -> Vec<PathBuf> {
+    let mut out = named_in(&document.text, base);
+    for path in out.clone().iter().filter(|path| path.extension() == Some("toml".as_ref())) {
+        let text = input::text(path, read::LARGEST_TOML).unwrap_or_default();
+        out.extend(named_in(&text, path.parent().unwrap_or(base)));
+    }
+    out
+}
+
+/// Files that are values of a text alone.
+fn named_in(text: &str, base: &Path) -> Vec<PathBuf> {
     fn search(value: &DeValue, base: &Path, out: &mut Vec<PathBuf>) {
         match value {
             DeValue::String(name) => {
@@ -244,7 +257,7 @@ fn named(document: &source::Document, base: &Path) -> Vec<PathBuf> {
         }
     }
     let mut out = Vec::new();
-    if let Ok(table) = DeTable::parse(&document.text) {
+    if let Ok(table) = DeTable::parse(text) {
         search(&DeValue::Table(table.into_inner()), base, &mut out);
     }
     out

@@ -89,7 +89,7 @@ usual! {
     /// The same as an angle.
     YAW: "a yaw of", "rad", [0.0, 0.175], "plies are laid down within 10 deg", &["deg"];
     /// Half a turn to either side.
-    ANGLE: "an angle of", "rad", [0.0, 3.1416], "angles are up to half a turn, 3.1416 rad", &["deg"];
+    ANGLE: "an angle of", "rad", [0.0, 1.0001 * std::f64::consts::PI], "angles are up to half a turn, 3.1416 rad", &["deg"];
     /// What a table of a tension test reaches.
     STRAIN: "a strain of", "", [0.0, 0.1], "yarns stretch by up to 10 %", &["%"];
     /// What a picture-frame test measures.

@@ -52,6 +52,8 @@ pub struct Folder {
     dir: PathBuf,
     /// The command that writes, such as `simulate`.
     by: &'static str,
+    /// Files that the run reads.
+    read: Vec<PathBuf>,
     /// The folder was made for this run.
     made: bool,
     stage: Option<TempDir>,
@@ -60,11 +62,12 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Claims a folder for files that a command writes; it is made if it is missing.
+    /// Claims a folder for files that a command writes; it is made if it is missing. None of the files that the run has `read` is
+    /// replaced or removed, see [`Folder::refuse_taken`].
     ///
     /// # Errors
     /// [`Error::Busy`] if another run has claimed it, the other variants where the folder or the disk refuses.
-    pub fn claim(dir: &Path, by: &'static str) -> Result<Folder, Error> {
+    pub fn claim(dir: &Path, by: &'static str, read: &[PathBuf]) -> Result<Folder, Error> {
         let made = make(dir)?;
         let unreadable = |e| Error::write("open the folder", dir, e);
         let lock = File::open(dir).map_err(unreadable)?;
@@ -88,7 +91,8 @@ impl Folder {
             let _ = fs::remove_dir(dir);
         }
         let stage = noted.map_err(|e| Error::write("write into", dir, e))?;
-        Ok(Folder { dir: dir.into(), by, made, stage: Some(stage), _lock: lock })
+        let (dir, read) = (dir.into(), read.to_vec());
+        Ok(Folder { dir, by, read, made, stage: Some(stage), _lock: lock })
     }
 
     /// A hidden folder on the same disk for files of this run that are no results yet; it is gone when the claim ends.
@@ -97,36 +101,102 @@ impl Folder {
         self.stage.as_ref().map_or(&self.dir, TempDir::path)
     }
 
-    /// Refuses to replace a file that the run itself has read: `names` are those that it will write.
+    /// The folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.dir
+    }
+
+    /// Claims the folder beside this one whose name has one more ending, for the same run.
     ///
     /// # Errors
-    /// [`Error::Input`] with the first such file.
-    pub fn refuse_inputs(&self, names: &[&str], read: &[PathBuf]) -> Result<(), Error> {
-        let same = |name: &&&str| {
-            let place = fs::canonicalize(self.dir.join(name)).ok();
-            place.is_some() && read.iter().any(|file| fs::canonicalize(file).ok() == place)
-        };
-        match names.iter().find(same) {
-            Some(name) => Err(Error::Input { path: self.dir.join(name) }),
-            None => Ok(()),
+    /// As [`Folder::claim`].
+    pub fn claim_beside(&self, ending: &str) -> Result<Folder, Error> {
+        // `.` and `out/..` have no name of their own
+        let dir = fs::canonicalize(&self.dir).map_err(|e| Error::write("find", &self.dir, e))?;
+        let named = if self.dir.file_name().is_some() { &self.dir } else { &dir };
+        let mut name = named.file_name().unwrap_or_default().to_os_string();
+        name.push(ending);
+        Folder::claim(&named.with_file_name(name), self.by, &self.read)
+    }
+
+    /// Refuses to replace a file that the run reads, by whatever path, or one that is not of plydrape: `names` are those that it will write.
+    /// Every write asks this; a run that takes long asks it before it begins, too, so that nothing is lost.
+    ///
+    /// # Errors
+    /// [`Error::Input`] or [`Error::Foreign`] with the first such file.
+    pub fn refuse_taken(&self, names: &[&str]) -> Result<(), Error> {
+        let (dir, earlier) = (&self.dir, Manifest::read(&self.dir)?);
+        for name in names {
+            let path = dir.join(name);
+            if self.reads(name) {
+                return Err(Error::Input { path });
+            }
+            let is_there = fs::symlink_metadata(&path).is_ok();
+            if !Manifest::is_plain(name) || is_there && !earlier.holds(dir, name) {
+                return Err(Error::Foreign { path });
+            }
         }
+        Ok(())
+    }
+
+    /// Whether the run reads the file of that name in this folder.
+    fn reads(&self, name: &str) -> bool {
+        let place = fs::canonicalize(self.dir.join(name)).ok();
+        place.is_some() && self.read.iter().any(|file| fs::canonicalize(file).ok() == place)
     }
 
     /// Writes a set of files (plain name and content), all of them or none, and returns their paths in the order
     /// given.
     ///
     /// Files that the same command has left here before, that are unchanged, not written now and not among those
-    /// that this run has `read`, are removed.
+    /// that this run reads, are removed.
     ///
     /// # Errors
-    /// [`Error::Foreign`] if a file in the way was not written by plydrape or was changed since;
+    /// [`Error::Foreign`] if a file in the way was not written by plydrape or was changed since, [`Error::Input`] if this run reads it;
     /// the other variants where the folder or the disk refuses.
-    pub fn write<C: Content>(
-        self,
-        files: &[(&str, C)],
-        read: &[PathBuf],
-    ) -> Result<Vec<PathBuf>, Error> {
-        self.stage_files(files, read)?.write()
+    pub fn write<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, Error> {
+        self.stage_files(files)?.write()
+    }
+
+    /// Puts one file into the folder while the run goes on, whole, in place of the one before. It goes when the run writes its files, and stays
+    /// for the next one if that never comes.
+    ///
+    /// # Errors
+    /// As [`Folder::write`].
+    pub fn put_by<C: Content>(&self, name: &str, content: &C) -> Result<(), Error> {
+        self.refuse_taken(&[name])?;
+        let (dir, earlier) = (&self.dir, Manifest::read(&self.dir)?);
+        let stamp = stage_file(self.stage(), dir, name, content)?;
+        let new = Manifest::of(self.by, [(name.to_owned(), stamp)]);
+        let sealed = earlier.is_sealed();
+        // the list first knows both contents, so that a cut in power leaves one that it knows
+        self.list(&earlier.with(&new).replaced_by(&Manifest::default(), sealed))?;
+        let (from, to) = (self.stage().join(format!("new-{name}")), dir.join(name));
+        fs::rename(from, &to).map_err(|e| Error::write("write", &to, e))?;
+        self.list(&earlier.replaced_by(&new, sealed))
+    }
+
+    /// Removes a file that was put by.
+    ///
+    /// # Errors
+    /// Where the disk refuses.
+    pub fn remove(&self, name: &str) -> Result<(), Error> {
+        let earlier = Manifest::read(&self.dir)?;
+        let path = self.dir.join(name);
+        if !earlier.holds(&self.dir, name) {
+            return Ok(());
+        }
+        fs::remove_file(&path).map_err(|e| Error::write("remove", &path, e))?;
+        self.list(&earlier.without(&[name.to_owned()]))
+    }
+
+    /// Puts a list in place of the one before.
+    fn list(&self, list: &Manifest) -> Result<(), Error> {
+        stage_file(self.stage(), &self.dir, MANIFEST, &list.text()?.as_bytes())?;
+        let to = self.dir.join(MANIFEST);
+        let from = self.stage().join(format!("new-{MANIFEST}"));
+        fs::rename(from, &to).map_err(|e| Error::write("write", &to, e))
     }
 
     /// Stages a set of files as [`Folder::write`] would write them; they come in with [`Staged::write`], or with those of other
@@ -134,12 +204,8 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::write`].
-    pub fn stage_files<C: Content>(
-        self,
-        files: &[(&str, C)],
-        read: &[PathBuf],
-    ) -> Result<Staged, Error> {
-        self.put(files, Some(read))
+    pub fn stage_files<C: Content>(self, files: &[(&str, C)]) -> Result<Staged, Error> {
+        self.put(files, true)
     }
 
     /// The same, but files of an earlier run that are not written now stay.
@@ -147,53 +213,42 @@ impl Folder {
     /// # Errors
     /// As [`Folder::write`].
     pub fn write_more<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, Error> {
-        self.put(files, None)?.write()
+        self.put(files, false)?.write()
     }
 
-    fn put<C: Content>(
-        self,
-        files: &[(&str, C)],
-        read: Option<&[PathBuf]>,
-    ) -> Result<Staged, Error> {
+    /// Stages files; what the same command left before goes if these are `all` of its files.
+    fn put<C: Content>(self, files: &[(&str, C)], all: bool) -> Result<Staged, Error> {
         // Nothing is touched before every name is known to be free or our own.
-        let dir = self.dir.clone();
-        let earlier = Manifest::read(&dir)?;
-        for (name, _) in files {
-            let path = dir.join(name);
-            if !Manifest::is_plain(name) {
-                return Err(Error::Foreign { path });
-            }
-            if fs::symlink_metadata(&path).is_ok() && !earlier.holds(&dir, name) {
-                return Err(Error::Foreign { path });
-            }
-        }
-        let is_read = |name: &str| {
-            let place = fs::canonicalize(dir.join(name)).ok();
-            read.is_some_and(|read| read.iter().any(|file| fs::canonicalize(file).ok() == place))
-        };
-        let stale: Vec<String> = earlier
-            .names_of(self.by)
-            .filter(|name| read.is_some() && files.iter().all(|(new, _)| new != name))
-            .filter(|name| earlier.holds(&dir, name) && !is_read(name))
-            .map(str::to_owned)
-            .collect();
+        self.refuse_taken(&files.iter().map(|(name, _)| *name).collect::<Vec<_>>())?;
 
         // Stage everything on the disk, beside its place.
-        let stage = self.stage();
         let mut stamps = Vec::with_capacity(files.len());
         for (name, content) in files {
-            stamps.push(((*name).to_owned(), stage_file(stage, &dir, name, content)?));
+            let stamp = stage_file(self.stage(), &self.dir, name, content)?;
+            stamps.push(((*name).to_owned(), stamp));
         }
-        let new = Manifest::of(self.by, stamps);
+        self.staged(stamps, all)
+    }
+
+    /// The files in the stage with these stamps, ready to come in with the lists of them.
+    fn staged(self, stamps: Vec<(String, Stamp)>, all: bool) -> Result<Staged, Error> {
+        let (stage, dir) = (self.stage(), self.dir.clone());
+        let earlier = Manifest::read(&dir)?;
+        let stale: Vec<String> = earlier
+            .names_of(self.by)
+            .filter(|name| all && stamps.iter().all(|(new, _)| new != name))
+            .filter(|name| earlier.holds(&dir, name) && !self.reads(name))
+            .map(str::to_owned)
+            .collect();
+        let new = Manifest::of(self.by, stamps.clone());
         let both = earlier.with(&new);
         // files that went were ours, and files that came are: what stays is listed as it was
-        let sealed = read.is_some() || earlier.is_sealed();
+        let sealed = all || earlier.is_sealed();
         let own = earlier.without(&stale).replaced_by(&new, sealed);
         stage_file(stage, &dir, "both", &both.text()?.as_bytes())?;
         stage_file(stage, &dir, "sealed", &own.text()?.as_bytes())?;
 
-        let names = files.iter().map(|(name, _)| (*name).to_owned()).collect();
-        Ok(Staged { folder: self, names, stale })
+        Ok(Staged { folder: self, stamps, stale })
     }
 }
 
@@ -201,7 +256,7 @@ impl Folder {
 #[derive(Debug)]
 pub struct Staged {
     folder: Folder,
-    names: Vec<String>,
+    stamps: Vec<(String, Stamp)>,
     /// Files of an earlier run that go.
     stale: Vec<String>,
 }
@@ -216,12 +271,26 @@ impl Staged {
         Ok(paths.pop().unwrap_or_default())
     }
 
+    /// The same files, ready to come into another folder.
+    ///
+    /// # Errors
+    /// As [`Folder::write`].
+    pub fn moved_to(self, other: Folder) -> Result<Staged, Error> {
+        let names: Vec<&str> = self.stamps.iter().map(|(name, _)| name.as_str()).collect();
+        other.refuse_taken(&names)?;
+        for (name, _) in &self.stamps {
+            let [from, to] = [&self.folder, &other].map(|f| f.stage().join(format!("new-{name}")));
+            fs::rename(from, to).map_err(|e| Error::write("write", &other.dir.join(name), e))?;
+        }
+        other.staged(self.stamps, true)
+    }
+
     /// Moves in, the list first: a cut in power from here on leaves only files that it knows.
     fn move_in(&mut self) -> Result<Option<Moves>, Error> {
         let Some(stage) = self.folder.stage.take() else { return Ok(None) };
         let mut moves = Moves::new(&self.folder.dir, stage);
         let moved = moves.put("both", MANIFEST).and_then(|()| {
-            for name in &self.names {
+            for (name, _) in &self.stamps {
                 moves.put(name, name)?;
             }
             self.stale.iter().try_for_each(|name| moves.take(name))?;
@@ -254,7 +323,7 @@ pub fn write_together(mut staged: Vec<Staged>) -> Result<Vec<Vec<PathBuf>>, Erro
         one.folder.made = false;
         let dir = &one.folder.dir;
         let _ = File::open(dir).and_then(|folder| folder.sync_all());
-        paths.push(one.names.iter().map(|name| dir.join(name)).collect());
+        paths.push(one.stamps.iter().map(|(name, _)| dir.join(name)).collect());
     }
     Ok(paths)
 }
@@ -269,20 +338,30 @@ impl Drop for Folder {
     }
 }
 
-/// Claims a folder and writes a set of files into it, see [`Folder::write`].
+/// Claims a folder and writes a set of files into it, see [`Folder::write`]; the run has `read` files.
 ///
 /// # Errors
 /// As [`Folder::claim`] and [`Folder::write`].
-pub fn write(dir: &Path, by: &'static str, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Error> {
-    Folder::claim(dir, by)?.write(files, &[])
+pub fn write(
+    dir: &Path,
+    by: &'static str,
+    files: &[(&str, &[u8])],
+    read: &[PathBuf],
+) -> Result<Vec<PathBuf>, Error> {
+    Folder::claim(dir, by, read)?.write(files)
 }
 
-/// Claims a folder and adds a set of files to it, see [`Folder::write_more`].
+/// Claims a folder and adds a set of files to it, see [`Folder::write_more`]; the run has `read` files.
 ///
 /// # Errors
 /// As [`Folder::claim`] and [`Folder::write_more`].
-pub fn add(dir: &Path, by: &'static str, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Error> {
-    Folder::claim(dir, by)?.write_more(files)
+pub fn add(
+    dir: &Path,
+    by: &'static str,
+    files: &[(&str, &[u8])],
+    read: &[PathBuf],
+) -> Result<Vec<PathBuf>, Error> {
+    Folder::claim(dir, by, read)?.write_more(files)
 }
 
 /// Whether the files of a folder belong together: false where a run was cut off while it replaced them.

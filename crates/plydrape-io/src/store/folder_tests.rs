@@ -24,12 +24,13 @@ fn names(dir: &Path) -> Vec<String> {
 fn a_rerun_replaces_its_own_files() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("deep/out");
-    write(&dir, "simulate", &[("result.json", b"one"), ("old.svg", b"stale")]).unwrap();
-    let paths = write(&dir, "simulate", &[("result.json", b"two"), ("steps.csv", b"s")]).unwrap();
+    write(&dir, "simulate", &[("result.json", b"one"), ("old.svg", b"stale")], &[]).unwrap();
+    let paths =
+        write(&dir, "simulate", &[("result.json", b"two"), ("steps.csv", b"s")], &[]).unwrap();
     assert_eq!(paths, [dir.join("result.json"), dir.join("steps.csv")]);
     assert_eq!(names(&dir), [".plydrape", "result.json", "steps.csv"]);
     assert_eq!(fs::read(dir.join("result.json")).unwrap(), b"two");
-    write(&dir, "simulate", &[("result.json", b"two")]).unwrap();
+    write(&dir, "simulate", &[("result.json", b"two")], &[]).unwrap();
     assert_eq!(names(&dir), [".plydrape", "result.json"]);
 }
 
@@ -39,8 +40,8 @@ fn a_file_of_the_users_is_never_overwritten() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("result.json"), "mine").unwrap();
     let before = contents(dir.path());
-    let fault =
-        write(dir.path(), "simulate", &[("steps.csv", b"s"), ("result.json", b"r")]).unwrap_err();
+    let fault = write(dir.path(), "simulate", &[("steps.csv", b"s"), ("result.json", b"r")], &[])
+        .unwrap_err();
     assert!(matches!(&fault, Error::Foreign { path } if path.ends_with("result.json")));
     assert!(fault.to_string().contains("-o"), "{fault}");
     assert_eq!(contents(dir.path()), before);
@@ -50,12 +51,12 @@ fn a_file_of_the_users_is_never_overwritten() {
 #[test]
 fn an_edited_file_is_the_users() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"2")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"2")], &[]).unwrap();
     fs::write(dir.path().join("b"), "9").unwrap();
     let before = contents(dir.path());
-    assert!(write(dir.path(), "simulate", &[("a", b"3"), ("b", b"4")]).is_err());
+    assert!(write(dir.path(), "simulate", &[("a", b"3"), ("b", b"4")], &[]).is_err());
     assert_eq!(contents(dir.path()), before);
-    write(dir.path(), "simulate", &[("a", b"3")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"3")], &[]).unwrap();
     assert_eq!(fs::read(dir.path().join("b")).unwrap(), b"9");
 }
 
@@ -63,10 +64,10 @@ fn an_edited_file_is_the_users() {
 #[test]
 fn a_folder_in_the_way_leaves_everything_as_it_was() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "simulate", &[("a", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap();
     fs::create_dir(dir.path().join("c")).unwrap();
     let before = contents(dir.path());
-    assert!(write(dir.path(), "simulate", &[("a", b"2"), ("b", b"2"), ("c", b"2")]).is_err());
+    assert!(write(dir.path(), "simulate", &[("a", b"2"), ("b", b"2"), ("c", b"2")], &[]).is_err());
     assert_eq!(contents(dir.path()), before);
 }
 
@@ -74,7 +75,7 @@ fn a_folder_in_the_way_leaves_everything_as_it_was() {
 #[test]
 fn a_move_that_fails_in_the_middle_is_undone() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "simulate", &[("a", b"1"), ("gone", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("gone", b"1")], &[]).unwrap();
     let before = contents(dir.path());
     let stage = tempfile::Builder::new().prefix(".plydrape-").tempdir_in(dir.path()).unwrap();
     for name in ["a", "b"] {
@@ -96,12 +97,12 @@ fn a_move_that_fails_in_one_folder_is_undone_in_all() {
     let home = tempfile::tempdir().unwrap();
     let dirs = ["one", "two"].map(|name| home.path().join(name));
     for dir in &dirs {
-        write(dir, "plan", &[("a", b"1"), ("gone", b"1")]).unwrap();
+        write(dir, "plan", &[("a", b"1"), ("gone", b"1")], &[]).unwrap();
     }
     let before = dirs.each_ref().map(|dir| contents(dir));
     let stage = |dir: &PathBuf| {
-        let folder = Folder::claim(dir, "plan").unwrap();
-        folder.stage_files(&[("a", &b"2"[..]), ("b", &b"2"[..])], &[]).unwrap()
+        let folder = Folder::claim(dir, "plan", &[]).unwrap();
+        folder.stage_files(&[("a", &b"2"[..]), ("b", &b"2"[..])]).unwrap()
     };
     let staged: Vec<Staged> = dirs.iter().map(stage).collect();
     fs::remove_file(staged[1].folder.stage().join("new-b")).unwrap();
@@ -124,12 +125,12 @@ fn of_two() -> Manifest {
 #[test]
 fn a_cut_between_list_and_files_leaves_a_folder_that_a_rerun_knows() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")], &[]).unwrap();
     let old = Manifest::read(dir.path()).unwrap();
     let both = old.with(&of_two());
     fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
     fs::write(dir.path().join("a"), "2").unwrap();
-    write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")], &[]).unwrap();
     assert_eq!(fs::read(dir.path().join("b")).unwrap(), b"3");
 }
 
@@ -142,12 +143,12 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     fs::write(home.path().join("victim"), "v").unwrap();
     let list = format!(r#"{{"../victim":[{{"crc32":{},"length":1}}]}}"#, crc32fast::hash(b"v"));
     fs::write(dir.join(MANIFEST), list).unwrap();
-    assert!(write(&dir, "simulate", &[("a", b"1")]).is_err());
+    assert!(write(&dir, "simulate", &[("a", b"1")], &[]).is_err());
     assert!(home.path().join("victim").exists());
     fs::write(dir.join(MANIFEST), "my own notes").unwrap();
-    assert!(matches!(write(&dir, "simulate", &[("a", b"1")]), Err(Error::Foreign { .. })));
+    assert!(matches!(write(&dir, "simulate", &[("a", b"1")], &[]), Err(Error::Foreign { .. })));
     for name in ["", "..", "../a", "a/b", "/a", ".plydrape"] {
-        assert!(write(home.path(), "simulate", &[(name, b"1")]).is_err(), "{name:?}");
+        assert!(write(home.path(), "simulate", &[(name, b"1")], &[]).is_err(), "{name:?}");
     }
 }
 
@@ -157,10 +158,10 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
 fn a_link_is_not_followed() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("out");
-    write(&dir, "simulate", &[("a", b"1")]).unwrap();
+    write(&dir, "simulate", &[("a", b"1")], &[]).unwrap();
     fs::rename(dir.join("a"), home.path().join("a")).unwrap();
     std::os::unix::fs::symlink(home.path().join("a"), dir.join("a")).unwrap();
-    assert!(matches!(write(&dir, "simulate", &[("a", b"2")]), Err(Error::Foreign { .. })));
+    assert!(matches!(write(&dir, "simulate", &[("a", b"2")], &[]), Err(Error::Foreign { .. })));
 }
 
 /// A path that is a file, or runs through one, says so.
@@ -170,7 +171,7 @@ fn a_path_that_is_a_file_is_refused_by_name() {
     let file = home.path().join("file");
     fs::write(&file, "f").unwrap();
     for path in [file.clone(), file.join("below")] {
-        let fault = write(&path, "simulate", &[("a", b"1")]).unwrap_err();
+        let fault = write(&path, "simulate", &[("a", b"1")], &[]).unwrap_err();
         assert!(matches!(fault, Error::NotAFolder { .. }), "{fault}");
     }
     assert_eq!(fs::read(&file).unwrap(), b"f");
@@ -180,7 +181,7 @@ fn a_path_that_is_a_file_is_refused_by_name() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_takes_no_files_is_an_error_with_a_remedy() {
-    let fault = write(Path::new("/proc/self"), "simulate", &[("a", b"1")]).unwrap_err();
+    let fault = write(Path::new("/proc/self"), "simulate", &[("a", b"1")], &[]).unwrap_err();
     assert!(fault.to_string().contains("/proc/self"), "{fault}");
     assert!(fault.to_string().contains("-o"), "{fault}");
 }
@@ -204,7 +205,7 @@ proptest! {
                 let bytes = [content];
                 let files: Vec<(&str, &[u8])> = chosen.iter().map(|n| (*n, &bytes[..])).collect();
                 let before = contents(dir.path());
-                match write(dir.path(), "simulate", &files) {
+                match write(dir.path(), "simulate", &files, &[]) {
                     Ok(_) => {
                         let mut expected = users.clone();
                         expected.extend(chosen.iter().map(|n| ((*n).to_owned(), bytes.to_vec())));
@@ -230,14 +231,14 @@ proptest! {
 fn added_files_stand_beside_earlier_ones() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
-    write(dir, "simulate", &[("a.csv", b"1"), ("b.csv", b"2")]).unwrap();
-    add(dir, "report", &[("c.csv", b"3"), ("b.csv", b"4")]).unwrap();
+    write(dir, "simulate", &[("a.csv", b"1"), ("b.csv", b"2")], &[]).unwrap();
+    add(dir, "report", &[("c.csv", b"3"), ("b.csv", b"4")], &[]).unwrap();
     let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
     assert_eq!([read("a.csv"), read("b.csv"), read("c.csv")], [b"1", b"4", b"3"]);
     std::fs::write(dir.join("c.csv"), "mine").unwrap();
-    assert!(matches!(add(dir, "report", &[("c.csv", b"5")]), Err(Error::Foreign { .. })));
-    add(dir, "report", &[("b.csv", b"6")]).unwrap();
-    write(dir, "simulate", &[("d.csv", b"7")]).unwrap();
+    assert!(matches!(add(dir, "report", &[("c.csv", b"5")], &[]), Err(Error::Foreign { .. })));
+    add(dir, "report", &[("b.csv", b"6")], &[]).unwrap();
+    write(dir, "simulate", &[("d.csv", b"7")], &[]).unwrap();
     // the one that the other command has replaced is that command's now
     assert!(!dir.join("a.csv").exists());
     assert_eq!([&read("b.csv")[..], &read("c.csv")[..]], [&b"6"[..], &b"mine"[..]]);
@@ -247,13 +248,65 @@ fn added_files_stand_beside_earlier_ones() {
 #[test]
 fn a_claimed_folder_is_refused_with_who_holds_it() {
     let dir = tempfile::tempdir().unwrap();
-    let first = Folder::claim(dir.path(), "simulate").unwrap();
-    let Err(fault) = Folder::claim(dir.path(), "plan") else { panic!("two claims") };
+    let first = Folder::claim(dir.path(), "simulate", &[]).unwrap();
+    let Err(fault) = Folder::claim(dir.path(), "plan", &[]) else { panic!("two claims") };
     let said = fault.to_string();
     assert!(said.contains("`plydrape simulate`"), "{said}");
     assert!(said.contains(&std::process::id().to_string()), "{said}");
     drop(first);
-    Folder::claim(dir.path(), "plan").unwrap().write(&[("a", &b"1"[..])], &[]).unwrap();
+    Folder::claim(dir.path(), "plan", &[]).unwrap().write(&[("a", &b"1"[..])]).unwrap();
+}
+
+/// A file that is put by while a run goes on is there at once and after the run was killed; it takes the place of the one before, and goes when
+/// the run writes its files, whatever a folder held before.
+#[test]
+fn what_is_put_by_stays_until_the_files_come() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("out");
+    write(&dir, "plan", &[("result.json", b"before")], &[]).unwrap();
+    let put_by = |folder: &Folder, content: &'static [u8]| folder.put_by("search.json", &content);
+    let folder = Folder::claim(&dir, "plan", &[]).unwrap();
+    put_by(&folder, b"first").unwrap();
+    put_by(&folder, b"second").unwrap();
+    assert_eq!(fs::read(dir.join("search.json")).unwrap(), b"second");
+    assert!(is_sealed(&dir));
+    // as if it was killed: nothing is dropped
+    let Folder { stage, _lock, .. } = &folder;
+    assert!(stage.is_some());
+    drop(_lock.unlock());
+    std::mem::forget(folder);
+    let next = Folder::claim(&dir, "plan", &[]).unwrap();
+    assert_eq!(fs::read(dir.join("search.json")).unwrap(), b"second");
+    assert_eq!(fs::read(dir.join("result.json")).unwrap(), b"before");
+    put_by(&next, b"third").unwrap();
+    next.write(&[("result.json", &b"after"[..])]).unwrap();
+    assert_eq!(names(&dir), [".plydrape", "result.json"]);
+
+    let last = Folder::claim(&dir, "plan", &[]).unwrap();
+    put_by(&last, b"fourth").unwrap();
+    last.remove("search.json").unwrap();
+    drop(last);
+    assert_eq!(names(&dir), [".plydrape", "result.json"]);
+    fs::write(dir.join("search.json"), "mine").unwrap();
+    let folder = Folder::claim(&dir, "plan", &[]).unwrap();
+    assert!(matches!(put_by(&folder, b"fifth"), Err(Error::Foreign { .. })));
+}
+
+/// What was staged for one folder comes into another one, with its list; the first one is as it was.
+#[test]
+fn staged_files_can_go_to_another_folder() {
+    let home = tempfile::tempdir().unwrap();
+    let [one, two] = ["one", "two"].map(|name| home.path().join(name));
+    write(&one, "plan", &[("a", b"1")], &[]).unwrap();
+    let before = contents(&one);
+    let staged = Folder::claim(&one, "plan", &[]).unwrap();
+    let staged = staged.stage_files(&[("a", &b"2"[..]), ("b", &b"2"[..])]).unwrap();
+    let paths = staged.moved_to(Folder::claim(&two, "plan", &[]).unwrap()).unwrap().write();
+    assert_eq!(paths.unwrap(), [two.join("a"), two.join("b")]);
+    assert_eq!(contents(&one), before);
+    assert_eq!(names(&two), [".plydrape", "a", "b"]);
+    write(&two, "plan", &[("b", b"3")], &[]).unwrap();
+    assert_eq!(names(&two), [".plydrape", "b"]);
 }
 
 /// A claim that writes nothing leaves nothing, not even the folder that it made.
@@ -261,7 +314,7 @@ fn a_claimed_folder_is_refused_with_who_holds_it() {
 fn a_claim_without_files_leaves_nothing() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("out");
-    drop(Folder::claim(&dir, "simulate").unwrap());
+    drop(Folder::claim(&dir, "simulate", &[]).unwrap());
     assert!(!dir.exists());
 }
 
@@ -275,7 +328,7 @@ fn stages_of_dead_runs_are_cleared() {
         fs::write(folder.join("new-result.json"), "half").unwrap();
     }
     fs::write(dead.join(OWNER), "`plydrape simulate`, process 1").unwrap();
-    write(dir.path(), "simulate", &[("a", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap();
     assert!(!dead.exists() && mine.exists());
 }
 
@@ -283,16 +336,16 @@ fn stages_of_dead_runs_are_cleared() {
 #[test]
 fn the_seal_comes_last() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")], &[]).unwrap();
     assert!(is_sealed(dir.path()));
     let both = Manifest::read(dir.path()).unwrap();
     let both = both.with(&of_two());
     fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
     fs::write(dir.path().join("a"), "2").unwrap();
     assert!(!is_sealed(dir.path()));
-    add(dir.path(), "report", &[("c", b"3")]).unwrap();
+    add(dir.path(), "report", &[("c", b"3")], &[]).unwrap();
     assert!(!is_sealed(dir.path()));
-    write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")], &[]).unwrap();
     assert!(is_sealed(dir.path()));
 }
 
@@ -300,14 +353,15 @@ fn the_seal_comes_last() {
 #[test]
 fn old_files_of_other_commands_and_inputs_stay() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), "plan", &[("result.json", b"1"), ("plan.json", b"1"), ("old", b"1")])
+    write(dir.path(), "plan", &[("result.json", b"1"), ("plan.json", b"1"), ("old", b"1")], &[])
         .unwrap();
-    write(dir.path(), "simulate", &[("result.json", b"2"), ("more", b"2"), ("in", b"2")]).unwrap();
+    write(dir.path(), "simulate", &[("result.json", b"2"), ("more", b"2"), ("in", b"2")], &[])
+        .unwrap();
     assert_eq!(names(dir.path()), [".plydrape", "in", "more", "old", "plan.json", "result.json"]);
-    let folder = Folder::claim(dir.path(), "simulate").unwrap();
     let read = [dir.path().join("in")];
-    assert!(matches!(folder.refuse_inputs(&["a", "in"], &read), Err(Error::Input { .. })));
-    folder.refuse_inputs(&["a"], &read).unwrap();
-    folder.write(&[("result.json", &b"3"[..])], &read).unwrap();
+    let folder = Folder::claim(dir.path(), "simulate", &read).unwrap();
+    assert!(matches!(folder.refuse_taken(&["a", "in"]), Err(Error::Input { .. })));
+    folder.refuse_taken(&["a"]).unwrap();
+    folder.write(&[("result.json", &b"3"[..])]).unwrap();
     assert_eq!(names(dir.path()), [".plydrape", "in", "old", "plan.json", "result.json"]);
 }

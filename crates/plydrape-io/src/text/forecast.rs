@@ -3,10 +3,14 @@
 use plydrape::outcome::Forecast;
 use std::time::Duration;
 
-/// What a decision that begins takes, and a sample of so many cells that may follow it.
+/// What a decision takes, or how long it still does where that is known, and a sample of so many cells that may follow it.
 #[must_use]
-pub fn decision(forecast: &Forecast, cells: usize) -> String {
-    let (nodes, decision) = (forecast.nodes, about(forecast.decision()));
+pub fn decision(forecast: &Forecast, left: Option<Duration>, cells: usize) -> String {
+    let nodes = forecast.nodes;
+    let decision = match left {
+        Some(left) => format!("{} left", about(left)),
+        None => about(forecast.decision()),
+    };
     match cells {
         0 => format!("{nodes} nodes, {decision}"),
         cells => {
@@ -45,8 +49,10 @@ mod tests {
     fn a_forecast_says_nodes_cells_and_times_in_few_digits() {
         let drape = Duration::from_secs(3);
         let forecast = Forecast { nodes: 961, drape, cells: 0, threads: 2 };
-        assert_eq!(decision(&forecast, 0), "961 nodes, about 4 s");
-        let shown = decision(&forecast, 64);
+        assert_eq!(decision(&forecast, None, 0), "961 nodes, about 4 s");
+        let left = Some(Duration::from_secs(2));
+        assert_eq!(decision(&forecast, left, 0), "961 nodes, about 2 s left");
+        let shown = decision(&forecast, None, 64);
         assert_eq!(shown, "961 nodes, about 4 s, then at most 64 cells with errors, about 120 s");
         assert_eq!(sample(&forecast, 1), "at most 1 cells with errors, about 4 s");
     }

@@ -54,13 +54,13 @@ pub fn table(rows: &[Row]) -> Result<String, Error> {
     csv::text(table)
 }
 
-/// Writes the table into a folder and returns its path; files that the run has `read` are not removed.
+/// Writes the table into a folder and returns its path.
 ///
 /// # Errors
 /// [`Error`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses.
-pub fn write_into(folder: Folder, rows: &[Row], read: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+pub fn write_into(folder: Folder, rows: &[Row]) -> Result<Vec<PathBuf>, Error> {
     finite::check(rows)?;
     let table = table(rows)?;
     let table = table.as_bytes();
-    folder.write(&[(NAME, &table as &dyn Content)], read)
+    folder.write(&[(NAME, &table as &dyn Content)])
 }

@@ -3,7 +3,9 @@
 use crate::common::examples;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
-use plydrape::planner::{self, Planned, Progress};
+use plydrape::planner::{self, Checkpoint, Planned, Progress};
+use plydrape_io::plan;
+use plydrape_io::result::SceneEcho;
 use plydrape_io::scene::{self, SceneFile};
 use std::ops::ControlFlow;
 
@@ -82,4 +84,54 @@ fn an_accepted_plan_is_only_replaced_by_an_accepted_one() {
     assert!(planned.accepted() && !planned.interrupted);
     let ranked = planned.record.evaluations - planned.decisions;
     assert!((32..=40).contains(&ranked), "{ranked}");
+}
+
+/// From any state that was written on the way, read back, the search goes on to the plan that it finds undisturbed, with the same counts, and
+/// from a state on the way of that one too. For another scene only the best plan of a state counts.
+#[test]
+fn a_search_that_was_cut_off_goes_on_to_the_same_plan() {
+    let mut scene = dome();
+    for name in [Name::Height, Name::OutOfPlane] {
+        scene.limits.set(name, Some(6e-3));
+    }
+    (scene.plan.evaluations, scene.plan.improve) = (70, true);
+    let echo = SceneEcho::new(&scene, None);
+    let search = |from: Option<&Checkpoint>| {
+        let mut kept: Vec<(usize, String)> = Vec::new();
+        let watcher = &mut |progress: &Progress| {
+            let drapes = progress.candidates + progress.decisions;
+            if kept.last().is_none_or(|(before, _)| drapes >= before + 15) {
+                let state = (progress.checkpoint)();
+                kept.extend(state.map(|state| (drapes, plan::text(&state, &echo).unwrap())));
+            }
+            ControlFlow::Continue(())
+        };
+        let planned = planner::plan_without_errors(&scene, from, watcher).unwrap();
+        (planned, kept)
+    };
+    let (whole, states) = search(None);
+    assert!(states.len() > 2 && whole.decisions > 1, "{} {}", states.len(), whole.decisions);
+    let same = |planned: &Planned| {
+        assert_eq!(planned.record, whole.record);
+        assert_eq!(planned.decisions, whole.decisions);
+        assert_eq!(planned.outcome.drape.summary, whole.outcome.drape.summary);
+        assert_eq!(planned.outcome.drape.steps, whole.outcome.drape.steps);
+        assert_eq!(planned.checkpoint, whole.checkpoint);
+    };
+    let last = states.last().unwrap();
+    for (drapes, text) in [&states[0], &states[states.len() / 2], last] {
+        let state = plan::read(text, &echo).unwrap();
+        assert!(state.is_unfinished());
+        let (again, on_the_way) = search(Some(&state));
+        same(&again);
+        // what was judged before is not draped again: nobody is told of it, but for the generation in which it was cut off
+        assert!(on_the_way.first().is_none_or(|(first, _)| first + 8 >= *drapes), "{drapes}");
+        if let Some((_, text)) = on_the_way.last() {
+            same(&search(Some(&plan::read(text, &echo).unwrap())).0);
+        }
+    }
+    let mut other = scene.clone();
+    other.limits.set(Name::Height, Some(7e-3));
+    let state = plan::read(&last.1, &SceneEcho::new(&other, None)).unwrap();
+    assert!(!state.is_unfinished() && !whole.checkpoint.is_unfinished());
 }

@@ -156,7 +156,8 @@ fn boundary_and_seeds_are_written() {
     let findings = Findings::of(&ideal.net, &ideal.mold, None, ideal.seeds.clone());
     let out = home.path().join("out");
     let files =
-        plydrape_io::write::net::write_all(&ideal.net, &ideal.mold, &findings, "L", &out).unwrap();
+        plydrape_io::write::net::write_all(&ideal.net, &ideal.mold, &findings, "L", &out, &[])
+            .unwrap();
     assert_eq!(files.len(), 8, "{files:?}");
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
     let boundary = read("boundary.csv");

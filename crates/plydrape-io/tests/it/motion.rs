@@ -368,7 +368,10 @@ fn samples_end_at_the_end_and_are_limited() {
             panic!("{rate} Hz")
         };
         assert!(motion.samples(0.999 * largest_rate).is_ok());
+        let fitting = motion.fitting_rate(rate);
+        assert!((0.009..=0.01).contains(&(fitting / largest_rate)), "{fitting} {largest_rate}");
     }
+    assert_eq!(motion.fitting_rate(100.0), 100.0);
 }
 
 /// A turn by an angle about an axis.

@@ -91,8 +91,8 @@ pub(super) fn moving(planned: &[Vec<Vector>]) -> Vec<&[Vector]> {
     steps
 }
 
-/// Times (s) from 0 at a rate (Hz), the last exactly the duration.
-pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f64>, Error> {
+/// Samples before the last one at a rate (Hz).
+pub(super) fn sample_count(rate: f64, duration: f64, grippers: usize) -> Result<f64, Error> {
     if !(rate > 0.0 && rate.is_finite()) {
         return Err(Error::MotionRate { rate });
     }
@@ -110,6 +110,12 @@ pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f
             largest_rate,
         });
     }
+    Ok(whole)
+}
+
+/// Times (s) from 0 at a rate (Hz), the last exactly the duration.
+pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f64>, Error> {
+    let whole = sample_count(rate, duration, grippers)?;
     let mut times: Vec<f64> = (0..whole as usize).map(|k| k as f64 / rate).collect();
     times.push(duration);
     Ok(times)

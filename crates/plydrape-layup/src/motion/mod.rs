@@ -311,6 +311,20 @@ impl TimedMotion {
         Motion { times: self.times.clone(), positions: self.positions.clone() }
     }
 
+    /// A rate (Hz), or, if the motion has more samples with it than a motion may have, one with a hundredth of those at most, in two digits: who
+    /// asked for no such motion wants no files as large as possible of it.
+    #[must_use]
+    pub fn fitting_rate(&self, rate: f64) -> f64 {
+        match check::sample_count(rate, self.duration(), self.grippers()) {
+            Err(Error::MotionTooManySamples { largest_rate, .. }) => {
+                let rate = 0.01 * largest_rate;
+                let digits = 10.0_f64.powf(rate.log10().floor() - 1.0);
+                (rate / digits).floor() * digits
+            }
+            _ => rate,
+        }
+    }
+
     /// Times (s) from 0 at a rate (Hz), the last exactly [`Self::duration`].
     ///
     /// # Errors

@@ -37,7 +37,9 @@ pub struct DrapedSheet {
 }
 
 /// How a drape came out for a search, which keeps the verdicts alone.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Judged {
     /// Every limit that applies, but those of a motion in time.
     pub limits: Vec<Verdict>,
@@ -49,7 +51,8 @@ pub struct Judged {
     pub unsolved: usize,
     /// Whether it was stopped before it had an end.
     pub interrupted: bool,
-    /// What the sheet took; `None` of catenaries.
+    /// What the sheet took; `None` of catenaries. It is not written.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub effort: Option<Effort>,
 }
 

@@ -125,6 +125,17 @@ impl Forecast {
         self.drape.mul_f64(CONSTANTS.between + alone) + self.sample(self.cells)
     }
 
+    /// Time of what is left of that decision after a time, once the drape is done up to one of its steps: what was forecast, or, where that is
+    /// over, what the steps that are done took for each of the others.
+    #[must_use]
+    pub fn left(&self, elapsed: Duration, step: Option<[usize; 2]>) -> Duration {
+        let left = self.decision().saturating_sub(elapsed);
+        let by_steps = step
+            .filter(|[done, _]| left.is_zero() && *done > 0)
+            .map(|[done, of]| elapsed.mul_f64(of.saturating_sub(done) as f64 / done as f64));
+        by_steps.unwrap_or(left)
+    }
+
     /// Time of a sample of cells with errors.
     #[must_use]
     pub fn sample(&self, cells: usize) -> Duration {

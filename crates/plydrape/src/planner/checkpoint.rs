@@ -1,8 +1,9 @@
-//! The result of a search, from which another search continues.
+//! The result of a search, from which another search continues, and what one that was cut off goes on from.
 
+use super::journal::Journal;
 use super::path::{Strategy, preload};
 use crate::Error;
-use crate::scene::Scene;
+use crate::scene::{Plan, Scene};
 
 /// Positions (m) of all grippers, step by step.
 type Positions = Vec<Vec<[f64; 3]>>;
@@ -20,6 +21,29 @@ pub struct Checkpoint {
     pub strategy: Option<Strategy>,
     /// Positions (m) of all grippers in each step of the best plan, those of its strategy over the mold of that search.
     positions: Positions,
+    /// What the search had judged, if it was cut off; none of one that came to its end.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    unfinished: Option<Box<Unfinished>>,
+}
+
+/// A search that was cut off.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+struct Unfinished {
+    /// How it searched.
+    plan: Plan,
+    /// Where the grippers started (m).
+    start: Vec<[f64; 3]>,
+    /// The checkpoint from which it went on itself.
+    from: Option<Checkpoint>,
+    /// What it had judged.
+    journal: Journal,
+}
+
+/// Where the grippers of a scene start (m).
+fn start(scene: &Scene) -> Vec<[f64; 3]> {
+    scene.layup.motion.positions.first().cloned().unwrap_or_default()
 }
 
 /// Fabric coordinates of a scene's grippers (m).
@@ -36,7 +60,43 @@ impl Checkpoint {
         strategy: Option<Strategy>,
         positions: Positions,
     ) -> Self {
-        Checkpoint { grippers: grippers(scene), evaluations, strategy, positions }
+        Checkpoint { grippers: grippers(scene), evaluations, strategy, positions, unfinished: None }
+    }
+
+    /// The same of a search that was cut off, with what it had judged, and the checkpoint `from` which it went on itself.
+    pub(super) fn cut_off(
+        mut self,
+        scene: &Scene,
+        from: Option<&Checkpoint>,
+        journal: Journal,
+    ) -> Self {
+        let (plan, start, from) = (scene.plan, start(scene), from.cloned());
+        self.unfinished = Some(Box::new(Unfinished { plan, start, from, journal }));
+        self
+    }
+
+    /// From where a search goes on, and what it need not judge again: a search of the same scene that was cut off goes on from where it
+    /// began.
+    pub(super) fn origin(&self, scene: &Scene) -> (Option<&Checkpoint>, Journal) {
+        match self.unfinished.as_deref() {
+            Some(cut) if cut.plan == scene.plan && cut.start == start(scene) => {
+                (cut.from.as_ref(), cut.journal.clone())
+            }
+            _ => (Some(self), Journal::default()),
+        }
+    }
+
+    /// Whether the search was cut off, so that one of the same scene goes on to the same end.
+    #[must_use]
+    pub fn is_unfinished(&self) -> bool {
+        self.unfinished.is_some()
+    }
+
+    /// The same without what the search had judged: for another scene only its best plan counts.
+    #[must_use]
+    pub fn finished(mut self) -> Self {
+        self.unfinished = None;
+        self
     }
 
     /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
@@ -60,6 +120,7 @@ impl Checkpoint {
         if self.strategy.is_some_and(|s| !s.is_sound()) || !self.positions.iter().all(whole) {
             return Err(Error::CheckpointNumbers);
         }
-        Ok(())
+        let from = self.unfinished.as_ref().and_then(|cut| cut.from.as_ref());
+        from.map_or(Ok(()), |from| from.check(scene))
     }
 }

@@ -174,7 +174,7 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
             false => Ok(drape),
         });
         if let Ok(drape) = &drape {
-            state.record(&drape.with_motion(), drape.score(), true);
+            state.record(&drape.with_motion(), drape.score(), true, None);
             state.set_steps(state.decisions());
         }
         Compared { name: *name, drape }

@@ -2,21 +2,24 @@
 //! scene.
 
 use super::evaluation::{self, ENDS};
+use super::infeasible_limits::infeasible_limits;
+use super::journal::Known;
 use super::path::Strategy;
+use super::quickest::quickest;
+use super::record::LimitedBy;
 use super::search_state::SearchState;
 use super::tuning::TUNING;
 use crate::Error;
 use crate::errors::Errors;
 use crate::geometry::Point;
 use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
-use crate::measure::Verdict;
+use crate::measure::{Course, Name, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
 use crate::outcome::{self, Drape, Effort, Forecast, Judged};
 use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A plan on which was decided.
@@ -32,6 +35,10 @@ pub struct Decision {
     pub motion: TimedMotion,
     /// What follows from the motion by the model that decides.
     pub decided: Decided,
+    /// What limits the time of the motion, once that is its least one and all is judged that belongs to it.
+    pub limited_by: Option<Vec<LimitedBy>>,
+    /// Whether it was draped once more in that time.
+    redraped: bool,
 }
 
 /// The drape along a motion by the model that decides, and how a search judges it.
@@ -50,7 +57,8 @@ pub struct Decided {
 }
 
 impl Decision {
-    /// Drapes along planned positions (m), and says before how long that will take; `ranked` is what the drape took that ranked them.
+    /// Drapes along planned positions (m), and says before how long that will take; `ranked` is what the drape took that ranked them. A plan that
+    /// keeps its limits is given its least time, and judged with all that belongs to it.
     ///
     /// # Errors
     /// If they cannot become a motion, or the model that decides cannot drape.
@@ -61,14 +69,104 @@ impl Decision {
         ranked: Option<Effort>,
         state: &SearchState,
     ) -> Result<Self, Error> {
+        let asked = positions.clone();
         let planned = Planned::of(scene, strategy, positions)?;
         state.set_forecast(forecast(scene, &planned.motion, ranked, state));
-        let decision = planned.decide(scene, state);
+        let decision = planned.decide(scene, state).and_then(|mut decision| {
+            if decision.decided.judged.accepted() {
+                decision.finish(scene, Vec::new(), state, true)?;
+            }
+            Ok(decision)
+        });
         if let Ok(Decision { decided, .. }) = &decision {
-            state.record(&decided.judged, decided.score, true);
+            state.record(&decided.judged, decided.score, true, Some((strategy, &asked)));
         }
         state.set_forecast(None);
         decision
+    }
+
+    /// Drapes once more along planned positions (m) on which was decided before, and takes what is known of that. Nothing is counted.
+    ///
+    /// # Errors
+    /// As [`Decision::on`].
+    pub fn again(
+        scene: &Scene,
+        strategy: Option<Strategy>,
+        positions: Vec<Vec<Point>>,
+        known: &Known,
+        state: &SearchState,
+    ) -> Result<Self, Error> {
+        let mut decision = Self::uncounted(scene, strategy, positions, state)?;
+        if known.finished {
+            decision.finish(scene, Vec::new(), state, false)?;
+        }
+        Ok(decision)
+    }
+
+    /// What a journal keeps of it.
+    pub fn known(&self) -> Known {
+        let Decided { judged, score, refused_by, .. } = &self.decided;
+        let (score, refused_by) = (*score, *refused_by);
+        let (finished, drapes) = (self.limited_by.is_some(), 1 + usize::from(self.redraped));
+        Known { judged: judged.clone(), score, refused_by, finished, drapes }
+    }
+
+    /// Gives the motion the least time under all limits, and judges it as a whole, with limits of its planner; does nothing twice. Drapes that
+    /// this takes are counted among the decisions of the search, or not.
+    ///
+    /// # Errors
+    /// As [`Decision::on`].
+    pub fn finish(
+        &mut self,
+        scene: &Scene,
+        own_limits: Vec<Verdict>,
+        state: &SearchState,
+        counted: bool,
+    ) -> Result<(), Error> {
+        if self.limited_by.is_some() {
+            self.decided.drape.summary.judge_also(own_limits);
+            return Ok(());
+        }
+        let mut limited_by = Vec::new();
+        // half a drape has no least time, and who broke it off waits
+        if !self.decided.drape.summary.interrupted() {
+            let found = quickest(scene, &self.motion, &self.decided.drape);
+            if found.motion != self.motion {
+                self.retime(scene, found.motion, state, counted)?;
+            }
+            limited_by = found.limited_by;
+        }
+        let Decision { asked, motion, decided, .. } = self;
+        let summary = &mut decided.drape.summary;
+        if let (Some(asked), Some(made)) = (&asked, summary.tool.take()) {
+            summary.follow_tool(scene, made.with_residual_of(asked));
+        }
+        let rate = motion.fitting_rate(scene.plan.rate);
+        let tool = scene.layup.tool.as_ref();
+        let peaks = tool.and_then(|tool| tool.peaks(motion, rate).ok());
+        let whole = WholeMotion {
+            layup: &scene.layup,
+            limits: &scene.limits,
+            motion: Course::Smooth(motion),
+            attitudes: Some(&decided.attitudes),
+            peaks: motion.peaks(),
+            tool: peaks.as_ref(),
+            rate,
+        };
+        summary.judge_also(infeasible_limits(scene));
+        summary.judge_also(own_limits);
+        summary.judge_also(whole.verdicts());
+        // what the drape alone did not know refuses the plan
+        let known = |name: Name| decided.judged.limits.iter().any(|v| v.name == name && !v.ok);
+        let broken = summary.limits.iter().filter(|v| !v.ok && !known(v.name));
+        let broken: Vec<Verdict> = broken.cloned().collect();
+        if !broken.is_empty() {
+            decided.judged.limits.retain(|v| broken.iter().all(|other| other.name != v.name));
+            decided.judged.limits.extend(broken);
+            decided.score = evaluation::score(&decided.judged);
+        }
+        self.limited_by = Some(limited_by);
+        Ok(())
     }
 
     /// Drapes along planned positions (m) without counting that among the decisions of a search.
@@ -85,14 +183,12 @@ impl Decision {
     }
 
     /// Takes another time for the same places.
-    ///
-    /// # Errors
-    /// As [`Decision::on`].
-    pub fn retime(
+    fn retime(
         &mut self,
         scene: &Scene,
         motion: TimedMotion,
         state: &SearchState,
+        counted: bool,
     ) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.motion, motion);
         let dwells_on_the_way =
@@ -109,7 +205,10 @@ impl Decision {
             let decided = decide(scene, &self.motion, state);
             state.set_forecast(None);
             self.decided = decided?;
-            state.record(&self.decided.judged, self.decided.score, true);
+            self.redraped = true;
+            if counted {
+                state.record(&self.decided.judged, self.decided.score, true, None);
+            }
             return Ok(());
         }
         // the shapes of the ply do not depend on time: only how fast everything goes does
@@ -158,7 +257,8 @@ impl Planned {
     fn decide(self, scene: &Scene, state: &SearchState) -> Result<Decision, Error> {
         let decided = decide(scene, &self.motion, state)?;
         let Planned { strategy, positions, asked, motion } = self;
-        Ok(Decision { strategy, positions, asked, motion, decided })
+        let (limited_by, redraped) = (None, false);
+        Ok(Decision { strategy, positions, asked, motion, decided, limited_by, redraped })
     }
 }
 
@@ -274,9 +374,10 @@ fn between_steps(
 /// The drape of a layup by the model that decides, with the states of the sheet that the scene keeps.
 fn draped(scene: &Scene, layup: &Layup, state: &SearchState) -> Result<Drape, Error> {
     let scene = Scene { layup: layup.clone(), errors: None, ..scene.clone() };
-    let mut go_on = |_: usize| match state.report() {
-        ControlFlow::Break(()) => ControlFlow::Break(()),
-        ControlFlow::Continue(()) => ControlFlow::Continue(()),
+    let steps = layup.motion.times.len();
+    let mut go_on = |done: usize| {
+        state.set_step(done, steps);
+        state.report()
     };
     let stop = || state.report().is_break();
     outcome::keeping_states(&scene, scene.layup.settings.model, &stop, &mut go_on)

@@ -214,7 +214,8 @@ pub fn clearance_of_motion(
     attitudes: &Attitudes,
 ) -> Option<Verdict> {
     let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
-    let nearest = Nearest::of_motion(&scene.layup, least, scene.plan.rate, motion, attitudes)?;
+    let rate = motion.fitting_rate(scene.plan.rate);
+    let nearest = Nearest::of_motion(&scene.layup, least, rate, motion, attitudes)?;
     let step = motion.times().partition_point(|t| *t < nearest.time) + 1;
     Some(clearance_verdict(scene, &nearest, step.min(motion.times().len())))
 }

@@ -6,7 +6,8 @@
 //! 4. [`sensitivity`]: a drape by catenaries with the derivatives of its end;
 //! 5. `evaluation`: the complete drape along a plan, and its score against the limits; `decision`: the motion in time and
 //!    the drape that decides;
-//! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
+//! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues; `journal`: what
+//!    it has judged, from which one that was cut off goes on;
 //! 7. [`tuning`]: the constants of the evaluation;
 //! 8. `plan`: from a scene to a motion in time and the drape along it;
 //! 9. `quickest`: the time-optimal law of a plan under the limits of grippers, joints and tool;
@@ -22,6 +23,7 @@ mod evaluation;
 #[cfg(test)]
 mod evaluation_tests;
 pub mod infeasible_limits;
+mod journal;
 pub mod path;
 mod plan;
 mod quickest;

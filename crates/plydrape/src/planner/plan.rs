@@ -4,15 +4,13 @@
 use super::checkpoint::Checkpoint;
 use super::decision::{Decided, Decision};
 use super::evaluation;
-use super::infeasible_limits::infeasible_limits;
 use super::path;
-use super::quickest::{Quickest, quickest};
-use super::record::{LimitedBy, PlanRecord};
+use super::record::PlanRecord;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
 use crate::Error;
 use crate::layup::Model;
-use crate::measure::{Course, Name, Verdict, WholeMotion, Worst};
+use crate::measure::{Name, Verdict, Worst};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{self, Outcome, Robustness, Watch};
 use crate::scene::{PlanMethod, Scene};
@@ -95,26 +93,33 @@ pub fn plan_without_errors(
         PlanMethod::Path => scene.plan.evaluations,
         PlanMethod::Stepwise => scene.plan.steps,
     };
-    let state = SearchState::new(most, watcher);
+    let (checkpoint, journal) =
+        checkpoint.map_or_else(Default::default, |checkpoint| checkpoint.origin(scene));
+    let state = SearchState::new(most, watcher).going_on(scene, checkpoint, journal);
     let (mut decision, own_limits) = match scene.plan.method {
         PlanMethod::Path => by_path(scene, checkpoint, &state)?,
         PlanMethod::Stepwise => by_steps(scene, &state)?,
     };
     state.finish();
 
-    let limited_by = finish(scene, &mut decision, own_limits, &state)?;
-    let Decision { strategy, positions, motion, decided, .. } = decision;
+    decision.finish(scene, own_limits, &state, true)?;
+    decision.decided.drape.summary.judge_rest(&scene.layup, &scene.limits);
+    let Decision { strategy, positions, motion, decided, limited_by, .. } = decision;
     let Decided { drape, attitudes, .. } = decided;
     let evaluations = match scene.plan.method {
         PlanMethod::Path => state.candidates() + state.decisions(),
         PlanMethod::Stepwise => state.candidates(),
     };
-    let (method, rate) = (scene.plan.method, scene.plan.rate);
+    let (interrupted, decisions) = (state.is_interrupted(), state.decisions());
+    let (method, rate) = (scene.plan.method, motion.fitting_rate(scene.plan.rate));
+    let limited_by = limited_by.unwrap_or_default();
     let record = PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by);
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
-    let checkpoint = Checkpoint::new(scene, before + evaluations, strategy, positions);
-    let interrupted = state.is_interrupted();
-    let decisions = state.decisions();
+    let own = Checkpoint::new(scene, before + evaluations, strategy, positions);
+    let checkpoint = match scene.plan.method {
+        PlanMethod::Path if interrupted => own.cut_off(scene, checkpoint, state.into_journal()),
+        PlanMethod::Path | PlanMethod::Stepwise => own,
+    };
     let outcome = Outcome { drape, also: None };
     Ok(Planned { outcome, record, motion, attitudes, decisions, interrupted, checkpoint })
 }
@@ -123,41 +128,6 @@ pub fn plan_without_errors(
 #[must_use]
 pub fn along(scene: &Scene, motion: &TimedMotion) -> Scene {
     Scene { layup: evaluation::along_motion(&scene.layup, motion.steps()), ..scene.clone() }
-}
-
-/// Gives the motion of a decision the least time under all limits, and judges it as a whole. Returns what limits its time.
-pub(super) fn finish(
-    scene: &Scene,
-    decision: &mut Decision,
-    own_limits: Vec<Verdict>,
-    state: &SearchState,
-) -> Result<Vec<LimitedBy>, Error> {
-    let Quickest { motion, limited_by } =
-        quickest(scene, &decision.motion, &decision.decided.drape);
-    if motion != decision.motion {
-        decision.retime(scene, motion, state)?;
-    }
-    let Decision { asked, motion, decided, .. } = decision;
-    let summary = &mut decided.drape.summary;
-    if let (Some(asked), Some(made)) = (&asked, summary.tool.take()) {
-        summary.follow_tool(scene, made.with_residual_of(asked));
-    }
-    let tool = scene.layup.tool.as_ref();
-    let peaks = tool.and_then(|tool| tool.peaks(motion, scene.plan.rate).ok());
-    let whole = WholeMotion {
-        layup: &scene.layup,
-        limits: &scene.limits,
-        motion: Course::Smooth(motion),
-        attitudes: Some(&decided.attitudes),
-        peaks: motion.peaks(),
-        tool: peaks.as_ref(),
-        rate: scene.plan.rate,
-    };
-    summary.judge_also(infeasible_limits(scene));
-    summary.judge_also(own_limits);
-    summary.judge_also(whole.verdicts());
-    summary.judge_rest(&scene.layup, &scene.limits);
-    Ok(limited_by)
 }
 
 /// A decision, and limits of the planner itself.

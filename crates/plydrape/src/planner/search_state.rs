@@ -1,15 +1,21 @@
 //! The state of a search while it runs: the best plan so far, which is reported to a watcher, and whether the search
 //! shall end.
 
+use super::checkpoint::Checkpoint;
+use super::journal::{Journal, Known};
+use super::path::Strategy;
+use crate::geometry::Point;
 use crate::measure::Verdict;
 use crate::outcome::{Forecast, Judged, Pace};
+use crate::planner::evaluation::Drapes;
 use crate::planner::tuning::TUNING;
+use crate::scene::Scene;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// How far a search has come.
-#[derive(Debug)]
 pub struct Progress<'a> {
     /// Candidates draped; of the stepwise planner, steps.
     pub candidates: usize,
@@ -23,12 +29,19 @@ pub struct Progress<'a> {
     pub stage: &'static str,
     /// How long the decision under way takes in all, as expected before it began; `None` while none is made.
     pub forecast: Option<Forecast>,
+    /// The step up to which the drape that decides is done, and how many it has; `None` while none is made.
+    pub step: Option<[usize; 2]>,
+    /// How long the decision under way still takes, by the forecast and by the steps that are done.
+    pub left: Option<Duration>,
     /// Limits of the best plan so far; empty before there is one.
     pub best: &'a [Verdict],
     /// Whether on the best plan so far was decided; else these are the limits of its ranking.
     pub decided: bool,
-    /// Whether the best plan so far keeps them all, as was decided.
+    /// Whether the best plan so far keeps them all, as was decided, with those of its motion and of the tool; a sample of cells with errors
+    /// that judges after the search is not in it.
     pub accepted: bool,
+    /// Makes the checkpoint from which a search that is cut off now goes on to the same end; `None` before there is a plan.
+    pub checkpoint: &'a dyn Fn() -> Option<Checkpoint>,
 }
 
 /// Receives the progress of a search; it breaks to end the search with the best plan so far.
@@ -45,7 +58,16 @@ pub struct SearchState<'a> {
     /// Cells with errors by which candidates are ranked.
     cells: Mutex<Vec<usize>>,
     best: Mutex<Best<'a>>,
+    /// What is searched, and the checkpoint from which that goes on.
+    origin: Option<(&'a Scene, Option<&'a Checkpoint>)>,
+    journal: Mutex<Journal>,
+    /// All that was judged so far stood in the journal. The watcher is not asked then: that takes no time to speak of, and a search that is
+    /// ended within it would lose what the one before had.
+    repeats: AtomicBool,
 }
+
+/// Positions of all grippers (m), step by step, and the strategy behind them.
+type Plan = (Option<Strategy>, Vec<Vec<Point>>);
 
 struct Best<'a> {
     watcher: Watcher<'a>,
@@ -54,7 +76,12 @@ struct Best<'a> {
     accepted: bool,
     decided: bool,
     stage: &'static str,
+    /// The plan itself.
+    plan: Option<Plan>,
     forecast: Option<Forecast>,
+    /// When the decision under way began.
+    began: Instant,
+    step: Option<[usize; 2]>,
     pace: Pace,
 }
 
@@ -76,10 +103,95 @@ impl<'a> SearchState<'a> {
                 accepted: false,
                 decided: false,
                 stage: "",
+                plan: None,
                 forecast: None,
+                began: Instant::now(),
+                step: None,
                 pace: Pace::default(),
             }),
+            origin: None,
+            journal: Mutex::default(),
+            repeats: AtomicBool::new(false),
         }
+    }
+
+    /// The same of a search of a scene that goes on `from` a checkpoint, and knows what a search before has judged.
+    #[must_use]
+    pub fn going_on(
+        self,
+        scene: &'a Scene,
+        from: Option<&'a Checkpoint>,
+        journal: Journal,
+    ) -> Self {
+        let repeats = AtomicBool::new(!journal.is_empty());
+        SearchState { origin: Some((scene, from)), journal: Mutex::new(journal), repeats, ..self }
+    }
+
+    /// What was judged.
+    pub fn into_journal(self) -> Journal {
+        self.journal.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn journal(&self) -> MutexGuard<'_, Journal> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The drapes that ranked a candidate: those in the journal, or else the ones that `drape` makes.
+    ///
+    /// # Errors
+    /// Those of `drape`.
+    pub fn ranked<E>(
+        &self,
+        key: u64,
+        drape: impl FnOnce() -> Result<Drapes, E>,
+    ) -> Result<Drapes, E> {
+        let known = self.journal().ranked(key);
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        self.repeats.store(false, Ordering::Relaxed);
+        let drapes = drape()?;
+        if !self.is_stopped() {
+            self.journal().rank(key, &drapes);
+        }
+        Ok(drapes)
+    }
+
+    /// The score of a candidate, if nothing else stands in the journal; it is counted then.
+    pub fn scored(&self, key: u64) -> Option<f64> {
+        let score = self.journal().score(key)?;
+        self.candidates.fetch_add(1, Ordering::Relaxed);
+        Some(score)
+    }
+
+    /// Keeps of a candidate its score alone.
+    pub fn keep_score(&self, key: u64, score: f64) {
+        self.journal().keep_score(key, score);
+    }
+
+    /// How a plan was decided on, if that stands in the journal.
+    pub fn decided(&self, key: u64) -> Option<Known> {
+        let known = self.journal().decided(key);
+        if known.is_none() {
+            self.repeats.store(false, Ordering::Relaxed);
+        }
+        known
+    }
+
+    /// Keeps how a plan was decided on.
+    pub fn keep_decision(&self, key: u64, known: &Known) {
+        if !self.is_stopped() {
+            self.journal().decide(key, known);
+        }
+    }
+
+    /// The checkpoint of the search as it is, with all that was judged.
+    fn checkpoint_of(&self, (strategy, positions): &Plan) -> Option<Checkpoint> {
+        let (scene, from) = self.origin?;
+        let before = from.map_or(0, |checkpoint| checkpoint.evaluations);
+        let evaluations = before + self.candidates() + self.decisions();
+        let checkpoint = Checkpoint::new(scene, evaluations, *strategy, positions.clone());
+        Some(checkpoint.cut_off(scene, from, self.journal().clone()))
     }
 
     /// Candidates that have been draped; of the stepwise planner, steps.
@@ -133,6 +245,7 @@ impl<'a> SearchState<'a> {
     /// Ends the search; its best plan is finished even if the search was stopped.
     pub fn finish(&self) {
         self.stopped.store(false, Ordering::Relaxed);
+        self.repeats.store(false, Ordering::Relaxed);
         self.finishing.store(true, Ordering::Relaxed);
         self.begin("finishing the best plan");
     }
@@ -148,8 +261,17 @@ impl<'a> SearchState<'a> {
 
     /// Says how long the decision that begins will take, or that it has ended.
     pub fn set_forecast(&self, forecast: Option<Forecast>) {
-        self.best.lock().unwrap_or_else(PoisonError::into_inner).forecast = forecast;
+        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        (best.forecast, best.step, best.began) = (forecast, None, Instant::now());
+        drop(best);
         let _ = self.report();
+    }
+
+    /// Says up to which of so many steps the drape that decides is done.
+    pub fn set_step(&self, done: usize, of: usize) {
+        if let Ok(mut best) = self.best.try_lock() {
+            best.step = best.forecast.and(Some([done, of]));
+        }
     }
 
     /// How fast the sheets of this search were draped.
@@ -158,8 +280,15 @@ impl<'a> SearchState<'a> {
     }
 
     /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank, one that is
-    /// accepted better than all that are not. One that was broken off because the search shall end does not count.
-    pub fn record(&self, drape: &Judged, score: f64, decides: bool) {
+    /// accepted better than all that are not. One that was broken off because the search shall end does not count. `plan` is what was draped;
+    /// none of one that is draped once more.
+    pub fn record(
+        &self,
+        drape: &Judged,
+        score: f64,
+        decides: bool,
+        plan: Option<(Option<Strategy>, &[Vec<Point>])>,
+    ) {
         if self.is_cut_short(drape) {
             return;
         }
@@ -176,6 +305,8 @@ impl<'a> SearchState<'a> {
             best.limits.clone_from(&drape.limits);
             best.accepted = accepted;
             best.decided = decides;
+            let plan = plan.map(|(strategy, positions)| (strategy, positions.to_vec()));
+            best.plan = plan.or(best.plan.take());
         }
         drop(best);
         let _ = self.report();
@@ -186,8 +317,14 @@ impl<'a> SearchState<'a> {
         if self.is_stopped() {
             return ControlFlow::Break(());
         }
+        if self.repeats.load(Ordering::Relaxed) {
+            return ControlFlow::Continue(());
+        }
         let Ok(mut best) = self.best.try_lock() else { return ControlFlow::Continue(()) };
-        let Best { watcher, limits, decided, accepted, stage, forecast, .. } = &mut *best;
+        let Best { watcher, limits, decided, accepted, stage, plan, forecast, began, step, .. } =
+            &mut *best;
+        let checkpoint = || self.checkpoint_of(plan.as_ref()?);
+        let left = forecast.map(|forecast| forecast.left(began.elapsed(), *step));
         let progress = Progress {
             candidates: self.candidates(),
             most: self.most,
@@ -195,9 +332,12 @@ impl<'a> SearchState<'a> {
             finishing: self.is_finishing(),
             stage,
             forecast: *forecast,
+            step: *step,
+            left,
             best: limits,
             decided: *decided,
             accepted: *accepted,
+            checkpoint: &checkpoint,
         };
         let flow = watcher(&progress);
         if flow.is_break() {

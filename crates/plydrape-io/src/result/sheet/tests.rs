@@ -68,8 +68,8 @@ fn states_that_are_read_are_those_that_were_written() {
     let mesh = mesh(4, 3);
     let file = finished(dir.path(), &mesh, 5);
     let folder = dir.path().join("out");
-    let claim = Folder::claim(&folder, "simulate").unwrap();
-    claim.write(&[(NAME, &file as &dyn Content)], &[]).unwrap();
+    let claim = Folder::claim(&folder, "simulate", &[]).unwrap();
+    claim.write(&[(NAME, &file as &dyn Content)]).unwrap();
     let mut states = SheetStates::open(&folder, file.seal()).unwrap();
     assert_eq!((states.states(), states.mesh()), (5, &mesh));
     assert_eq!(states.landing_step()[..7], [0, 1, 2, 3, 4, 5, 0]);
@@ -171,7 +171,7 @@ fn hidden_folders_are_gone_after_success_and_after_failure() {
     assert_eq!(count(), 0);
 
     let folder = dir.path().join("out");
-    let claim = Folder::claim(&folder, "simulate").unwrap();
+    let claim = Folder::claim(&folder, "simulate", &[]).unwrap();
     let file = finished(claim.stage(), &mesh, 2);
     drop(claim);
     assert!(!folder.exists(), "a claim that wrote nothing leaves nothing, states included");

@@ -15,8 +15,8 @@ use crate::text::table::{closest, limiting, measure_text};
 use crate::{Content, Error, Folder, PROGRAM, ResultFile, Staged};
 use plydrape::measure::Verdict;
 use plydrape::scene::World;
-use serde::Serialize;
-use std::path::PathBuf;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// The names of the files of a book beside the folders of its plies.
 pub const NAMES: [&str; 2] = ["book.json", "report.html"];
@@ -117,6 +117,24 @@ pub fn text(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Result<Strin
     })
 }
 
+/// Whether more plies of a planned book are accepted than of that in a folder, which may have none.
+#[must_use]
+pub fn is_better(plies: &[PlyRecord], dir: &Path) -> bool {
+    #[derive(Deserialize)]
+    struct Ply {
+        accepted: bool,
+    }
+    #[derive(Deserialize)]
+    struct Earlier {
+        plies: Vec<Ply>,
+    }
+    let path = dir.join(NAMES[0]);
+    let earlier = || serde_json::from_slice::<Earlier>(&std::fs::read(&path).ok()?).ok();
+    let accepted = plies.iter().filter(|ply| ply.accepted).count();
+    let fewer = |book: Earlier| book.plies.iter().filter(|ply| ply.accepted).count() < accepted;
+    !path.exists() || earlier().is_some_and(fewer)
+}
+
 /// `report.html` of a book: a page for any browser, without a network. Same plans, same bytes.
 #[must_use]
 pub fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> String {
@@ -132,10 +150,9 @@ pub fn stage_into(
     book: &Book,
     plies: &[PlyRecord],
     interrupted: bool,
-    read: &[PathBuf],
 ) -> Result<Staged, Error> {
     let (text, html) = (text(book, plies, interrupted)?, html(book, plies, interrupted));
     let [text, html] = [text.as_bytes(), html.as_bytes()];
     let files: [(&str, &dyn Content); 2] = [(NAMES[0], &text), (NAMES[1], &html)];
-    folder.stage_files(&files, read)
+    folder.stage_files(&files)
 }

@@ -40,6 +40,7 @@ pub fn write_all(
     findings: &Findings,
     title: &str,
     dir: &Path,
+    read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, Error> {
     // First of all: it proves every number finite.
     finite::check(net)?;
@@ -64,7 +65,7 @@ pub fn write_all(
         texts.iter().filter_map(|(name, text)| Some((*name, text.as_ref()?.as_bytes()))).collect();
     files.push(("net.vtp", cells.as_slice()));
     files.extend(surface.iter().map(|bytes| ("mold.vtp", bytes.as_slice())));
-    folder::write(dir, "net", &files)
+    folder::write(dir, "net", &files, read)
 }
 
 /// Shear at a node (rad): mean magnitude of the whole cells around it; none beside missing nodes only.

@@ -82,7 +82,10 @@ fn a_line_of_nodes_has_no_map() {
     let net = Net::drape(&mold, layup).unwrap();
     assert_eq!(figure::shear_map::svg(&net, "line"), None);
     let home = tempfile::tempdir().unwrap();
-    assert_eq!(write_all(&net, &mold, &Findings::default(), "line", home.path()).unwrap().len(), 3);
+    assert_eq!(
+        write_all(&net, &mold, &Findings::default(), "line", home.path(), &[]).unwrap().len(),
+        3
+    );
 }
 
 /// Its files, and the same bytes again from the same net.
@@ -91,7 +94,7 @@ fn a_net_writes_its_files_twice_the_same() {
     let dir = tempfile::tempdir().unwrap();
     let (mold, net) = &nets()[0];
     let findings = Findings::of(net, mold, None, None);
-    let paths = write_all(net, mold, &findings, "dome", dir.path()).unwrap();
+    let paths = write_all(net, mold, &findings, "dome", dir.path(), &[]).unwrap();
     let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
     assert_eq!(
         names,
@@ -99,7 +102,7 @@ fn a_net_writes_its_files_twice_the_same() {
     );
     let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
     let first = read();
-    write_all(net, mold, &findings, "dome", dir.path()).unwrap();
+    write_all(net, mold, &findings, "dome", dir.path(), &[]).unwrap();
     assert_eq!(read(), first);
 }
 

@@ -115,7 +115,8 @@ fn planned(
         return Err(Error::ComparisonInterrupted);
     }
     let mut decision = Decision::uncounted(scene, strategy, positions, state)?;
-    plan::finish(scene, &mut decision, own_limits, state)?;
+    decision.finish(scene, own_limits, state, true)?;
+    decision.decided.drape.summary.judge_rest(&scene.layup, &scene.limits);
     let Decision { motion, decided, .. } = decision;
     let Decided { mut drape, judged, .. } = decided;
     if let Some(sheet) = &mut drape.sheet {

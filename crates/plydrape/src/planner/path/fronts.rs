@@ -9,6 +9,7 @@ use super::tuning::TUNING;
 use crate::Error;
 use crate::geometry::Point;
 use crate::planner::evaluation::{self, Bias, Drapes, Mesh};
+use crate::planner::journal;
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use std::borrow::Cow;
@@ -58,7 +59,9 @@ impl<'a> Fronts<'a> {
         if excess > TUNING.search.excess {
             return Ok((TUNING.search.not_draped * excess, None));
         }
-        let drapes = evaluation::drape(&self.tabulated, positions, mesh, state)?;
+        let key = journal::key(positions, Some(mesh), &state.cells());
+        let drapes =
+            state.ranked(key, || evaluation::drape(&self.tabulated, positions, mesh, state))?;
         Ok((drapes.score(bias), Some(drapes)))
     }
 

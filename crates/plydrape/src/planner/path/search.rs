@@ -16,6 +16,7 @@ use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
 use crate::planner::evaluation::{Bias, Drapes, Mesh, first_mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
+use crate::planner::journal::{self, Known};
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
@@ -28,9 +29,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 struct Candidate {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
-    /// Its drapes; none of one that was not draped.
+    /// Its drapes; none of one that was not draped, or of which only the score is known.
     drapes: Option<Drapes>,
     score: f64,
+    /// The key of its drapes in the journal, until it was compared with the others.
+    unranked: Option<u64>,
 }
 
 /// What all candidates of a search share.
@@ -53,12 +56,31 @@ struct Ranking {
     bias: Bias,
 }
 
+/// A candidate on which was decided.
+struct Choice {
+    strategy: Strategy,
+    positions: Vec<Vec<Point>>,
+    known: Known,
+    /// The decision itself; none if a search before has made it.
+    decision: Option<Decision>,
+}
+
+impl Choice {
+    fn is_accepted(&self) -> bool {
+        self.known.judged.accepted()
+    }
+
+    fn score(&self) -> f64 {
+        self.known.score
+    }
+}
+
 /// A search under way.
 struct Search<'a, 'b> {
     shared: &'a Shared<'a, 'b>,
     /// The best candidates on which was not decided.
     candidates: Vec<Candidate>,
-    best: Option<Decision>,
+    best: Option<Choice>,
     /// The first that could not become a motion.
     fault: Option<Error>,
     /// Rounds in which an accepted plan was not improved.
@@ -105,7 +127,11 @@ pub fn search(
     }
     match (best, fault) {
         (None, Some(fault)) => Err(fault),
-        (best, _) => Ok(best),
+        (Some(Choice { decision: None, strategy, positions, known }), _) => {
+            state.finish();
+            Decision::again(scene, Some(strategy), positions, &known, state).map(Some)
+        }
+        (best, _) => Ok(best.and_then(|best| best.decision)),
     }
 }
 
@@ -126,9 +152,18 @@ impl Search<'_, '_> {
                 self.decide_on_best(f64::INFINITY);
             }
             None => {
-                let mut families = Strategy::families(scene, |shape| fronts.steepest(shape));
+                // none of it counts once the search is stopped
+                let goes_on = || state.report().is_continue();
+                let steepest = |shape: Strategy| match goes_on() {
+                    true => fronts.steepest(shape),
+                    false => shape.slope,
+                };
+                let mut families = Strategy::families(scene, steepest);
                 // what grippers alone cannot do comes last
-                let excess = |strategy: &Strategy| fronts.excess(*strategy).max(1.0);
+                let excess = |strategy: &Strategy| match goes_on() {
+                    true => fronts.excess(*strategy).max(1.0),
+                    false => 1.0,
+                };
                 let excess: Vec<f64> = families.par_iter().map(excess).collect();
                 let mut order: Vec<usize> = (0..families.len()).collect();
                 order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
@@ -157,7 +192,8 @@ impl Search<'_, '_> {
         let of = |strategy| Some((strategy, fronts.positions(strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
             let score = f64::INFINITY;
-            self.candidates.push(Candidate { strategy, positions, drapes: None, score });
+            let (drapes, unranked) = (None, None);
+            self.candidates.push(Candidate { strategy, positions, drapes, score, unranked });
         }
     }
 
@@ -168,15 +204,14 @@ impl Search<'_, '_> {
         if catenaries || coarse.mesh == Mesh::Own {
             return self.evolve(checkpoint, 0);
         }
-        let is_accepted =
-            |search: &Self| search.best.as_ref().is_some_and(|b| b.decided.judged.accepted());
+        let is_accepted = |search: &Self| search.best.as_ref().is_some_and(Choice::is_accepted);
         if !is_accepted(self) {
             self.rank_with_own_mesh();
         }
         if self.is_done() {
             return;
         }
-        let score = self.best.as_ref().map_or(f64::INFINITY, |best| best.decided.score);
+        let score = self.best.as_ref().map_or(f64::INFINITY, Choice::score);
         if is_accepted(self) || score > TUNING.search.near {
             // a plan has only to become better, or none is near: many coarse drapes
             if lock(&self.shared.ranking).mesh == Mesh::Own {
@@ -215,8 +250,7 @@ impl Search<'_, '_> {
     /// samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>, left: usize) {
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
-        let decided =
-            self.best.as_ref().and_then(|best| Some((best.decided.score, best.strategy?)));
+        let decided = self.best.as_ref().map(|best| (best.score(), best.strategy));
         let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
         let Some((_, start)) = start else { return };
         let shared = self.shared;
@@ -261,9 +295,9 @@ impl Search<'_, '_> {
             Mesh::Coarse => TUNING.search.patience,
             Mesh::Own => 0,
         };
-        let enough = |best: &Decision| {
-            let good = best.decided.score <= TUNING.search.good;
-            !improve && best.decided.judged.accepted() && (good || self.idle >= patience)
+        let enough = |best: &Choice| {
+            let good = best.score() <= TUNING.search.good;
+            !improve && best.is_accepted() && (good || self.idle >= patience)
         };
         self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(enough)
     }
@@ -283,23 +317,28 @@ impl Search<'_, '_> {
             let key = |c: &Candidate| (c.score, c.strategy.to_unit());
             key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
         });
-        self.candidates.truncate(TUNING.search.kept);
+        let kept = TUNING.search.kept.min(self.candidates.len());
+        for dropped in self.candidates.drain(kept..) {
+            if let Some(key) = dropped.unranked {
+                self.shared.state.keep_score(key, dropped.score);
+            }
+        }
+        self.candidates.iter_mut().for_each(|candidate| candidate.unranked = None);
     }
 
     /// Decides on the best candidate if it is promising.
     fn decide(&mut self) {
         let known = !lock(&self.shared.ranking).bias.is_empty();
-        let score =
-            |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.decided.score);
+        let score = |best: &Option<Choice>| best.as_ref().map_or(f64::INFINITY, Choice::score);
         let before = score(&self.best);
         let mut promising = TUNING.search.promising[usize::from(known)];
         // a plan that is accepted is only replaced by a better one
-        if let Some(best) = self.best.as_ref().filter(|best| best.decided.judged.accepted()) {
-            promising = promising.min(TUNING.search.gain * best.decided.score);
+        if let Some(best) = self.best.as_ref().filter(|best| best.is_accepted()) {
+            promising = promising.min(TUNING.search.gain * best.score());
         }
         self.decide_on_best(promising);
         let gained = score(&self.best) < TUNING.search.gain * before;
-        let accepted = self.best.as_ref().is_some_and(|best| best.decided.judged.accepted());
+        let accepted = self.best.as_ref().is_some_and(Choice::is_accepted);
         self.idle = if accepted && !gained { self.idle + 1 } else { 0 };
     }
 
@@ -315,25 +354,43 @@ impl Search<'_, '_> {
         let before = state.begin(stage);
         let positions = candidate.positions.clone();
         let ranked = candidate.drapes.as_ref().and_then(|drapes| drapes.worst.effort);
-        let decision = Decision::on(scene, Some(candidate.strategy), positions, ranked, state);
+        let key = journal::key(&positions, None, &state.cells());
+        let strategy = candidate.strategy;
+        let choice = match state.decided(key) {
+            Some(known) => {
+                for _ in 0..known.drapes {
+                    let plan = Some((Some(strategy), positions.as_slice()));
+                    state.record(&known.judged, known.score, true, plan);
+                }
+                Ok(Choice { strategy, positions, known, decision: None })
+            }
+            None => {
+                let made = Decision::on(scene, Some(strategy), positions.clone(), ranked, state);
+                made.map(|decision| {
+                    let known = decision.known();
+                    state.keep_decision(key, &known);
+                    Choice { strategy, positions, known, decision: Some(decision) }
+                })
+            }
+        };
         state.begin(before);
-        match decision {
+        match choice {
             // what the end of the search broke off is decided on when it is finished
-            Ok(cut) if state.is_cut_short(&cut.decided.judged) && !state.is_finishing() => {
+            Ok(cut) if state.is_cut_short(&cut.known.judged) && !state.is_finishing() => {
                 self.candidates.push(candidate);
             }
-            Ok(decision) => {
-                if let Some(cell) = decision.decided.refused_by {
+            Ok(choice) => {
+                if let Some(cell) = choice.known.refused_by {
                     state.add_cell(cell);
                 }
                 let mut ranking = lock(&self.shared.ranking);
                 if let (Mesh::Coarse, Some(ranked)) = (ranking.mesh, candidate.drapes) {
-                    ranking.bias.learn(&ranked.worst, &decision.decided.judged);
+                    ranking.bias.learn(&ranked.worst, &choice.known.judged);
                 }
                 drop(ranking);
-                let key = |d: &Decision| (!d.decided.judged.accepted(), d.decided.score);
-                if self.best.as_ref().is_none_or(|best| key(&decision) < key(best)) {
-                    self.best = Some(decision);
+                let key = |choice: &Choice| (!choice.is_accepted(), choice.score());
+                if self.best.as_ref().is_none_or(|best| key(&choice) < key(best)) {
+                    self.best = Some(choice);
                 }
             }
             Err(fault) => self.fault = self.fault.take().or(Some(fault)),
@@ -360,15 +417,21 @@ impl Shared<'_, '_> {
     /// The candidate with these positions (m).
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
+        let key = journal::key(&positions, Some(mesh), &self.state.cells());
+        if let Some(score) = self.state.scored(key) {
+            return Candidate { strategy, positions, drapes: None, score, unranked: None };
+        }
         let ranked = self.fronts.rank(&positions, mesh, &bias, self.state);
         let (score, drapes) = ranked.unwrap_or_else(|fault| {
             *lock(&self.fault) = Some(fault);
             (f64::INFINITY, None)
         });
         if let Some(drapes) = &drapes {
-            self.state.record(&drapes.worst, score, false);
+            let plan = Some((Some(strategy), positions.as_slice()));
+            self.state.record(&drapes.worst, score, false, plan);
         }
-        Candidate { strategy, positions, drapes, score }
+        let unranked = drapes.as_ref().map(|_| key);
+        Candidate { strategy, positions, drapes, score, unranked }
     }
 }
 

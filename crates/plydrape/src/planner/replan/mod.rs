@@ -232,7 +232,7 @@ impl<'a> Replanner<'a> {
         // the time over which a rate is taken grows with the motion, so a rate is as much smaller as the motion is longer
         let turned = (fastest / limit.max(planned)).max(1.0);
         let peaks = |motion: &TimedMotion| -> Option<ToolPeaks> {
-            scene.layup.tool.as_ref()?.peaks(motion, scene.plan.rate).ok()
+            scene.layup.tool.as_ref()?.peaks(motion, motion.fitting_rate(scene.plan.rate)).ok()
         };
         let mut tool = peaks(&motion);
         let carried = match (&tool, &scene.layup.tool) {
@@ -273,7 +273,8 @@ impl<'a> Replanner<'a> {
         let picked_up = PickedUp { offset, residual, weights: self.weights.clone() };
         // what limited the plan need not limit this motion
         let limited_by = Vec::new();
-        let (method, evaluations, rate) = (record.method, record.evaluations, record.rate);
+        let (method, evaluations) = (record.method, record.evaluations);
+        let rate = motion.fitting_rate(record.rate);
         let record = PlanRecord {
             picked_up: Some(picked_up),
             ..PlanRecord::of(method, evaluations, rate, path, &motion, limited_by)

@@ -131,7 +131,7 @@ impl Outcome<'_> {
             attitudes: None,
             peaks: self.motion.peaks(),
             tool: self.tool.as_ref(),
-            rate: scene.plan.rate,
+            rate: self.motion.fitting_rate(scene.plan.rate),
         };
         // no verdict on the planned motion stands for this one
         summary.limits.retain(|verdict| verdict.name.measure().scope() != Scope::Motion);
@@ -160,7 +160,7 @@ impl Outcome<'_> {
         let way = Nearest::of_motion_within(
             &scene.layup,
             least,
-            scene.plan.rate,
+            self.motion.fitting_rate(scene.plan.rate),
             self.motion,
             self.attitudes,
             times,
