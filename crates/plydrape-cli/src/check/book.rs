@@ -2,9 +2,9 @@
 
 use super::{drawing, mold, warnings};
 use crate::failure::Done;
+use crate::mesh;
 use crate::numbers::degrees;
 use crate::outcome;
-use plydrape::mold::MeshReport;
 use plydrape_io::scene::{BookPly, read_book};
 use plydrape_io::store::shown;
 use std::io::{self, Write};
@@ -28,7 +28,7 @@ pub(super) fn check(path: &Path, quiet: bool) -> Done {
         }
         out.flush()?;
     }
-    outcome::warn(&book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
     for ply in &book.plies {
         for warning in warnings::warnings(&ply.scene) {
             // standard error that cannot be written is no fault of the book

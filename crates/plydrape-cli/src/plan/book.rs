@@ -6,11 +6,11 @@
 use super::arguments::Arguments;
 use super::found::Found;
 use crate::failure::{Done, Failure};
+use crate::mesh;
 use crate::outcome;
 use crate::search::{Ended, Search, SharedLines};
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
-use plydrape::mold::MeshReport;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Progress};
 use plydrape_io::scene::{Book, read_book};
@@ -65,7 +65,7 @@ pub fn plan(
     for ply in &mut book.plies {
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
-    outcome::warn(&book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
     let dir = results.folder("plan");
     let folder = Folder::claim(&dir, "plan")?;
     folder.refuse_inputs(&NAMES, &book.files)?;

@@ -66,7 +66,7 @@ pub fn verdict_in_a_line(result: &ResultFile) -> String {
     let summary = &result.summary;
     let model = model_name(summary.model);
     if summary.accepted() {
-        return format!("accepted by {model}{}", summary.world.words());
+        return format!("accepted by {model}{}", result.world());
     }
     match (limiting(&summary.limits), ended(summary)) {
         (Some(worst), _) => format!("not accepted by {model}: {}", verdict_text(worst)),
@@ -193,6 +193,10 @@ mod tests {
         result.summary.limits.truncate(1);
         let line = "accepted by the catenaries in an ideal cell, without errors";
         assert_eq!(verdict_in_a_line(&result), line);
+        result.scene.settings.sheet.overhang = 0.02;
+        let unseen = "; the catenaries do not see fabric beyond the outer grippers";
+        assert_eq!(verdict_in_a_line(&result), format!("{line}{unseen}"));
+        result.scene.settings.sheet.overhang = 0.0;
         result.summary.world = World::WithoutErrors;
         assert_eq!(verdict_in_a_line(&result), "accepted by the catenaries without errors");
         result.summary.world = World::Errors;
