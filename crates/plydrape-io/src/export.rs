@@ -61,9 +61,10 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
     if format.drives() && !result.summary.accepted() && !options.even_if_rejected {
         let verdict = Program::verdict(result);
         let message = format!(
-            "the motion is not accepted, and these files would drive a machine along it ({verdict}): change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads"
+            "the motion is not accepted, and these files would drive a machine along it ({verdict})"
         );
-        return Err(Error::not_possible(message, ""));
+        let help = "change the scene or plan again, or write them with --even-if-rejected (in Python even_if_rejected=True); they then say so in their heads";
+        return Err(Error::not_possible(message, help));
     }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
