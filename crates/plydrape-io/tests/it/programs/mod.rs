@@ -267,6 +267,28 @@ fn programs_of_all_titles_can_be_loaded_beside_one_another() {
     }
 }
 
+/// What was written once, the title as the name of everything, and words of the languages, is found: a name that is declared twice, in
+/// other letters too, and one that is reserved.
+#[test]
+fn a_name_that_is_declared_twice_or_reserved_is_found() {
+    for (robot, file, text) in [
+        (Robot::Rapid, "a.mod", "MODULE ply_tool\n  PERS tooldata PLY_TOOL := [];\nENDMODULE\n"),
+        (Robot::Rapid, "a.mod", "MODULE While\nENDMODULE\n"),
+        (
+            Robot::Krl,
+            "a.dat",
+            "DEFDAT a PUBLIC\nDECL FRAME XP1={X 0}\nDECL E6POS xp1={X 0}\nENDDAT\n",
+        ),
+        (Robot::Krl, "halt.src", "DEF halt ( )\nEND\n"),
+        (Robot::Urscript, "a.script", "def stop():\n  def stop():\n  end\nend\n"),
+        (Robot::Urscript, "a.script", "def servoj():\nend\n"),
+    ] {
+        let files: Files = vec![(file.into(), text.into())];
+        let judged = || declared::assert_sound(robot, &declared::declared(robot, &files));
+        assert!(std::panic::catch_unwind(judged).is_err(), "{text}");
+    }
+}
+
 /// Columns of a table have names of their own, and no cell but a number begins as a formula of a spreadsheet does.
 fn assert_no_formula(table: &str) {
     let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
