@@ -1528,7 +1528,8 @@ class Result:
         /,
         *,
         offset: dict[str, float | str | typing.Sequence[float | str]] | None = None,
-        points: typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]]
+        points: numpy.typing.ArrayLike
+        | typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]]
         | None = None,
         tolerance: float | str | None = None,
         far: bool = False,
@@ -1544,8 +1545,9 @@ class Result:
         offset : dict, optional
             The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
             about, the middle of the grippers at the start unless given.
-        points : sequence of Any, optional
-            Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
+        points : array or sequence of Any, optional
+            Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m: an array of the
+            shape (n, 2, 2), or a list of pairs, whose places may be texts with units.
         tolerance : float or str, optional
             How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
             given.
@@ -1860,7 +1862,8 @@ class Result:
     def verdict(self, /) -> str:
         """
         The verdict in words, with the world in which it was reached: "accepted", by a sample of cells with errors; "accepted without
-        errors"; "accepted in an ideal cell, without errors", where mounts are rigid too; or "not accepted".
+        errors"; "accepted in an ideal cell, without errors", where mounts are rigid too; or "not accepted". Of catenaries it names what
+        they do not see of the scene: fabric beyond the outer grippers, and holes of the mold between their lines.
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """

@@ -7,7 +7,7 @@ use crate::watch::whole;
 use clap::ValueEnum;
 use plydrape_io::export;
 use plydrape_io::result::read;
-use plydrape_io::robot::program::{Robot, Template, Tolerance};
+use plydrape_io::robot::program::{LONGEST_TEMPLATE, Robot, Template, Tolerance};
 use plydrape_io::scene::{Measured, usual};
 use plydrape_io::store::input;
 use std::path::{Path, PathBuf};
@@ -103,8 +103,6 @@ impl Format {
 
 /// Range of the position error (m): below it doubles and controllers cannot tell, above it no motion is left.
 const POSITION_ERRORS: [f64; 2] = [1e-7, 1.0];
-/// Largest template that is read (bytes).
-const LARGEST_TEMPLATE: u64 = 1 << 20;
 
 /// Reads the result and writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
@@ -150,7 +148,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         )?;
     }
     let read = |path: &PathBuf| {
-        let text = input::text(path, LARGEST_TEMPLATE).map_err(|error| Failure::Refused {
+        let text = input::text(path, LONGEST_TEMPLATE).map_err(|error| Failure::Refused {
             message: format!("the template `{}` cannot be read: {error}", path.display()),
             help: "`plydrape template rapid > cell.mod.j2` makes one that you can change".into(),
         })?;

@@ -9,6 +9,7 @@ mod export;
 mod failure;
 mod fit;
 mod limits;
+mod mesh;
 mod model;
 mod net;
 mod new;

@@ -2,11 +2,11 @@
 
 use crate::errors;
 use crate::failure::Done;
+use crate::mesh;
 use crate::model::{self, ModelName};
 use crate::outcome::{Printed, exit_code, warn};
 use crate::results::{self, Results};
 use crate::watch::Interrupt;
-use plydrape::mold::MeshReport;
 use plydrape::outcome::Robustness;
 use plydrape_io::rerun::is_better;
 use plydrape_io::text::table;
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let interrupt = Interrupt::listen();
     let [model, also] = [arguments.model, arguments.also].map(|name| name.map(Into::into));
     let scene = scene::read_for(&asked.scene, model, also)?;
-    warn(&scene.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    warn(&mesh::warnings(scene.layup.mold.as_ref(), scene.mesh.as_ref()));
     let folder = Folder::claim(&asked.folder("results"), "simulate", &scene.files)?;
     folder.refuse_taken(&names(&scene, false))?;
 

@@ -274,7 +274,10 @@ fn frame(grid: Grid) -> ResultFile {
         ..Settings::default()
     };
     let motion = Motion { times: Vec::new(), positions: Vec::new() };
-    let scene = Scene::new(Ply::of_array(grid, [CELL, CELL], material), settings, motion);
+    let mut scene = Scene::new(Ply::of_array(grid, [CELL, CELL], material), settings, motion);
+    // the tilt alone is judged
+    Name::ALL.iter().for_each(|name| scene.limits.set(*name, None));
+    scene.limits.set(Name::Tilt, Some(40_f64.to_radians()));
     ResultFile {
         program: "test".into(),
         scene: SceneEcho { title: "Flat sheared mold".into(), ..SceneEcho::new(&scene, None) },

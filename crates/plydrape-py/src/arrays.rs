@@ -136,6 +136,27 @@ impl Numbers<'_> {
         }
     }
 
+    /// The array that NumPy makes of it, if that holds numbers, none of which is masked; else why it is none.
+    fn array(&self, whole: bool) -> PyResult<Result<Bound<'_, PyAny>, String>> {
+        let numpy = self.0.py().import("numpy")?;
+        let array = numpy.call_method1("asanyarray", (&self.0,))?;
+        if numpy.getattr("ma")?.call_method1("is_masked", (&array,))?.is_truthy()? {
+            return Ok(Err("some of it is masked; leave that out, or fill it in".into()));
+        }
+        let held = match array.getattr("dtype")?.getattr("kind")?.extract::<char>()? {
+            'b' | 'i' | 'u' => return Ok(Ok(array)),
+            'f' if !whole || array.getattr("size")?.extract::<usize>()? == 0 => {
+                return Ok(Ok(array));
+            }
+            'f' => "numbers that are not whole; make them so with .astype(int)",
+            'c' => "complex numbers; take their real part",
+            'U' | 'S' => "texts; make them numbers with .astype(float)",
+            'M' | 'm' => "times of a calendar; make them seconds",
+            _ => "objects of Python; make them numbers with .astype(float)",
+        };
+        Ok(Err(format!("it holds {held}")))
+    }
+
     fn of_type<T: Element + Copy>(
         &self,
         name: &str,
@@ -145,12 +166,17 @@ impl Numbers<'_> {
         let py = self.0.py();
         let keywords = PyDict::new(py);
         keywords.set_item("dtype", name)?;
-        let array = py.import("numpy")?.call_method("asarray", (&self.0,), Some(&keywords));
-        let array = array.map_err(|fault| {
-            let said = fault.value(py).to_string();
-            let text = format!(
+        let none = |said: &str| {
+            format!(
                 "{what} is no array of numbers ({said}); numbers of the shape {wanted} are wanted"
-            );
+            )
+        };
+        let array = self.array(name == "int64").and_then(|array| match array {
+            Ok(array) => py.import("numpy")?.call_method("asarray", (array,), Some(&keywords)),
+            Err(why) => Err(PyTypeError::new_err(why)),
+        });
+        let array = array.map_err(|fault| {
+            let text = none(&fault.value(py).to_string());
             let made = match fault.is_instance_of::<PyTypeError>(py) {
                 true => PyTypeError::new_err(text),
                 false => PyValueError::new_err(text),

@@ -474,7 +474,7 @@ impl Plan {
     }
 
     fn __repr__(&self) -> String {
-        let verdict = self.result.summary.verdict();
+        let verdict = self.result.verdict();
         format!(
             "<plydrape.Plan of {:?}, {verdict}, {:.1} s>",
             self.result.scene.title,

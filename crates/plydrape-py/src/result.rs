@@ -1,6 +1,6 @@
 //! `plydrape.Result`: the result file, read by arrays.
 
-use crate::arrays::{Array, Named, or_nan};
+use crate::arrays::{Array, Named, Numbers, or_nan};
 use crate::beside::Drape;
 use crate::error;
 use crate::json::Json;
@@ -20,9 +20,9 @@ use plydrape::outcome::{Status, Step};
 use plydrape::ply::Grid;
 use plydrape_io::replan::PlannedResult;
 use plydrape_io::result::read;
-use plydrape_io::robot::program::{Robot, Template, Tolerance};
+use plydrape_io::robot::program::{LONGEST_TEMPLATE, Robot, Template, Tolerance};
 use plydrape_io::scene::{Measured, parse_offset, usual};
-use plydrape_io::store::folder;
+use plydrape_io::store::{folder, input};
 use plydrape_io::write::mold_patch::mold_patch;
 use plydrape_io::write::surface;
 use plydrape_io::{Error, ResultFile, export, page};
@@ -218,10 +218,11 @@ impl Result {
     }
 
     /// The verdict in words, with the world in which it was reached: "accepted", by a sample of cells with errors; "accepted without
-    /// errors"; "accepted in an ideal cell, without errors", where mounts are rigid too; or "not accepted".
+    /// errors"; "accepted in an ideal cell, without errors", where mounts are rigid too; or "not accepted". Of catenaries it names what
+    /// they do not see of the scene: fabric beyond the outer grippers, and holes of the mold between their lines.
     #[getter]
     fn verdict(&self) -> String {
-        self.0.summary.verdict()
+        self.0.verdict()
     }
 
     /// Whether every step was solved and the ply is at rest at the end, by the model that decides.
@@ -601,8 +602,9 @@ impl Result {
     /// offset : dict, optional
     ///     The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
     ///     about, the middle of the grippers at the start unless given.
-    /// points : sequence of Any, optional
-    ///     Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
+    /// points : array or sequence of Any, optional
+    ///     Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m: an array of the
+    ///     shape (n, 2, 2), or a list of pairs, whose places may be texts with units.
     /// tolerance : float or str, optional
     ///     How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
     ///     given.
@@ -630,18 +632,18 @@ impl Result {
     /// (True, True)
     #[pyo3(signature = (
         *, offset: "dict[str, float | str | typing.Sequence[float | str]] | None" = None,
-        points: "typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]] | None" = None,
+        points: "numpy.typing.ArrayLike | typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]] | None" = None,
         tolerance: "float | str | None" = None, far = false
     ))]
     fn replan(
         &self,
         py: Python<'_>,
         offset: Option<BTreeMap<String, Offset>>,
-        points: Option<Vec<([Amount; 2], [Amount; 2])>>,
+        points: Option<Points>,
         tolerance: Option<Amount>,
         far: bool,
     ) -> PyResult<Self> {
-        let text = Offset::file(offset, points);
+        let text = Offset::file(offset, points.map(Points::pairs).transpose()?);
         let tolerance =
             tolerance.map(|length| length.si("tolerance", Measured::Length, &usual::LANDED));
         let tolerance = tolerance.transpose()?;
@@ -766,7 +768,7 @@ impl Result {
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let text =
-                std::fs::read_to_string(path).map_err(|fault| error::unread(path, &fault))?;
+                input::text(path, LONGEST_TEMPLATE).map_err(|fault| error::unread(path, &fault))?;
             Ok(Template { name, text })
         };
         let options = export::Options {
@@ -980,7 +982,7 @@ impl Result {
     }
 
     fn __repr__(&self) -> String {
-        let verdict = self.0.summary.verdict();
+        let verdict = self.0.verdict();
         format!("<plydrape.Result of {:?}, {} steps, {verdict}>", self.title(), self.0.steps.len())
     }
 }
@@ -994,12 +996,41 @@ pub enum Offset {
     Place([Amount; 2]),
 }
 
+/// Pairs of places: where points were planned, and where they were seen.
+#[derive(FromPyObject)]
+pub enum Points<'py> {
+    /// Each by itself, as numbers or texts.
+    Pairs(Vec<Pair>),
+    /// As an array.
+    Array(Numbers<'py>),
+}
+
+/// Where a point was planned and where it was seen.
+type Pair = ([Amount; 2], [Amount; 2]);
+
+impl Points<'_> {
+    fn pairs(self) -> PyResult<Vec<Pair>> {
+        let array = match self {
+            Points::Pairs(pairs) => return Ok(pairs),
+            Points::Array(array) => array,
+        };
+        let (shape, places) = array.points::<2>("points")?;
+        match shape[..] {
+            [_, 2] => {
+                let place = |place: &[f64; 2]| place.map(Amount::Number);
+                let pairs = places.chunks_exact(2).map(|pair| (place(&pair[0]), place(&pair[1])));
+                Ok(pairs.collect())
+            }
+            _ => Err(PyValueError::new_err(
+                "points are wanted in the shape (n, 2, 2): where each was planned, and where it was seen",
+            )),
+        }
+    }
+}
+
 impl Offset {
     /// The text of an offset's file with these values.
-    fn file(
-        offset: Option<BTreeMap<String, Offset>>,
-        points: Option<Vec<([Amount; 2], [Amount; 2])>>,
-    ) -> String {
+    fn file(offset: Option<BTreeMap<String, Offset>>, points: Option<Vec<Pair>>) -> String {
         let place = |[x, y]: &[Amount; 2]| format!("[{}, {}]", x.toml(), y.toml());
         let mut text = String::new();
         if let Some(offset) = offset {

@@ -128,3 +128,51 @@ def test_what_is_no_scene_is_told_how_to_read_one(door: object, given: object) -
     assert callable(door)
     with pytest.raises(TypeError, match=r'is no Scene: Scene\.read\("scene\.toml"\)'):
         door(given)
+NO_NUMBERS = [
+    (np.ma.array(np.zeros((2, 3)), mask=[[0, 0, 0], [0, 0, 1]]), "masked"),
+    (np.zeros((2, 3), complex), "complex numbers"),
+    (np.array([["0", "0", "0"], ["1", "0", "0"]]), "texts"),
+    (np.array([["0", "0", "0"], ["1", "0", "0"]], object), "objects of Python"),
+    (np.zeros((2, 3), "datetime64[s]"), "times of a calendar"),
+]
+
+
+@pytest.mark.parametrize(("array", "why"), NO_NUMBERS)
+def test_what_is_no_array_of_numbers_is_refused_at_every_door(array: np.ndarray, why: str) -> None:
+    """NumPy makes numbers of all of these, and leaves out what is masked or imaginary."""
+    scene = strip()
+    solver = plydrape.Solver.of(scene)
+    triangles = [[0, 1, 2]]
+    corners = np.ma.concatenate([array, array[:1]]) if why == "masked" else array[[0, 1, 0]]
+    for call in (
+        lambda: solver.solve(array),
+        lambda: plydrape.batch.equilibria(solver, array[None]),
+        lambda: scene.with_motion([0.0], array[None]),
+        lambda: plydrape.Mold.triangles(corners, triangles),
+    ):
+        with pytest.raises((TypeError, ValueError), match=why):
+            call()
+
+
+def test_an_array_with_a_mask_that_hides_nothing_is_an_array() -> None:
+    """Integers and single precision too; an index that is not whole is none."""
+    solver = plydrape.Solver.of(strip())
+    places = [[0.0, 0.0, 0.0], [0.0625, 0.0, 0.0]]
+    wanted = solver.solve(places)
+    for given in (np.ma.array(places), np.array(places, np.float32)):
+        assert repr(solver.solve(given)) == repr(wanted)
+    with pytest.raises((TypeError, ValueError), match="not whole"):
+        plydrape.Mold.triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0.5, 1, 2]])
+
+
+def test_points_that_were_seen_may_be_an_array() -> None:
+    """The same pairs as lists, as an array and as texts move a plan alike."""
+    scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")
+    result = plydrape.plan(scene, without_errors=True).result
+    pairs = [((0.0, 0.0), (0.001, 0.0)), ((0.3, 0.0), (0.301, 0.0)), ((0.3, 0.1), (0.301, 0.1))]
+    texts = [tuple([f"{1e3 * x} mm" for x in place] for place in pair) for pair in pairs]
+    moved = [result.replan(points=points).positions for points in (pairs, np.array(pairs), texts)]
+    assert np.allclose(moved[0], moved[1], atol=0)
+    assert np.allclose(moved[0], moved[2], atol=1e-12)
+    with pytest.raises(ValueError, match=r"shape \(n, 2, 2\)"):
+        result.replan(points=np.zeros((3, 2)))

@@ -2,10 +2,10 @@
 
 use super::{Noun, drawing, mold, nouns, warnings};
 use crate::failure::Done;
+use crate::mesh;
 use crate::numbers::degrees;
 use crate::outcome;
 use crate::results;
-use plydrape::mold::MeshReport;
 use plydrape_io::scene::{BookPly, read_book};
 use plydrape_io::store::{json, shown};
 use serde::Serialize;
@@ -33,7 +33,7 @@ struct PrintedPly<'a> {
 /// Reads a book; prints its mold and a few lines for each ply unless `quiet`, and warnings; or one JSON object.
 pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
     let book = read_book(path)?;
-    let mesh = book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>();
+    let mesh = mesh::warnings(Some(&book.mold), book.mesh.as_ref());
     let mold = mold::of(&book.mold, book.mesh.as_ref());
     if as_json {
         let plies = book.plies.iter().map(|ply| PrintedPly {

@@ -1,13 +1,14 @@
 //! What is possible but hardly meant: places far off, plies of no known cloth, grippers in the mold.
 
 use super::way::longest;
+use crate::mesh;
 use crate::numbers::{millimetres, short};
 use plydrape::bodies::Obstacle;
 use plydrape::clearance;
 use plydrape::layup::{Friction, Model};
 use plydrape::material::Section;
 use plydrape::measure::Name;
-use plydrape::mold::{Mesh, MeshReport, Mold};
+use plydrape::mold::Mold;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::ply::{Ply, gripper_name};
 use plydrape::scene::Scene;
@@ -22,11 +23,6 @@ const FAR: f64 = 20.0;
 /// Mass of plies (kg/m²): the lightest woven ones, of spread tow, weigh some 0.05; the heaviest, rovings, 3D weaves
 /// and stitched stacks with their resin, stay below 10.
 const PLIES: [f64; 2] = [0.05, 10.0];
-/// Relief of a flat side and of a shaped one, as shares of the size of a mold.
-const FLAT: f64 = 1e-4;
-const SHAPED: f64 = 0.02;
-/// Share of a triangle's normal along z below which it is a wall.
-const WALL: f64 = 0.1;
 /// Fabric that hangs over a pad, as a share of the pitch of the cups, beyond which an edge on a mold that sticks finds its place
 /// rarely.
 const HANGING: f64 = 0.15;
@@ -37,8 +33,7 @@ const LOOKS: usize = 100_000;
 
 /// Every warning, in a sentence.
 pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
-    let found = scene.mesh.iter().flat_map(MeshReport::warnings);
-    let mesh = upside_down(scene).into_iter().chain(found);
+    let mesh = mesh::warnings(scene.layup.mold.as_ref(), scene.mesh.as_ref());
     let hardly_meant = far(scene).into_iter().chain(mass(scene)).chain(mesh);
     let below = below(scene);
     // said once
@@ -144,49 +139,6 @@ fn unplanned(scene: &SceneFile, seen: &[Name]) -> Vec<String> {
         format!("`plydrape plan` refuses this scene: {}; {}", refusal.message, refusal.help)
     });
     limits.chain(refusal).collect()
-}
-
-/// A mesh that seems to lie upside down: an open one whose file says that its other side is the outer one, or a solid that is
-/// flat from above and shaped from below.
-fn upside_down(scene: &SceneFile) -> Option<String> {
-    let (Some(Mold::Mesh(mesh)), Some(report)) = (&scene.layup.mold, &scene.mesh) else {
-        return None;
-    };
-    let turn = "turn it with rotation = [\"180 deg\", 0, 0] in [mold]";
-    if report.closed == 0 && 2 * report.flipped.count > report.triangles {
-        return Some(format!(
-            "{} of {} triangles of the mold face down in its file, and the ply comes from above onto their other side; if the mold is upside down, {turn}",
-            report.flipped.count, report.triangles
-        ));
-    }
-    if report.closed < report.surfaces {
-        return None;
-    }
-    let [low, high] = mesh.bounds();
-    let size = [0, 1, 2].map(|n| high[n] - low[n]).into_iter().fold(0.0, f64::hypot);
-    let [above, below] = [1.0, -1.0].map(|side| relief(mesh, side));
-    (above < FLAT * size && below > SHAPED * size).then(|| {
-        format!(
-            "the mold is flat from above and shaped from below; if it is upside down, {turn}; if it is meant, kind = \"plane\" says the same"
-        )
-    })
-}
-
-/// Height over which the triangles of a mesh go that face up (side 1) or down (side −1) (m).
-fn relief(mesh: &Mesh, side: f64) -> f64 {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for corners in mesh.triangles() {
-        let [a, b, c] = corners.map(|n| mesh.vertices()[n as usize]);
-        let [p, q] = [b, c].map(|end| [0, 1, 2].map(|n| end[n] - a[n]));
-        let normal =
-            [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-        let area = normal.into_iter().fold(0.0, f64::hypot);
-        if side * normal[2] > WALL * area {
-            low = [a, b, c].into_iter().fold(low, |low, corner| low.min(corner[2]));
-            high = [a, b, c].into_iter().fold(high, |high, corner| high.max(corner[2]));
-        }
-    }
-    (high - low).max(0.0)
 }
 
 /// A way many times longer than the ply.

@@ -7,13 +7,13 @@ use super::arguments::Arguments;
 use super::found::Found;
 use super::{WHOLE, checkpoint, say_infeasible};
 use crate::failure::{Done, Failure};
+use crate::mesh;
 use crate::outcome;
 use crate::results::{place, print};
 use crate::search::{Search, SharedLines};
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::measure::Verdict;
-use plydrape::mold::MeshReport;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Progress};
 use plydrape_io::scene::{Book, BookPly, read_book};
@@ -70,7 +70,7 @@ pub fn plan(
     for ply in &mut book.plies {
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
-    outcome::warn(&book.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
     let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::of).collect();
     if !found.is_empty() {
         let lines = found.iter().map(|ply| format!("ply {}: {}", ply.ply, ply.text()));

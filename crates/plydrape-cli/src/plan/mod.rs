@@ -9,13 +9,13 @@ pub use arguments::Arguments;
 use crate::argument;
 use crate::errors;
 use crate::failure::{Done, Failure};
+use crate::mesh;
 use crate::numbers::short;
 use crate::outcome::{self, warn};
 use crate::results;
 use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use found::{Found, Motion};
-use plydrape::mold::MeshReport;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Checkpoint, Progress};
 use plydrape::scene::{PlanMethod, Scene};
@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let also = arguments.also.map(Into::into);
     let mut scene = plydrape_io::scene::read_for(&asked.scene, None, also)?;
     arguments.apply(&mut scene)?;
-    warn(&scene.mesh.iter().flat_map(MeshReport::warnings).collect::<Vec<_>>());
+    warn(&mesh::warnings(scene.layup.mold.as_ref(), scene.mesh.as_ref()));
     let earlier = arguments.earlier.as_deref();
     let earlier = earlier.map(|dir| checkpoint(dir, &scene)).transpose()?;
     if arguments.compare {

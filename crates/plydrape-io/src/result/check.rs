@@ -234,6 +234,7 @@ fn of_deciding(result: &ResultFile) -> Option<String> {
         return Some("its outcome is not of the model that decides".into());
     }
     of_summary(&result.scene.ply, &result.summary, &result.steps)
+        .or_else(|| super::check_limits::fault(result))
         .or_else(|| super::check_errors::fault(result))
         .or_else(|| super::check_tool::fault(result))
 }

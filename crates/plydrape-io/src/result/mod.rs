@@ -5,6 +5,7 @@
 
 mod check;
 mod check_errors;
+mod check_limits;
 mod check_tool;
 mod contact;
 pub mod document;
@@ -246,6 +247,45 @@ impl ResultFile {
     #[must_use]
     pub fn model(&self) -> Model {
         self.summary.model
+    }
+
+    /// The verdict in words: accepted, in which world, and what the model that decides does not see of the scene; or not accepted.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        match self.summary.accepted() {
+            true => format!("accepted{}", self.world()),
+            false => "not accepted".into(),
+        }
+    }
+
+    /// What follows the word accepted: the world of the verdict, and what the model that decides does not see of the scene.
+    #[must_use]
+    pub fn world(&self) -> String {
+        let unseen = self.unseen().map(|unseen| format!("; {unseen}")).unwrap_or_default();
+        format!("{}{unseen}", self.summary.world.words())
+    }
+
+    /// What the scene has and the model that decides does not see between and beyond its lines, in a sentence without its end; `None` of a sheet, and where there is
+    /// nothing of that.
+    #[must_use]
+    pub fn unseen(&self) -> Option<String> {
+        if self.model() == Model::Sheet {
+            return None;
+        }
+        let scene = &self.scene;
+        let beyond = scene.settings.sheet.overhang > 0.0 || scene.ply.cut.is_some();
+        let holes = match &scene.mold {
+            Some(Mold::Mesh(mesh)) => mesh.boundaries().iter().filter(|b| b.hole).count(),
+            _ => 0,
+        };
+        let holes = match holes {
+            0 => None,
+            1 => Some("the hole of the mold".to_owned()),
+            count => Some(format!("the {count} holes of the mold")),
+        };
+        let beyond = beyond.then(|| "fabric beyond the outer grippers".to_owned());
+        let parts: Vec<String> = beyond.into_iter().chain(holes).collect();
+        (!parts.is_empty()).then(|| format!("the catenaries do not see {}", parts.join(" and ")))
     }
 
     /// When pads grip, press and let go, in the order of time, by the model that decides; nothing where they hold the ply from first to

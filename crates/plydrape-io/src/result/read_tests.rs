@@ -2,7 +2,7 @@ use super::*;
 use crate::sample;
 use plydrape::layup::Friction;
 use plydrape::material::TensionLaw;
-use plydrape::measure::{Name, Verdict};
+use plydrape::measure::{Name, Verdict, Worst};
 use plydrape::outcome::{CatenaryReport, CellVerdict, Tolerance};
 use plydrape::scene::World;
 
@@ -118,6 +118,41 @@ fn an_acceptance_that_its_limits_contradict_is_refused() {
     let refused = read(&forged).unwrap_err();
     assert!(is_changed(&refused), "{refused}");
     assert!(refused.to_string().contains("`accepted` is false"), "{refused}");
+}
+
+/// Nor do the words of its limits count: each holds by its value, against the limit of its scene, in every step, and none is left out.
+#[test]
+fn a_limit_is_kept_by_its_values_and_not_by_its_word() {
+    let tilt = |value| Some(Worst { value, at: "gripper g0_0".into(), place: None });
+    let exceeded = |r: &mut ResultFile| r.steps[1].measures.set(Name::Tilt, tilt(57.0));
+    let forge = |n: usize, r: &mut ResultFile| match n {
+        0 => r.summary.limits[0].value = 57.0,
+        1 => (r.summary.limits[0].value, r.summary.limits[0].limit) = (57.0, 90.0),
+        2 => exceeded(r),
+        _ => {
+            exceeded(r);
+            r.summary.limits.clear();
+        }
+    };
+    let reasons = [
+        "is kept, which is 57 against 40",
+        "that of its scene 40",
+        "which a step has at 57 against 40",
+        "its tilt is not judged",
+    ];
+    for (n, why) in reasons.into_iter().enumerate() {
+        let mut result = sample::draped(3, 2, 3);
+        forge(n, &mut result);
+        assert!(result.summary.accepted());
+        let refused = read(&result.text().unwrap()).unwrap_err();
+        assert!(is_changed(&refused) && refused.to_string().contains(why), "{refused}");
+    }
+    // one that is kept at its limit, and one that is not kept whatever its value
+    for (value, ok) in [(40.0, true), (12.0, false)] {
+        let mut result = sample::draped(3, 2, 3);
+        (result.summary.limits[0].value, result.summary.limits[0].ok) = (value, ok);
+        assert_eq!(read(&result.text().unwrap()).unwrap().summary.accepted(), ok);
+    }
 }
 
 /// A forged check sum does not help a material whose tension is no table, nor settings that no scene has.

@@ -35,7 +35,11 @@ pub fn bytes(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
             return Ok(bytes);
         }
     }
-    let what = format!("it is larger than {} MiB", largest >> 20);
+    let most = match largest >> 20 {
+        0 => format!("{} KiB", largest >> 10),
+        most => format!("{most} MiB"),
+    };
+    let what = format!("it is larger than {most}");
     Err(io::Error::new(ErrorKind::FileTooLarge, what))
 }
 

@@ -24,6 +24,7 @@ pub use screen::{details, draped, heading, screen, verdict};
 pub(crate) use slack::slack_in_words;
 pub use steps::steps_table;
 
+use crate::ResultFile;
 use crate::result::sheet::ended;
 use crate::store::shown;
 use plydrape::layup::Model;
@@ -60,12 +61,13 @@ fn fixed(value: Option<f64>, digits: usize) -> String {
     }
 }
 
-/// The verdict alone, in one line: accepted and in which world, or what is exceeded furthest, by the model that decides.
+/// The verdict of a summary of a result alone, in one line: accepted and in which world, or what is exceeded furthest, by the model that
+/// decides.
 #[must_use]
-pub fn verdict_in_a_line(summary: &Summary) -> String {
+pub fn verdict_in_a_line(result: &ResultFile, summary: &Summary) -> String {
     let model = model_name(summary.model);
     if summary.accepted() {
-        return format!("accepted by {model}{}", summary.world.words());
+        return format!("accepted by {model}{}", result.world());
     }
     match (limiting(&summary.limits), ended(summary)) {
         (Some(worst), _) => format!("not accepted by {model}: {}", verdict_text(worst)),
@@ -191,17 +193,24 @@ mod tests {
             limit(Name::ContactShare, 10.0, 90.0, false),
         ];
         let line = "not accepted by the catenaries: contact share 10 mm against 90 mm in step 30, gripper g0_0";
-        assert_eq!(verdict_in_a_line(&result.summary), line);
+        assert_eq!(verdict_in_a_line(&result, &result.summary), line);
         result.summary.limits.truncate(1);
         let line = "accepted by the catenaries in an ideal cell, without errors";
-        assert_eq!(verdict_in_a_line(&result.summary), line);
+        assert_eq!(verdict_in_a_line(&result, &result.summary), line);
+        result.scene.settings.sheet.overhang = 0.02;
+        let unseen = "; the catenaries do not see fabric beyond the outer grippers";
+        assert_eq!(verdict_in_a_line(&result, &result.summary), format!("{line}{unseen}"));
+        result.scene.settings.sheet.overhang = 0.0;
         result.summary.world = World::WithoutErrors;
-        assert_eq!(verdict_in_a_line(&result.summary), "accepted by the catenaries without errors");
+        assert_eq!(
+            verdict_in_a_line(&result, &result.summary),
+            "accepted by the catenaries without errors"
+        );
         result.summary.world = World::Errors;
-        assert_eq!(verdict_in_a_line(&result.summary), "accepted by the catenaries");
+        assert_eq!(verdict_in_a_line(&result, &result.summary), "accepted by the catenaries");
         result.summary.status = Status::NotAtRest;
         let line = "not accepted by the catenaries: the ply is not at rest at the end";
-        assert_eq!(verdict_in_a_line(&result.summary), line);
+        assert_eq!(verdict_in_a_line(&result, &result.summary), line);
     }
 
     /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
@@ -227,14 +236,14 @@ mod tests {
     #[test]
     fn the_model_beside_judges_nothing() {
         let mut result = sample::sheet(4, 2, 3);
-        let before = (verdict_in_a_line(&result.summary), verdict(&result, Ink::Plain));
+        let before = (verdict_in_a_line(&result, &result.summary), verdict(&result, Ink::Plain));
         let mut also = sample::draped(4, 2, 3);
         let worst = Worst { value: 90.0, at: "gripper g0_0".into(), place: None };
         also.summary.limits = vec![Verdict::of(Name::Tilt, worst, 40.0, Some(3))];
         also.summary.status = Status::Torn;
         result.also = Some(sample::also(also));
         assert!(result.summary.accepted());
-        assert_eq!(verdict_in_a_line(&result.summary), before.0);
+        assert_eq!(verdict_in_a_line(&result, &result.summary), before.0);
         assert!(verdict(&result, Ink::Plain).starts_with(&before.1));
     }
 

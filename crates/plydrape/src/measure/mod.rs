@@ -118,6 +118,16 @@ impl Sense {
             Sense::AtLeast => value < than,
         }
     }
+
+    /// Whether a value keeps a limit, but for rounding. A value that is not finite keeps none.
+    #[must_use]
+    pub fn keeps(self, value: f64, limit: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Sense::AtMost => value <= limit * (1.0 + TUNING.limit_rounding),
+                Sense::AtLeast => value >= limit * (1.0 - TUNING.limit_rounding),
+            }
+    }
 }
 
 /// When a measure counts for the verdict.

@@ -41,12 +41,7 @@ impl Verdict {
     pub fn of(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
         let (measure, Worst { value, at, place }) = (name.measure(), worst);
         let unit = measure.unit();
-        // a value that is not finite keeps no limit
-        let ok = value.is_finite()
-            && match measure.sense() {
-                Sense::AtMost => value <= limit * (1.0 + TUNING.limit_rounding),
-                Sense::AtLeast => value >= limit * (1.0 - TUNING.limit_rounding),
-            };
+        let ok = measure.sense().keeps(value, limit);
         let [value, limit] = [value, limit].map(|value| value * unit.factor);
         Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place, judged: true }
     }

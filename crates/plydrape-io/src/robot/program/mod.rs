@@ -5,7 +5,7 @@
 //! 3. [`sampling`] leaves out the samples that a controller interpolates well enough by itself;
 //! 4. `blocks` parts what is kept at its stops, and says with which zone each point is passed;
 //! 5. [`template`] writes a [`Robot`]'s files from templates, the shipped ones or a user's copies, with the variables of
-//!    `context`;
+//!    `context`, in the bounds of `render`;
 //! 6. `names` makes the names of these files, and of what is in them, from the scene's title;
 //! 7. [`wide`] is the program as one table.
 
@@ -13,10 +13,12 @@ mod blocks;
 mod context;
 mod names;
 pub(crate) mod pose;
+mod render;
 pub mod sampling;
 pub mod template;
 pub mod wide;
 
+pub use render::LONGEST as LONGEST_TEMPLATE;
 pub use sampling::Tolerance;
 pub use template::{Robot, Template};
 
@@ -161,7 +163,7 @@ impl Program {
 
     /// The verdict on a result, as it was judged again, in one line.
     pub(crate) fn verdict(result: &ResultFile, judged: &Summary) -> String {
-        let verdict = table::verdict_in_a_line(judged);
+        let verdict = table::verdict_in_a_line(result, judged);
         match result.plan.as_ref().and_then(shown::picked_up) {
             Some(picked_up) => format!("{verdict}; {picked_up}"),
             None => verdict,
@@ -176,18 +178,15 @@ impl Program {
         let count = self.times.len();
         if count == 0 || self.times[0] != 0.0 {
             return Err(Error::not_possible(
-                "the motion has no point at 0 s: let it begin there",
-                "",
+                "the motion has no point at 0 s",
+                "let it begin there",
             ));
         }
         for (n, pair) in self.times.windows(2).enumerate() {
             if !(pair[0] < pair[1] && pair[1].is_finite()) {
-                let message = format!(
-                    "point {} at {} s is not after the one before: leave one of them out of the motion",
-                    n + 2,
-                    pair[1]
-                );
-                return Err(Error::not_possible(message, ""));
+                let message =
+                    format!("point {} at {} s is not after the one before", n + 2, pair[1]);
+                return Err(Error::not_possible(message, "leave one of them out of the motion"));
             }
         }
         let near = |pose: &Pose| {
@@ -209,7 +208,7 @@ impl Program {
             });
         wrong.map_or(Ok(()), |what| {
             let message = format!("{what} has not one finite value for each time of the program");
-            Err(Error::not_possible(message, ""))
+            Err(Error::not_possible(message, "simulate or plan the scene again"))
         })
     }
 

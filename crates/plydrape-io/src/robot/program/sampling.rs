@@ -42,8 +42,8 @@ impl Tolerance {
     pub fn check(&self) -> Result<(), Error> {
         for (what, value) in [("position error", self.position), ("angle error", self.angle)] {
             if !(value.is_finite() && value > 0.0) {
-                let message = format!("a {what} of {value} cannot be kept: give a number above 0");
-                return Err(Error::not_possible(message, ""));
+                let message = format!("a {what} of {value} cannot be kept");
+                return Err(Error::not_possible(message, "give a number above 0"));
             }
         }
         Ok(())

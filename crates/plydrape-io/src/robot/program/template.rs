@@ -2,15 +2,16 @@
 //!
 //! The shipped templates are the files in `templates/`. A user's copy takes the place of that with the same ending; one with
 //! another ending, such as `cell.ls.j2`, is used instead of all of them, so that a template can be for any controller.
+//!
+//! A user's template is a program, whose work `render` bounds.
 
 use super::blocks::Blocks;
 use super::context::contexts;
+use super::render::{self, ZONES};
 use super::sampling::Track;
 use super::{Program, Tolerance, names, wide};
 use crate::store::folder::Files;
-use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
-use minijinja::{AutoEscape, Environment, Error, ErrorKind, UndefinedBehavior};
 
 /// A controller, by the language of its programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,13 +56,6 @@ pub(super) struct Limits {
     pub units: &'static str,
 }
 
-/// Radii of ABB's zones z0 to z200 (m), as far as they are larger than the one before; technical reference manual for RAPID
-/// instructions (3HAC050917), `zonedata`, predefined data.
-const ZONES: [f64; 14] = [
-    0.0003, 0.001, 0.005, 0.010, 0.015, 0.020, 0.030, 0.040, 0.050, 0.060, 0.080, 0.100, 0.150,
-    0.200,
-];
-
 impl Robot {
     /// All of them.
     pub const ALL: [Robot; 3] = [Robot::Rapid, Robot::Krl, Robot::Urscript];
@@ -73,6 +67,15 @@ impl Robot {
             Robot::Rapid => "rapid",
             Robot::Krl => "krl",
             Robot::Urscript => "urscript",
+        }
+    }
+
+    /// The command that prints its template, the program where there are data too.
+    pub(super) fn printed(self) -> &'static str {
+        match self {
+            Robot::Rapid => "plydrape template rapid",
+            Robot::Krl => "plydrape template krl-src",
+            Robot::Urscript => "plydrape template urscript",
         }
     }
 
@@ -154,10 +157,11 @@ pub fn files(
     tolerance.check()?;
     if program.flange.is_none() {
         let message = format!(
-            "a program in {} is for one arm that carries the array, but the grippers of this scene are free: say in [tool] how the array is carried, or write the motion of each gripper with --to ros2 or --to csv",
+            "a program in {} is for one arm that carries the array, but the grippers of this scene are free",
             robot.name()
         );
-        return Err(crate::Error::not_possible(message, ""));
+        let help = "say in [tool] how the array is carried, or write the motion of each gripper with --to ros2 or --to csv";
+        return Err(crate::Error::not_possible(message, help));
     }
     let used = used(robot, templates);
     let limits = robot.limits();
@@ -166,9 +170,13 @@ pub fn files(
     if let Some(most) = limits.outputs.filter(|most| needed > *most && templates.is_empty()) {
         let format = robot.name();
         let message = format!(
-            "{format} has {most} digital outputs of its own, and {needed} are needed for the vacuum of the array: switch it by other means in a copy of the template, with --template (plydrape template {format} prints it)"
+            "{format} has {most} digital outputs of its own, and {needed} are needed for the vacuum of the array"
         );
-        return Err(crate::Error::not_possible(message, ""));
+        let help = format!(
+            "switch it by other means in a copy of the template, with --template ({} prints it)",
+            robot.printed()
+        );
+        return Err(crate::Error::not_possible(message, help));
     }
 
     let track = Track::new(program, !separate);
@@ -179,20 +187,22 @@ pub fn files(
             1 => "where the vacuum switches".to_owned(),
             _ => format!("between the {parts} parts of its program"),
         };
-        let (format, axes) = (robot.name(), program.axes.len());
+        let axes = program.axes.len();
         let message = format!(
-            "the arm stops on the way, {why}, and the {axes} axes of the array, which another controller moves, would go on without it: let all pads let go at the end (order = \"end\" in [release]), let one controller move arm and axes (--to ros2), or hold the two together in a copy of the template, with --template (plydrape template {format} prints it)"
+            "the arm stops on the way, {why}, and the {axes} axes of the array, which another controller moves, would go on without it"
         );
-        return Err(crate::Error::not_possible(message, ""));
+        let help = format!(
+            "let all pads let go at the end (order = \"end\" in [release]), let one controller move arm and axes (--to ros2), or hold the two together in a copy of the template, with --template ({} prints it)",
+            robot.printed()
+        );
+        return Err(crate::Error::not_possible(message, help));
     }
-    let environment = environment();
     let mut files = Vec::new();
     for context in contexts(&track, &blocks, robot) {
         let part = context.part.clone();
         let value = Value::from(Serde(&context));
         for (ending, Template { name, text }) in &used {
-            let made = environment.render_named_str(name, text, &value);
-            let made = made.map_err(|error| refused(name, &error))?;
+            let made = render::rendered(robot, name, text, &value, render::PATIENCE)?;
             files.push((format!("{part}.{ending}"), made.into_bytes()));
         }
     }
@@ -225,69 +235,4 @@ fn used(robot: Robot, given: &[Template]) -> Vec<(String, Template)> {
             .for_each(|(_, old)| *old = template.clone());
     }
     used
-}
-
-/// Why a template was refused, with its line.
-fn refused(name: &str, error: &Error) -> crate::Error {
-    let line = error.line().map(|line| format!("line {line}: ")).unwrap_or_default();
-    let what = error.detail().map_or_else(|| error.kind().to_string(), str::to_owned);
-    let message = format!("the template {name} cannot be used: {line}{what}");
-    crate::Error::not_possible(message, "")
-}
-
-fn environment() -> Environment<'static> {
-    let mut environment = Environment::new();
-    environment.set_auto_escape_callback(|_| AutoEscape::None);
-    environment.set_undefined_behavior(UndefinedBehavior::Strict);
-    let lines = SyntaxConfig::builder()
-        .trim_blocks(true)
-        .lstrip_blocks(true)
-        .keep_trailing_newline(true)
-        .build();
-    if let Ok(lines) = lines {
-        environment.set_syntax(lines);
-    }
-    environment.add_filter("fixed", |value: Value, digits: Option<usize>| {
-        each(&value, 1.0, digits.unwrap_or(6))
-    });
-    environment.add_filter("mm", |value: Value, digits: Option<usize>| {
-        each(&value, 1e3, digits.unwrap_or(4))
-    });
-    environment.add_filter("degrees", |value: Value, digits: Option<usize>| {
-        each(&value, 1.0_f64.to_degrees(), digits.unwrap_or(6))
-    });
-    environment.add_filter("comment", |lines: Vec<String>, mark: &str| {
-        lines
-            .iter()
-            .map(|line| format!("{mark} {line}").trim_end().to_owned() + "\n")
-            .collect::<String>()
-    });
-    environment.add_filter("zone", |radius: f64| {
-        let nearest = ZONES.iter().rev().find(|zone| **zone <= radius * (1.0 + 1e-9));
-        match nearest {
-            Some(zone) if *zone < 0.001 => "z0".to_owned(),
-            Some(zone) => format!("z{:.0}", zone * 1e3),
-            None => "fine".into(),
-        }
-    });
-    environment
-}
-
-/// A number times a factor, or a list of them, with so many digits; no zero has a sign.
-fn each(value: &Value, factor: f64, digits: usize) -> Result<Value, Error> {
-    if let Ok(number) = f64::try_from(value.clone()) {
-        let text = format!("{:.digits$}", number * factor);
-        let zero = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
-        return Ok(if zero { text.trim_start_matches('-').into() } else { text.into() });
-    }
-    let refused = || {
-        let what = format!("{value} is no number and no list of them");
-        Error::new(ErrorKind::InvalidOperation, what)
-    };
-    // a text would be a list of its letters
-    if value.as_str().is_some() {
-        return Err(refused());
-    }
-    let list = value.try_iter().map_err(|_| refused())?;
-    list.map(|item| each(&item, factor, digits)).collect()
 }

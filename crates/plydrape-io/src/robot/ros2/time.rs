@@ -12,10 +12,9 @@ const NANO: u64 = 1_000_000_000;
 pub(super) fn nanoseconds(point: usize, time: f64) -> Result<u64, Error> {
     let whole = (time * NANO as f64).round();
     if !(0.0..i32::MAX as f64 * NANO as f64).contains(&whole) {
-        let message = format!(
-            "point {point} is at {time} s, but ROS 2 takes times from 0 to 2147483647 s: let the motion begin at 0"
-        );
-        return Err(Error::not_possible(message, ""));
+        let message =
+            format!("point {point} is at {time} s, but ROS 2 takes times from 0 to 2147483647 s");
+        return Err(Error::not_possible(message, "let the motion begin at 0"));
     }
     Ok(whole as u64)
 }
@@ -42,10 +41,10 @@ pub(super) fn clock(times: &[f64]) -> Result<Vec<u64>, Error> {
         let now = nanoseconds(k + 1, *time)?;
         if clock.last().is_some_and(|before| now <= *before) {
             let message = format!(
-                "point {} at {time} s is less than a nanosecond after the one before, and ROS 2 would take both for one: leave one of them out of the motion",
+                "point {} at {time} s is less than a nanosecond after the one before, and ROS 2 would take both for one",
                 k + 1
             );
-            return Err(Error::not_possible(message, ""));
+            return Err(Error::not_possible(message, "leave one of them out of the motion"));
         }
         clock.push(now);
     }

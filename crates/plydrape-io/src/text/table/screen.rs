@@ -89,7 +89,9 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
     let worst = limiting(&summary.limits).map(|worst| format!(": {}", verdict_text(worst)));
     let line = format!("{word} by {model}{world}{}", worst.unwrap_or_default());
     let mut text = ink.tinted(&shown::excerpt(&line, WIDTH), tone) + "\n";
-    let why = ended(summary).into_iter().chain(overstrained(summary).into_iter().flatten());
+    let unseen = result.unseen().filter(|_| summary.accepted());
+    let why =
+        unseen.into_iter().chain(ended(summary)).chain(overstrained(summary).into_iter().flatten());
     for line in why.chain([forces(result)]).filter(|line| !line.is_empty()) {
         text += &(shown::excerpt(&line, WIDTH) + "\n");
     }

@@ -43,19 +43,18 @@ pub fn text(result: &ResultFile) -> Result<String, Error> {
     result.check_finite()?;
     let scene = &result.scene;
     if scene.ply.cut.is_some() {
-        let message = "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline: take `vtk` for its sheet";
-        return Err(Error::not_possible(message, ""));
+        let message = "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline";
+        return Err(Error::not_possible(message, "take `vtk` for its sheet"));
     }
     let first = result.steps.first().ok_or_else(|| {
-        let message =
-            "the result has no steps, so there is no motion to write: simulate the scene again";
-        Error::not_possible(message, "")
+        let message = "the result has no steps, so there is no motion to write";
+        Error::not_possible(message, "simulate the scene again")
     })?;
     let (flat, places): (Vec<_>, Vec<_>) =
         first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();
     let pose = Pose::fit(&flat, &places).ok_or_else(|| {
-        let message = "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them: spread them in the scene and simulate it again";
-        Error::not_possible(message, "")
+        let message = "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them";
+        Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
     let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
     let section = ShellSection::new(scene);

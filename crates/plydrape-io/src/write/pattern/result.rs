@@ -65,8 +65,8 @@ fn outline(result: &ResultFile) -> Outline {
 /// The rings of the boundary in space.
 fn lines(result: &ResultFile) -> Result<Vec<Line>, Error> {
     let none = || {
-        let message = "the result has no sheet whose boundary could be written: drape the scene with kind = \"sheet\" in [model]";
-        Error::not_possible(message, "")
+        let message = "the result has no sheet whose boundary could be written";
+        Error::not_possible(message, "drape the scene with kind = \"sheet\" in [model]")
     };
     let mut states = result.sheet_states.as_ref().ok_or_else(none)?.open()?;
     let last = states.steps()?.last().copied().ok_or_else(none)?;

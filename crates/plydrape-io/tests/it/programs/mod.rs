@@ -4,6 +4,7 @@
 //! axes and the vacuum are at which time. What is played is compared with the program at every sample.
 
 mod cell;
+mod declared;
 mod krl;
 mod rapid;
 mod ros2;
@@ -13,8 +14,8 @@ mod urscript;
 use cell::{Played, cell, rejected, text};
 use plydrape::mold::Pose;
 use plydrape::scene::BookPly;
-use plydrape_io::Files;
 use plydrape_io::robot::program::{Pad, Program, Robot, Template, Tolerance, template, wide};
+use plydrape_io::{Error, Files};
 use std::collections::BTreeSet;
 
 fn files(program: &Program, robot: Robot, position: f64) -> Files {
@@ -88,7 +89,7 @@ fn axes_of_another_controller_are_not_left_to_run_on_while_the_arm_stops() {
     }
     let long = cell::still(cell(7, 20_001));
     let fine = Tolerance { position: 1e-8, ..Tolerance::default() };
-    let fault = template::files(&long, Robot::Rapid, &[], &fine).unwrap_err().to_string();
+    let fault = told(&template::files(&long, Robot::Rapid, &[], &fine).unwrap_err());
     assert!(fault.contains("between the") && fault.contains("parts of its program"), "{fault}");
 }
 
@@ -229,7 +230,9 @@ fn programs_of_all_titles_can_be_loaded_beside_one_another() {
         let mut names_of_files: BTreeSet<String> = BTreeSet::new();
         for (title, book_ply) in &titles {
             let plain = cell::still(cell(7, 201));
-            let verdict = format!("not accepted: clearance of \"{quotes}\" and {long}");
+            let verdict = format!(
+                "not accepted: clearance of \"{quotes}\" and {long},=1+1,@x,-y,+HYPERLINK(1)"
+            );
             let (name, book_ply) = (title.clone(), book_ply.clone());
             let program = Program { name, book_ply, verdict, accepted: false, ..plain };
             let files = files(&program, robot, 1e-3);
@@ -249,18 +252,52 @@ fn programs_of_all_titles_can_be_loaded_beside_one_another() {
                 // KRL takes 471 letters, and RAPID 255 of a line in its editor
                 let is_short = |line: &str| line.is_ascii() && line.len() <= 255;
                 assert!(file.ends_with(".csv") || text.lines().all(is_short), "{title}");
+                if file.ends_with(".csv") {
+                    assert_no_formula(text);
+                }
             }
-            let global = match robot {
-                Robot::Rapid => rapid::global_names(&files),
-                Robot::Urscript => urscript::global_names(&files),
-                // data of KRL is local to its file, which has the name of its program
-                Robot::Krl => names(&files)[..1].iter().map(|name| (*name).to_owned()).collect(),
-            };
+            let declared = declared::declared(robot, &files);
+            declared::assert_sound(robot, &declared);
+            let global = declared.global;
             assert!(!global.is_empty());
             for name in global {
                 assert!(name.len() <= 32 && found.insert(name.to_lowercase()), "{name} of {title}");
             }
         }
+    }
+}
+
+/// What was written once, the title as the name of everything, and words of the languages, is found: a name that is declared twice, in
+/// other letters too, and one that is reserved.
+#[test]
+fn a_name_that_is_declared_twice_or_reserved_is_found() {
+    for (robot, file, text) in [
+        (Robot::Rapid, "a.mod", "MODULE ply_tool\n  PERS tooldata PLY_TOOL := [];\nENDMODULE\n"),
+        (Robot::Rapid, "a.mod", "MODULE While\nENDMODULE\n"),
+        (
+            Robot::Krl,
+            "a.dat",
+            "DEFDAT a PUBLIC\nDECL FRAME XP1={X 0}\nDECL E6POS xp1={X 0}\nENDDAT\n",
+        ),
+        (Robot::Krl, "halt.src", "DEF halt ( )\nEND\n"),
+        (Robot::Urscript, "a.script", "def stop():\n  def stop():\n  end\nend\n"),
+        (Robot::Urscript, "a.script", "def servoj():\nend\n"),
+    ] {
+        let files: Files = vec![(file.into(), text.into())];
+        let judged = || declared::assert_sound(robot, &declared::declared(robot, &files));
+        assert!(std::panic::catch_unwind(judged).is_err(), "{text}");
+    }
+}
+
+/// Columns of a table have names of their own, and no cell but a number begins as a formula of a spreadsheet does.
+fn assert_no_formula(table: &str) {
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let header = table.lines().find(|line| !line.starts_with('#')).unwrap();
+    let names: BTreeSet<String> = cells(header).into_iter().collect();
+    assert_eq!(names.len(), cells(header).len(), "{header}");
+    for cell in table.lines().flat_map(cells) {
+        let is_formula = cell.starts_with(['=', '+', '-', '@', '\t']);
+        assert!(!is_formula || cell.parse::<f64>().is_ok(), "{cell}");
     }
 }
 
@@ -294,7 +331,13 @@ fn a_program_is_written_alike_every_time() {
 }
 
 fn refused(program: &Program, robot: Robot, templates: &[Template]) -> String {
-    template::files(program, robot, templates, &Tolerance::default()).unwrap_err().to_string()
+    told(&template::files(program, robot, templates, &Tolerance::default()).unwrap_err())
+}
+
+/// What is wrong, and what would help.
+fn told(error: &Error) -> String {
+    assert!(!error.help().is_empty(), "{error}");
+    format!("{error}; {}", error.help())
 }
 
 /// Free grippers have no arm; a motion needs a time 0; a tolerance is above 0; an array needs as many outputs as it has
@@ -313,7 +356,7 @@ fn what_cannot_be_a_program_is_refused_with_a_remedy() {
     assert!(refused(&short, Robot::Krl, &[]).contains("g0_0_z has not one finite value"));
 
     let none = Tolerance { position: 0.0, ..Tolerance::default() };
-    let fault = template::files(&program, Robot::Rapid, &[], &none).unwrap_err().to_string();
+    let fault = told(&template::files(&program, Robot::Rapid, &[], &none).unwrap_err());
     assert!(fault.contains("position error of 0"), "{fault}");
 
     let mut many = program.clone();
@@ -346,6 +389,39 @@ fn templates_of_the_user_are_used() {
     let other = made(Robot::Krl, "cell.ls.j2", other).unwrap();
     assert_eq!(names(&other), [format!("{name}.ls")]);
     assert!(text(&other, 0).lines().all(|line| line.split(' ').count() == 3));
+}
+
+/// A template is a program of its user's: what does not end, makes more than fits, nests without end or prints everything is refused
+/// with its line and the bound, and a number of digits that no double has is none.
+#[test]
+fn the_work_of_a_template_is_bounded() {
+    let program = cell(0, 101);
+    let loops = "{% for i in range(100000) %}{% for j in range(100000) %}{% endfor %}{% endfor %}";
+    let doubled = "{% set x = 'x' %}".to_owned() + &"{% set x = x ~ x %}".repeat(60);
+    for (text, what) in [
+        (loops.to_owned(), "10 million steps"),
+        (doubled, "10 million steps"),
+        ("{{ 'x' * 10000000000 }}".into(), "10 million steps"),
+        ("{% for x in [1] recursive %}{{ loop([x]) }}{% endfor %}".into(), "deeper than 100"),
+        ("{{ [[1.5]]|mm }}".into(), "is no number"),
+        ("{{ [[1.5]]|comment('!') }}".into(), "is no text"),
+        ("{{ 1.5|fixed(70000) }}".into(), "fixed(70000) asks for more than 17 digits"),
+        ("{{ 1.5|mm(18) }}".into(), "mm(18) asks for more than 17"),
+        ("\n{{ debug() }}".into(), "line 2: `debug` is not there"),
+        ("{% set a = namespace(x=1) %}".into(), "`namespace` is not there"),
+        (" ".repeat(70_000), "65536 are the most"),
+    ] {
+        let own = Template { name: "cell.mod.j2".into(), text: text.clone() };
+        let made = template::files(&program, Robot::Rapid, &[own], &Tolerance::default());
+        let error = made.unwrap_err();
+        let fault = error.to_string();
+        assert!(fault.contains(what) && fault.len() < 300, "{fault}");
+        assert!(fault.contains("line ") || text.starts_with(' '), "{fault}");
+        assert!(!error.help().is_empty(), "{fault}");
+    }
+    let own = Template { name: "cell.mod.j2".into(), text: "{{ 0.1|fixed(17) }}".into() };
+    let made = template::files(&program, Robot::Rapid, &[own], &Tolerance::default()).unwrap();
+    assert_eq!(text(&made, 0), format!("{:.17}", 0.1));
 }
 
 /// A fault in a template is named with its line.

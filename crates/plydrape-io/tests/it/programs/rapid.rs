@@ -38,23 +38,6 @@ fn of_program(module: &str) -> [String; 2] {
     ["tool", "mold"].map(|kind| format!("{kind}_{}", parts[..=end].join("_")))
 }
 
-/// Names that a controller with these modules knows everywhere: modules, procedures and data that is not local.
-pub fn global_names(files: &Files) -> Vec<String> {
-    let mut names = Vec::new();
-    for (_, bytes) in files.iter().filter(|(name, _)| name.ends_with(".mod")) {
-        for line in std::str::from_utf8(bytes).unwrap().lines() {
-            let words: Vec<&str> = line.split_whitespace().collect();
-            match words[..] {
-                ["MODULE", name] => names.push(name.to_owned()),
-                ["PROC", name] => names.push(name.trim_end_matches("()").to_owned()),
-                ["PERS", _, name, ..] => names.push(name.to_owned()),
-                _ => {}
-            }
-        }
-    }
-    names
-}
-
 /// Reads all modules and plays the procedure that calls the others, or the only one.
 pub fn play(files: &Files) -> Played {
     let mut frames = None;

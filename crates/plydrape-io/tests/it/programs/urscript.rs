@@ -37,19 +37,6 @@ pub fn play(files: &Files) -> Played {
     played
 }
 
-/// Names that all scripts of a controller share: functions and global variables.
-pub fn global_names(files: &Files) -> Vec<String> {
-    let mut names = Vec::new();
-    for (_, bytes) in files.iter().filter(|(name, _)| name.ends_with(".script")) {
-        for line in std::str::from_utf8(bytes).unwrap().lines() {
-            let word = line.trim().strip_prefix("def ").or(line.trim().strip_prefix("global "));
-            let letters = |letter: char| !(letter.is_ascii_alphanumeric() || letter == '_');
-            names.extend(word.and_then(|word| word.split(letters).next()).map(str::to_owned));
-        }
-    }
-    names
-}
-
 /// `p[x, y, z, rx, ry, rz]`
 fn pose(reader: &mut Reader) -> Pose {
     reader.expect(&["p"]);

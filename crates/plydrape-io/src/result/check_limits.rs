@@ -1,0 +1,68 @@
+//! Whether the limits of a result that was read are those of its scene, and hold by their values: the words `ok` and `accepted` prove
+//! nothing.
+
+use super::ResultFile;
+use plydrape::layup::Layup;
+use plydrape::measure::{Name, Scope, Verdict};
+use plydrape::motion::Motion;
+
+/// Limits that are formed twice differ by less, as a share.
+const ROUNDING: f64 = 1e-9;
+
+/// What is impossible in the verdicts of the model that decides.
+pub(super) fn fault(result: &ResultFile) -> Option<String> {
+    let limits = &result.summary.limits;
+    let exceeded = |v: &&Verdict| v.ok && !v.name.measure().sense().keeps(v.value, v.limit);
+    if let Some(Verdict { name, value, limit, .. }) = limits.iter().find(exceeded) {
+        let label = name.measure().label();
+        return Some(format!("it says that {label} is kept, which is {value} against {limit}"));
+    }
+    let layup = layup(result);
+    Name::ALL.iter().find_map(|name| {
+        let limit = name.measure().limit(&layup, &result.scene.limits)?;
+        of_limit(result, *name, limit)
+    })
+}
+
+/// What is impossible in the verdict on a measure with a limit of its scene (in the measure's own unit).
+fn of_limit(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
+    let measure = name.measure();
+    let label = measure.label();
+    let values = || result.steps.iter().filter_map(|step| step.measures.value(name));
+    let judged = match measure.scope() {
+        Scope::EveryStep => values().find(|value| !measure.sense().keeps(*value, limit)),
+        Scope::End => values().next_back().filter(|value| !measure.sense().keeps(*value, limit)),
+        Scope::Time | Scope::Motion | Scope::Whole => None,
+    };
+    let in_steps =
+        matches!(measure.scope(), Scope::EveryStep | Scope::End) && values().next().is_some();
+    let factor = measure.unit().factor;
+    match result.summary.limits.iter().find(|verdict| verdict.name == name) {
+        None if in_steps => Some(format!("its {label} is not judged, and its scene limits it")),
+        None => None,
+        Some(v) if (v.limit - limit * factor).abs() > ROUNDING * v.limit.abs() => {
+            let of_scene = limit * factor;
+            Some(format!("its limit of {label} is {}, and that of its scene {of_scene}", v.limit))
+        }
+        Some(v) if v.ok => judged.map(|value| {
+            let value = value * factor;
+            format!("it says that {label} is kept, which a step has at {value} against {}", v.limit)
+        }),
+        Some(_) => None,
+    }
+}
+
+/// The layup that the limits apply to; it needs no motion.
+fn layup(result: &ResultFile) -> Layup {
+    let scene = &result.scene;
+    Layup {
+        ply: scene.ply.clone(),
+        mold: scene.mold.clone(),
+        motion: Motion { times: Vec::new(), positions: Vec::new() },
+        target: scene.target.clone(),
+        settings: scene.settings,
+        bodies: scene.bodies.clone(),
+        tool: scene.tool.clone(),
+        release: scene.release.clone(),
+    }
+}
