@@ -39,7 +39,7 @@ fn the_page_starts_with_the_first_step_of_the_papers_example() {
     for (force, expected) in told_forces.iter().zip(&expected) {
         assert!((force - expected).abs() <= 1e-12 * expected, "{force} N, {expected} N");
     }
-    assert_eq!(told["page"]["limits"].as_array().unwrap().len(), 8);
+    assert_eq!(told["page"]["limits"].as_array().unwrap().len(), 11);
 }
 
 /// The mold comes along only if it is asked for, because it takes longer than the ply.

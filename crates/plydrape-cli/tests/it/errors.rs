@@ -84,7 +84,7 @@ fn a_plan_that_is_not_accepted_tolerates_no_errors() {
         "plan",
         home.path(),
         "\n[limits]\ncontact_share = 1\ngripper_distance = \"0.5 m\"\n",
-        &[],
+        &["--anyway"],
     );
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{shown}{}", text(&output.stderr));

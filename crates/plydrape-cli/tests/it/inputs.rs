@@ -254,10 +254,10 @@ fn a_plan_is_not_replaced_by_its_own_correction() {
 }
 
 /// A ply over a dome that is decided on at once, or improved without an end.
-fn improved(home: &Path, height: &str) -> PathBuf {
+fn improved(home: &Path, position: &str) -> PathBuf {
     let dome = "\n[mold]\nkind = \"sphere\"\nradius = \"1 m\"\nposition = [0.05, 0.05, -1]\n";
     let path = home.join("dome.toml");
-    let limits = format!("\n[limits]\nposition = \"{height}\"\nheight = \"{height}\"\n");
+    let limits = format!("\n[limits]\nposition = \"{position}\"\n");
     let plan = "[plan]\nsteps = 12\nevaluations = 1000000\n";
     fs::write(&path, format!("{PLY}{dome}{limits}{plan}")).unwrap();
     path

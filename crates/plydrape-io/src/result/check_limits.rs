@@ -20,8 +20,21 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let layup = layup(result);
     Name::ALL.iter().find_map(|name| {
         let limit = name.measure().limit(&layup, &result.scene.limits)?;
-        of_limit(result, *name, limit)
+        of_limit(
+            result,
+            *name,
+            if *name == Name::Sensitivity { sensitivity(result, limit) } else { limit },
+        )
     })
+}
+
+/// The limit of the sensitivity, at least `least`: what the verdict says, as far as the height leaves that.
+fn sensitivity(result: &ResultFile, least: f64) -> f64 {
+    let of = |name: Name| result.summary.limits.iter().find(|verdict| verdict.name == name);
+    let left = of(Name::Height).map_or(0.0, |height| height.limit - height.value);
+    let factor = Name::Sensitivity.measure().unit().factor;
+    let said = of(Name::Sensitivity).map_or(least, |verdict| verdict.limit / factor);
+    said.clamp(least, least.max(left / factor))
 }
 
 /// What is impossible in the verdict on a measure with a limit of its scene (in the measure's own unit).

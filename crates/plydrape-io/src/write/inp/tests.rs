@@ -72,5 +72,5 @@ fn what_cannot_be_a_deck_is_refused() {
     assert!(error.to_string().contains("the flat ply has no place among them"), "{error}");
     result.steps.clear();
     let error = text(&result).unwrap_err();
-    assert!(error.to_string().contains("simulate the scene again"), "{error}");
+    assert!(error.help().contains("simulate the scene again"), "{error}");
 }
