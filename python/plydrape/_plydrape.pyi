@@ -3,6 +3,7 @@
 import typing
 
 import matplotlib.figure
+import numpy.typing
 import pandas
 import plydrape.limits
 import plydrape.notebook

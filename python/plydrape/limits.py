@@ -27,7 +27,8 @@ class Limit:
     label : str
         What it is called in tables.
     value : float
-        The worst value that was measured, in `unit`; nan of a limit that could not be judged, and `where` says why.
+        The worst value that was measured, in `unit`; nan of a limit that could not be judged, and
+        `where` says why.
     limit : float
         The value that is allowed, in `unit`.
     unit : str

@@ -219,7 +219,10 @@ COMMANDS = (
     (8, ("net", NAME, "-o", "out")),
     (2, ("net", NAME, "-o", "out", "--json")),
     (6, ("plan", NAME, "--anyway", "-o", "out", "--threads", "1")),
-    (2, ("plan", NAME, "--anyway", "-o", "out", "--threads", "1", "--method", "stepwise", "--json")),
+    (
+        2,
+        ("plan", NAME, "--anyway", "-o", "out", "--threads", "1", "--method", "stepwise", "--json"),
+    ),
 )
 
 KIND = Kind(

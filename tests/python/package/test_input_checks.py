@@ -69,9 +69,9 @@ def test_the_fault_names_step_gripper_and_value() -> None:
 
 
 def test_times_begin_at_zero_and_are_no_milliseconds() -> None:
-    """Straight to its target the example takes 29 s; in milliseconds no gripper is faster than 3 um/s."""
+    """Straight to its target the example takes 29 s, in milliseconds 3 um/s at most."""
     scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")
-    with pytest.raises(ValueError, match="time of step 1 is 5.* begin at 0"):
+    with pytest.raises(ValueError, match=r"time of step 1 is 5.* begin at 0"):
         scene.with_motion(scene.times + 5, scene.positions)
     with pytest.raises(ValueError, match=r"did you mean ms\?.*slow=True"):
         scene.with_motion(1000 * scene.times, scene.positions)
@@ -128,8 +128,10 @@ def test_what_is_no_scene_is_told_how_to_read_one(door: object, given: object) -
     assert callable(door)
     with pytest.raises(TypeError, match=r'is no Scene: Scene\.read\("scene\.toml"\)'):
         door(given)
+
+
 NO_NUMBERS = [
-    (np.ma.array(np.zeros((2, 3)), mask=[[0, 0, 0], [0, 0, 1]]), "masked"),
+    (np.ma.array(np.zeros((2, 3)), mask=[[False] * 3, [False, False, True]]), "masked"),
     (np.zeros((2, 3), complex), "complex numbers"),
     (np.array([["0", "0", "0"], ["1", "0", "0"]]), "texts"),
     (np.array([["0", "0", "0"], ["1", "0", "0"]], object), "objects of Python"),
@@ -143,7 +145,7 @@ def test_what_is_no_array_of_numbers_is_refused_at_every_door(array: np.ndarray,
     scene = strip()
     solver = plydrape.Solver.of(scene)
     triangles = [[0, 1, 2]]
-    corners = np.ma.concatenate([array, array[:1]]) if why == "masked" else array[[0, 1, 0]]
+    corners = array[[0, 1, 0]]
     for call in (
         lambda: solver.solve(array),
         lambda: plydrape.batch.equilibria(solver, array[None]),
