@@ -45,6 +45,11 @@ def number(value: float) -> str:
     return "inf" if value == float("inf") else repr(float(value))
 
 
+def stiffness(value: float) -> str:
+    """An axial stiffness; a soft one is believed with its unit alone."""
+    return "inf" if value == float("inf") else f'"{value!r} N"'
+
+
 def scene(problem: Problem) -> str:
     """The problem as a scene file that holds its grippers still."""
     nu, nv = problem.size
@@ -72,7 +77,7 @@ def scene(problem: Problem) -> str:
             "[model]",
             'kind = "catenaries"',
             f'slopes = "{problem.rule}"',
-            f"axial_stiffness = {number(problem.axial_stiffness)}",
+            f"axial_stiffness = {stiffness(problem.axial_stiffness)}",
             f"gravity = {number(problem.gravity)}",
             "",
         ]

@@ -128,7 +128,7 @@ BEYOND: dict[str, list[tuple[float | str, str]]] = {
     "> 0": [(0, "is zero"), (-1e-6, "is negative")],
     "≥ 0": [(-1e-6, "is negative")],
     "≥ 1": [(0.99, "is too small")],
-    "0 to 1": [(-1e-6, "is negative"), (1.01, "is more than")],
+    "0 to 1": [(-1e-6, "is negative"), ("101 %", "is more than")],
     "> 0, ≤ 1": [(0, "is zero"), (1.01, "is more than")],
     "> 0, < 90 deg": [(0, "is zero"), ("91 deg", "is a right angle or more")],
     "-90 to 90 deg": [("91 deg", "a right angle or more"), ("-91 deg", "a right angle or more")],

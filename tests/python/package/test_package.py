@@ -142,6 +142,8 @@ def of_its_model(result: plydrape.Result, by_name: dict[str, plydrape.Measure]) 
     assert measured == {*result.measures}
     for name, limit in result.limits.items():
         measure = by_name[name]
+        if measure.key not in stepwise:
+            continue
         values = result.measures[measure.key]
         least = measure.sense == "at-least"
         worst = np.nanmin(values) if least else np.nanmax(values)

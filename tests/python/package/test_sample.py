@@ -28,7 +28,7 @@ LOOSE: dict[str, Any] = {
     "height": "1 m",
     "out_of_plane": "89 deg",
     "position": "1 m",
-    "strain": 1,
+    "strain": "100 %",
     "fibre_angle": "89 deg",
 }
 
