@@ -248,7 +248,6 @@ fn load_row(load: Option<&Load>, mount: Option<&Stiffness>) -> Vec<String> {
     row
 }
 
-/// The shortest decimal that reads back to the same double.
 /// A text of a scene as a cell: one that a spreadsheet would take for a formula begins with an apostrophe, which it takes for text.
 pub(crate) fn cell(text: &str) -> String {
     if is_formula(text) { format!("'{text}") } else { text.to_owned() }
@@ -264,6 +263,7 @@ fn is_formula(text: &str) -> bool {
     text.starts_with(['=', '+', '-', '@', '\t', '\r'])
 }
 
+/// The shortest decimal that reads back to the same double.
 pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
 }
