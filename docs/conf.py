@@ -64,7 +64,7 @@ def rust() -> str:
 MADE = {"guide/keys": keys.markdown, "guide/api": api.markdown, "guide/rust": rust}
 
 # A link to a document that is no page of the guide.
-OUTER_LINK = re.compile(r"\[((?:DESIGN|CONTRIBUTING)\.md)\]\((?:\.\./)+\1\)")
+OUTER_LINK = re.compile(r"\[((?:DESIGN|CONTRIBUTING|SECURITY)\.md)\]\((?:\.\./)+\1\)")
 
 TAG = re.compile(r"\\tag\{(.*?)\}")
 

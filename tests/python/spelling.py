@@ -20,6 +20,7 @@ FILES = (
     "README.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
+    "SECURITY.md",
     "DESIGN.md",
     "docs/**/*.md",
     "benches/*.md",

@@ -114,7 +114,7 @@ pub fn write(
     put(&files(result, format, options)?, dir, &result.files)
 }
 
-/// Writes files as [`write`] does, by a run that has `read` others: none of them is replaced.
+/// Writes files as [`write()`] does, by a run that has `read` others: none of them is replaced.
 ///
 /// # Errors
 /// [`Error`], as for [`crate::write_all`].
