@@ -32,10 +32,11 @@ pub struct Resting {
     pub still: Vec<bool>,
     /// Whether each node moves on in the iterations of a time step, or one near by does.
     moving: Vec<bool>,
+    /// Rings of nodes around one that moves, which are unknowns with it.
+    rings: usize,
+    /// Whether each node moved before the last ring was added; then whether it is no unknown.
+    held: Vec<bool>,
 }
-
-/// Rings of nodes around one that moves, which are unknowns with it.
-const RINGS: usize = 2;
 
 impl Resting {
     /// The nodes of a sheet, none of which lies.
@@ -51,6 +52,8 @@ impl Resting {
             lies: vec![false; nodes],
             still: vec![false; nodes],
             moving: vec![true; nodes],
+            rings: tuning.moving_rings,
+            held: vec![false; nodes],
         }
     }
 
@@ -95,18 +98,18 @@ impl Resting {
     pub fn narrow(&mut self, tolerance: f64, system: &mut System) {
         self.moving.clear();
         self.moving.extend(system.step.iter().map(|step| norm(*step) > tolerance));
-        for _ in 0..RINGS {
-            self.lies.copy_from_slice(&self.moving);
+        for _ in 0..self.rings {
+            self.held.copy_from_slice(&self.moving);
             for [a, b] in self.pairs.iter().map(|pair| pair.map(|node| node as usize)) {
-                self.moving[a] |= self.lies[b];
-                self.moving[b] |= self.lies[a];
+                self.moving[a] |= self.held[b];
+                self.moving[b] |= self.held[a];
             }
         }
-        let out = &mut self.lies;
-        for (out, (moving, still)) in out.iter_mut().zip(self.moving.iter().zip(&self.still)) {
-            *out = !moving || *still;
+        for (held, (moving, still)) in self.held.iter_mut().zip(self.moving.iter().zip(&self.still))
+        {
+            *held = !moving || *still;
         }
-        system.keep_still(out);
+        system.keep_still(&self.held);
     }
 
     /// Counts a time step: for how many of them each node has hardly moved.

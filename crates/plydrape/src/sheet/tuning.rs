@@ -54,6 +54,9 @@ pub struct Tuning {
     pub lying_steps: u32,
     /// Largest force (of its own weight) that is out of balance at such a node where the mold does not press it.
     pub lying_force: f64,
+    /// Rings of nodes around one that moves beyond the tolerance in a linear step, which stay unknowns with it: two, because a
+    /// second difference reaches as far.
+    pub moving_rings: usize,
     /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
     /// what is faster.
     pub real_step: f64,
@@ -95,6 +98,7 @@ impl Default for Tuning {
             lying_movement: 1e-4,
             lying_steps: 2,
             lying_force: 0.1,
+            moving_rings: 2,
             real_step: 0.02,
             smallest_step: 1e-4,
             tries: 400,
