@@ -51,6 +51,24 @@ enum Kind {
         #[arg(long, value_name = "TITLE")]
         force: Option<String>,
     },
+    /// What resin adds to shear, from bias extension in time: displacement, force and time, strips at two speeds or more, or held.
+    Rate {
+        /// The tables, one a specimen.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Width of the specimens.
+        #[arg(long, value_name = "LENGTH")]
+        width: Option<String>,
+        /// Length between the clamps, two widths or more.
+        #[arg(long, value_name = "LENGTH")]
+        length: Option<String>,
+        /// Title of the column of displacements, where it has another name than usual.
+        #[arg(long, value_name = "TITLE")]
+        displacement: Option<String>,
+        /// Title of the column of forces.
+        #[arg(long, value_name = "TITLE")]
+        force: Option<String>,
+    },
     /// A shear curve from a picture frame: displacement and force, one file a specimen.
     Frame {
         /// The tables, one a specimen.
@@ -177,6 +195,15 @@ impl Kind {
         Ok(match self {
             Kind::Bias { files, width, length: l, displacement, force } => Request {
                 test: Test::Bias {
+                    width: length("--width", width)?,
+                    length: length("--length", l)?,
+                },
+                warp: files.clone(),
+                weft: Vec::new(),
+                titles: [displacement.clone(), force.clone()],
+            },
+            Kind::Rate { files, width, length: l, displacement, force } => Request {
+                test: Test::Rate {
                     width: length("--width", width)?,
                     length: length("--length", l)?,
                 },

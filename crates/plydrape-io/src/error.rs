@@ -306,6 +306,9 @@ impl From<Cause> for Error {
             Cause::FitReach { .. } => {
                 "let the displacement begin at zero where the loading begins; it may be the place of the crosshead: subtract the first one from all; see whether its sign, its unit and the sizes of the specimen are right"
             }
+            Cause::FitNoRate => {
+                "pull strips at two speeds or more, tenfold apart, and hold one of them where it is; the record of the hold belongs to its file"
+            }
             Cause::FitRange { .. } => "see whether the units in the headers and options are right",
             Cause::FitNoStrip { .. } => {
                 "x points away from the edge, z up, both are 0 at the edge; moments and curvatures that go together have one sign"

@@ -4,8 +4,9 @@ use crate::Error;
 use crate::scene::{FitTable, Reading, read_fit};
 use plydrape::Error as Cause;
 use plydrape::fit::{
-    BiasExtension, Estimate, Hang, MomentFit, Overhang, PictureFrame, PointFault, Remark, ShearFit,
-    ShearSpecimen, ShearTest, Sure, fit_hang, fit_moments, fit_shear,
+    BiasExtension, Estimate, Hang, MomentFit, Overhang, PictureFrame, PointFault, RateFit, Remark,
+    ShearFit, ShearSpecimen, ShearTest, Sure, TimedSpecimen, fit_hang, fit_moments, fit_rate,
+    fit_shear,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -19,6 +20,13 @@ const GRAVITY: f64 = 9.81;
 pub enum Test {
     /// Bias extension: width and length of the specimens (m).
     Bias {
+        /// Width (m).
+        width: Option<f64>,
+        /// Length between the clamps (m).
+        length: Option<f64>,
+    },
+    /// Bias extension in time, at several speeds or held: width and length of the specimens (m).
+    Rate {
         /// Width (m).
         width: Option<f64>,
         /// Length between the clamps (m).
@@ -87,6 +95,8 @@ pub struct Fitted {
     pub bending: [Option<BendingFit>; 2],
     /// Shear.
     pub shear: Option<ShearFit>,
+    /// What resin adds to shear.
+    pub rate: Option<RateFit>,
 }
 
 /// A specimen: its name and its table.
@@ -105,6 +115,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         notes: Vec::new(),
         bending: [None, None],
         shear: None,
+        rate: None,
     };
     let titles = [0, 1].map(|n| request.titles[n].as_deref());
     let of = |reading: Reading| -> Result<[Vec<Specimen>; 2], Error> {
@@ -124,6 +135,22 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
             let sizes = fitted.sheared(&tables, test)?;
             let specimens = specimens(tables.len());
             fitted.test = format!("bias extension, {specimens} of {sizes}");
+        }
+        Test::Rate { width, length } => {
+            let [tables, _] = of(Reading::Timed)?;
+            let mut timed = Vec::with_capacity(tables.len());
+            for (name, table) in &tables {
+                let width = table.measure("width", *width)?;
+                let length = table.measure("length", *length)?;
+                timed.push(TimedSpecimen {
+                    name: name.clone(),
+                    test: BiasExtension { width, length },
+                    points: table.rows.clone(),
+                    times: table.times.clone(),
+                });
+            }
+            fitted.rate = Some(fit_rate(&timed).map_err(|cause| placed(&tables, cause))?);
+            fitted.test = format!("bias extension in time, {}", specimens(tables.len()));
         }
         Test::Frame { side, fabric } => {
             let [tables, _] = of(Reading::Pull)?;
@@ -209,7 +236,8 @@ fn placed(tables: &[Specimen], cause: Cause) -> Error {
                 PointFault::BelowZero
                 | PointFault::NotZero
                 | PointFault::FallsEarly
-                | PointFault::Upwards => 1,
+                | PointFault::Upwards
+                | PointFault::Untimely => 1,
             };
             Some(([*point, column], fault.to_string()))
         }
@@ -491,6 +519,24 @@ impl Fitted {
                 list(&shear.force, " N/m")
             );
         }
+        if let Some(rate) = &self.rate {
+            let degrees: Vec<f64> = rate.angle.iter().map(|angle| angle.to_degrees()).collect();
+            let _ = writeln!(
+                text,
+                "# of very slow shear; what is left of the forces of the machine is {} N\nshear_curve = {{ angle = [{}], force = [{}] }}",
+                short(rate.residual),
+                list(&degrees, " deg"),
+                list(&rate.force, " N/m")
+            );
+            let _ = writeln!(
+                text,
+                "# stiffness: {}\n# relaxation: {}\nshear_rate = {{ stiffness = \"{} N/m\", relaxation = \"{} s\" }}",
+                sure(&rate.stiffness, "N/m"),
+                sure(&rate.relaxation, "s"),
+                short(rate.stiffness.value),
+                short(rate.relaxation.value)
+            );
+        }
         let scatter = self.scatter();
         if !scatter.is_empty() {
             text.push_str("\n[scatter]\n");
@@ -561,6 +607,16 @@ impl Fitted {
                 "specimens": shear.reach.len(),
             });
             object.insert("shear".into(), shear);
+        }
+        if let Some(rate) = &self.rate {
+            let rate = json!({
+                "stiffness": estimate(&rate.stiffness),
+                "relaxation": estimate(&rate.relaxation),
+                "angle": rate.angle,
+                "force": rate.force,
+                "residual": rate.residual,
+            });
+            object.insert("shear_rate".into(), rate);
         }
         object.insert("toml".into(), json!(self.toml()));
         Value::Object(object)

@@ -256,6 +256,7 @@ fn frame(grid: Grid) -> ResultFile {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };
@@ -315,6 +316,7 @@ fn frame(grid: Grid) -> ResultFile {
             catenaries: None,
             sample: None,
             tolerance: None,
+            rate_tolerance: None,
             tool: None,
         },
     }

@@ -1,9 +1,11 @@
 //! What the ply is made of: mass, flexural rigidity, shear curve and locking angle.
 
 mod moment;
+mod rate;
 mod scatter;
 
 pub use moment::MomentCurve;
+pub use rate::{Relaxation, ShearRate};
 pub use scatter::{Scatter, Spread};
 
 /// A woven ply: what the sheet and the catenaries need to know of it.
@@ -22,6 +24,10 @@ pub struct Material {
     pub moment: [Option<MomentCurve>; 2],
     /// Picture-frame shear force per length τ(γ); `None` leaves shear forces unknown.
     pub shear_curve: Option<ShearCurve>,
+    /// What resin adds to that force while the ply is sheared; `None` where nothing is known of it. Only a sheet that is draped in the
+    /// time of its motion knows it.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub shear_rate: Option<ShearRate>,
     /// Tension over strain of the yarns; the sheet needs it, the catenaries do not.
     pub tension: Option<TensionLaw>,
     /// Shear angle at which the weave locks (rad), with the test that found it.
@@ -42,6 +48,7 @@ impl Material {
             section: Section::Areal { mass, warp_rigidity: rigidity, weft_rigidity: rigidity },
             moment: [None, None],
             shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![shear] }),
+            shear_rate: None,
             tension: Some(TensionLaw::Linear { stiffness: tension }),
             locking_angle: None,
             scatter: Scatter::default(),

@@ -105,13 +105,14 @@ pub fn fit(
     let angle = angle.si("angle", Measured::Angle, &usual::ANGLE)?;
     let (test, titles) = match test {
         "bias" => (Test::Bias { width, length }, [displacement, force]),
+        "rate" => (Test::Rate { width, length }, [displacement, force]),
         "frame" => (Test::Frame { side, fabric }, [displacement, force]),
         "overhang" => (Test::Overhang { mass, angle }, [overhang, None]),
         "hang" => (Test::Hang { mass, length }, [x, z]),
         "moments" => (Test::Moments, [curvature, moment]),
         other => {
             return Err(PyValueError::new_err(format!(
-                "test is {other:?}; bias, frame, overhang, hang or moments is wanted"
+                "test is {other:?}; bias, rate, frame, overhang, hang or moments is wanted"
             )));
         }
     };

@@ -57,6 +57,9 @@ pub enum Error {
         /// What it may be.
         range: &'static str,
     },
+    /// The tests do not show how resin resists shear.
+    #[error("the forces of these strips do not depend on how fast they are pulled")]
+    FitNoRate,
     /// The points of a specimen lie on no curve of a heavy strip.
     #[error("the points of {what} fit no heavy strip: {reason}")]
     FitNoStrip {
@@ -413,6 +416,8 @@ pub enum PointFault {
     BehindEdge,
     /// A strip bends upwards.
     Upwards,
+    /// The time does not rise.
+    Untimely,
 }
 
 impl fmt::Display for PointFault {
@@ -428,6 +433,7 @@ impl fmt::Display for PointFault {
             }
             PointFault::BehindEdge => "a point of the strip lies behind the edge",
             PointFault::Upwards => "the strip bends upwards",
+            PointFault::Untimely => "the time does not rise",
         })
     }
 }
@@ -458,6 +464,9 @@ impl PointFault {
             PointFault::BehindEdge => "x goes away from the edge: change the sign of the column",
             PointFault::Upwards => {
                 "z goes up, so that a strip that hangs has points below zero: change the sign of the column"
+            }
+            PointFault::Untimely => {
+                "give the rows in the order of time, with as many digits of the time as tell them apart"
             }
         }
     }

@@ -23,6 +23,7 @@ fn lowered(grid: Grid, heights: &[f64], [first, last]: [f64; 2]) -> Layup {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

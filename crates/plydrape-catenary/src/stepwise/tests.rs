@@ -21,6 +21,7 @@ pub fn layup(count: usize) -> Layup {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

@@ -241,10 +241,18 @@ fn material(material: &Material) -> String {
         Some(angle) => format!(", locks at {} deg", degrees(angle)),
         None => String::new(),
     };
+    let rate = match &material.shear_rate {
+        Some(rate) => format!(
+            ", with resin of {} N/m per rad that relaxes in {} s",
+            short(rate.stiffness),
+            short(rate.time())
+        ),
+        None => String::new(),
+    };
     let tension = match &material.tension {
         Some(TensionLaw::Linear { stiffness }) => format!(", EA' {} N/m", short(*stiffness)),
         Some(TensionLaw::Table { strain, .. }) => format!(", tension of {} points", strain.len()),
         None => String::new(),
     };
-    format!("{}: {section}{moments}; {shear}{tension}{locking}", material.name)
+    format!("{}: {section}{moments}; {shear}{rate}{tension}{locking}", material.name)
 }

@@ -23,6 +23,9 @@ fn mesh(scene: &Scene) -> String {
         None => "lines of nodes up to a tenth of a cell apart".into(),
     };
     let time = match sheet.time {
+        SheetTime::QuasiStatic if scene.layup.ply.material.shear_rate.is_some() => {
+            "quasi-static, so that the resin of the ply does not count"
+        }
         SheetTime::QuasiStatic => "quasi-static",
         SheetTime::Real => "in real time",
     };

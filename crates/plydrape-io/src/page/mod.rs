@@ -36,6 +36,7 @@ use crate::result::ResultFile;
 use crate::result::sheet::ended;
 use crate::scene::SceneFile;
 use crate::store::format::VERSION;
+use crate::text::table::tolerances;
 use block::Block;
 use catenaries::Detail;
 use cell::{Cell, VacuumEvent, cell, events};
@@ -46,7 +47,7 @@ use look::{Look, look};
 use mold::Mold;
 use plydrape::layup::Model;
 use plydrape::ply::GripperId;
-use sample::{Sample, sample, tolerance};
+use sample::{Sample, sample};
 use serde::Serialize;
 use sheet::KeptStates;
 
@@ -218,7 +219,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
         cell: cell(scene),
         events: events(result),
         sample,
-        tolerance: tolerance(result),
+        tolerance: tolerances(result),
         look: None,
     })
 }

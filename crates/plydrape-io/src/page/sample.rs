@@ -3,7 +3,7 @@
 use super::limit::{Limit, closest_first};
 use crate::result::ResultFile;
 use crate::result::sheet::SheetMesh;
-use crate::text::table::{sample_in_words, share, tolerance_in_words};
+use crate::text::table::{sample_in_words, share};
 use plydrape::geometry::distance;
 use plydrape::measure::Name;
 use plydrape::outcome::CellVerdict;
@@ -64,12 +64,6 @@ fn nearest(mesh: &SheetMesh, [u, v]: [f64; 2]) -> Option<usize> {
     let away = |place: &[f64; 2]| distance([place[0], place[1], 0.0], [u, v, 0.0]);
     let places = mesh.places.iter().enumerate();
     places.min_by(|a, b| away(a.1).total_cmp(&away(b.1))).map(|(node, _)| node)
-}
-
-/// What the motion tolerates, in words, line by line; none where it was not asked for.
-pub(super) fn tolerance(result: &ResultFile) -> Vec<String> {
-    let tolerance = result.summary.tolerance.as_ref();
-    tolerance.map_or_else(Vec::new, |tolerance| tolerance_in_words(result, tolerance))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::ResultFile;
 use plydrape::errors::Errors;
-use plydrape::outcome::{SampleVerdict, Tolerance};
+use plydrape::outcome::{RateTolerance, SampleVerdict, Tolerance};
 use plydrape::scene::World;
 
 /// Confidences of one count by two machines differ by less.
@@ -16,7 +16,9 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);
     let sample = summary.sample.as_ref().and_then(|sample| of_sample(sample, nodes, result));
-    sample.or_else(|| summary.tolerance.as_ref().and_then(of_tolerance))
+    sample
+        .or_else(|| summary.tolerance.as_ref().and_then(of_tolerance))
+        .or_else(|| summary.rate_tolerance.as_ref().and_then(of_rate_tolerance))
 }
 
 fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
@@ -57,6 +59,12 @@ fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Optio
 
 fn is_share(errors: &Errors) -> bool {
     errors.share > 0.0 && errors.share <= 1.0
+}
+
+fn of_rate_tolerance(tolerance: &RateTolerance) -> Option<String> {
+    let least = RateTolerance::MOST.recip();
+    let speed = tolerance.speed.filter(|speed| !(least..=RateTolerance::MOST).contains(speed))?;
+    Some(format!("it tolerates {speed} times its speed"))
 }
 
 fn of_tolerance(tolerance: &Tolerance) -> Option<String> {

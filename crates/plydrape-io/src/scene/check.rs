@@ -16,7 +16,7 @@ use super::release::release;
 use super::settings::{self, settings};
 use super::source::Document;
 use super::trajectory::trajectory;
-use super::{SceneFile, cut, material, mold, named, start, target, tool, usual};
+use super::{SceneFile, cut, material, mold, named, rate, start, target, tool, usual};
 use crate::Error;
 use crate::read::outline::Drawn;
 use crate::store::shown;
@@ -195,7 +195,10 @@ pub(super) fn ply(
     base: &Path,
 ) -> Result<(Ply, CutRead), Error> {
     let table = &ply.value;
-    let material = material::material(&table.material, document, base)?;
+    let mut material = material::material(&table.material, document, base)?;
+    if let Some(temperature) = &table.temperature {
+        rate::set_temperature(&mut material, temperature, document)?;
+    }
     if cut::is_cut(table) {
         let radius = match grippers.and_then(|grippers| grippers.pad_radius.as_ref()) {
             Some(radius) => radius.size_or_zero(document, &usual::PAD)?,

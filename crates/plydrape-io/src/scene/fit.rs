@@ -17,6 +17,8 @@ use std::path::Path;
 pub enum Reading {
     /// Displacement and force of a machine: `displacement`, `force`.
     Pull,
+    /// The same in time: `displacement`, `force`, `time`.
+    Timed,
     /// Overhangs, one specimen a row: `overhang`.
     Overhang,
     /// Points of a hanging strip: `x`, `z`.
@@ -30,6 +32,8 @@ pub enum Reading {
 pub struct Table {
     /// Its rows (SI); the second number is 0 where there is one column.
     pub rows: Vec<[f64; 2]>,
+    /// Times of the rows (s), of a table that is read with them.
+    pub times: Vec<f64>,
     document: Document,
     /// The numbers of each row.
     places: Vec<[Range<usize>; 2]>,
@@ -172,6 +176,11 @@ const FORCE: Column = Column {
         words: "forces of shear tests reach 0.05 N to 5000 N",
     }),
 };
+const TIME: Column = Column {
+    last_words: &["time", "temps", "tempo", "tiempo"],
+    endings: &["zeit"],
+    ..Column::named(&["time", "t"], Dimension::TIME)
+};
 const OVERHANG: Column = Column {
     names: &["overhang", "overhang length", "overhanging length"],
     last_words: &["overhang"],
@@ -221,6 +230,7 @@ impl Reading {
         };
         match self {
             Reading::Pull => &[DISPLACEMENT, FORCE],
+            Reading::Timed => &[DISPLACEMENT, FORCE, TIME],
             Reading::Overhang => &[OVERHANG],
             Reading::Points => &[X, Z],
             Reading::Moment => &[CURVATURE, MOMENT],
@@ -240,7 +250,7 @@ pub fn read_fit(path: &Path, reading: Reading, chosen: &[Option<&str>]) -> Resul
 fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Result<Table, Error> {
     let csv = Csv::new(&document, reading.columns(), chosen)?;
     let mut stated = stated(&document, &csv.header())?;
-    let (mut rows, mut places) = (Vec::new(), Vec::new());
+    let (mut rows, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
     for row in csv.rows() {
         let first = row.number(0)?;
         if reading == Reading::Overhang && first <= 0.0 {
@@ -251,6 +261,9 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
             ));
         }
         rows.push([first, if reading == Reading::Overhang { 0.0 } else { row.number(1)? }]);
+        if reading == Reading::Timed {
+            times.push(row.number(2)?);
+        }
         places.push([row.place(0), row.place(reading.columns().len() - 1)]);
     }
     let header = csv.header();
@@ -269,7 +282,7 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
         of_one_value(&csv, &DIRECTIONS, "give strips along warp and weft files of their own")?;
     }
     in_columns(&document, &csv, reading, &mut stated)?;
-    Ok(Table { rows, places, header, stated, document })
+    Ok(Table { rows, times, places, header, stated, document })
 }
 
 /// Refuses a table with a column of one of these names that has several values.
@@ -299,11 +312,10 @@ fn in_columns(
     reading: Reading,
     stated: &mut Vec<Stated>,
 ) -> Result<(), Error> {
+    let pulls = matches!(reading, Reading::Pull | Reading::Timed);
     for (index, Title { name, unit, place }) in csv.titles().into_iter().enumerate() {
         // of a strip the length may be that along its points
-        let known = STATED
-            .iter()
-            .find(|(key, _)| *key == name && (*key != "length" || reading == Reading::Pull));
+        let known = STATED.iter().find(|(key, _)| *key == name && (*key != "length" || pulls));
         let Some((key, dimension)) = known else { continue };
         let size = unit.as_deref().and_then(|unit| units::unit(unit).ok());
         let mut values = csv.rows().map(|row| row.value(index));

@@ -8,7 +8,7 @@ use super::quantity::{BendingRigidity, Measure, Quantity, Ratio};
 use super::source::{Document, excerpt};
 use super::units::Dimension;
 use super::usual::{self, Usual};
-use super::{curve, read};
+use super::{curve, rate, read};
 use crate::Error;
 use crate::store::shown;
 use plydrape::material::{Material, MomentCurve, Scatter, Section, Spread};
@@ -167,6 +167,11 @@ fn from_table(
         section,
         moment,
         shear_curve,
+        shear_rate: table
+            .shear_rate
+            .as_ref()
+            .map(|rate| rate::shear(rate, document))
+            .transpose()?,
         tension,
         locking_angle,
         scatter: scatter(table, document)?,

@@ -39,6 +39,7 @@ mod offset;
 mod places;
 mod plan;
 mod quantity;
+mod rate;
 mod read;
 mod rectangle;
 mod release;

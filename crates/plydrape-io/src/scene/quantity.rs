@@ -83,6 +83,8 @@ measures! {
     ShearSlope: [FORCE_PER_LENGTH, SHEAR_SLOPE], "a shear force per length and radian", "N/m", "5 N/m";
     /// Stiffness of a gripper's mount (N/m).
     Stiffness: [FORCE_PER_LENGTH], "a stiffness", "N/m", "2 N/mm";
+    /// Temperature (K).
+    Temperature: [TEMPERATURE, CELSIUS], "a temperature", "K", "25 degC";
     /// Shear stress (Pa).
     Pressure: [PRESSURE], "a pressure", "Pa", "90 Pa";
 }
@@ -295,6 +297,9 @@ impl<M: Measure> Quantity<M> {
 /// A value of a dimension that fits in SI units: a weight in place of a force is that on Earth.
 fn si<M: Measure>(value: f64, dimension: Dimension) -> Option<f64> {
     let fits = |dimension| M::DIMENSIONS.contains(&dimension);
+    if dimension == Dimension::CELSIUS && fits(Dimension::TEMPERATURE) {
+        return Some(value + units::FREEZING);
+    }
     if fits(dimension.times(Dimension::ACCELERATION, 1)) {
         return Some(value * units::STANDARD_GRAVITY);
     }

@@ -10,35 +10,38 @@ use crate::error::Fault;
 use std::borrow::Cow;
 use std::fmt;
 
-/// Powers of meter, kilogram, second and radian.
+/// Powers of meter, kilogram, second, radian, kelvin, and of the degree Celsius, which counts from another zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Dimension(pub [i32; 4]);
+pub(super) struct Dimension(pub [i32; 6]);
 
 impl Dimension {
-    pub const NONE: Self = Dimension([0, 0, 0, 0]);
-    pub const LENGTH: Self = Dimension([1, 0, 0, 0]);
-    pub const MASS: Self = Dimension([0, 1, 0, 0]);
-    pub const TIME: Self = Dimension([0, 0, 1, 0]);
-    pub const ANGLE: Self = Dimension([0, 0, 0, 1]);
-    pub const FORCE: Self = Dimension([1, 1, -2, 0]);
-    pub const PRESSURE: Self = Dimension([-1, 1, -2, 0]);
-    pub const SPEED: Self = Dimension([1, 0, -1, 0]);
-    pub const ACCELERATION: Self = Dimension([1, 0, -2, 0]);
-    pub const JERK: Self = Dimension([1, 0, -3, 0]);
-    pub const ANGULAR_RATE: Self = Dimension([0, 0, -1, 1]);
-    pub const ANGULAR_ACCELERATION: Self = Dimension([0, 0, -2, 1]);
-    pub const FREQUENCY: Self = Dimension([0, 0, -1, 0]);
-    pub const LINE_MASS: Self = Dimension([-1, 1, 0, 0]);
-    pub const AREAL_MASS: Self = Dimension([-2, 1, 0, 0]);
-    pub const FLEXURAL_RIGIDITY: Self = Dimension([3, 1, -2, 0]);
-    pub const MOMENT: Self = Dimension([2, 1, -2, 0]);
-    pub const FORCE_PER_LENGTH: Self = Dimension([0, 1, -2, 0]);
-    pub const CURVATURE: Self = Dimension([-1, 0, 0, 0]);
-    pub const SHEAR_SLOPE: Self = Dimension([0, 1, -2, -1]);
+    pub const NONE: Self = Dimension([0, 0, 0, 0, 0, 0]);
+    pub const LENGTH: Self = Dimension([1, 0, 0, 0, 0, 0]);
+    pub const MASS: Self = Dimension([0, 1, 0, 0, 0, 0]);
+    pub const TIME: Self = Dimension([0, 0, 1, 0, 0, 0]);
+    pub const ANGLE: Self = Dimension([0, 0, 0, 1, 0, 0]);
+    pub const FORCE: Self = Dimension([1, 1, -2, 0, 0, 0]);
+    pub const PRESSURE: Self = Dimension([-1, 1, -2, 0, 0, 0]);
+    pub const SPEED: Self = Dimension([1, 0, -1, 0, 0, 0]);
+    pub const ACCELERATION: Self = Dimension([1, 0, -2, 0, 0, 0]);
+    pub const JERK: Self = Dimension([1, 0, -3, 0, 0, 0]);
+    pub const ANGULAR_RATE: Self = Dimension([0, 0, -1, 1, 0, 0]);
+    pub const ANGULAR_ACCELERATION: Self = Dimension([0, 0, -2, 1, 0, 0]);
+    pub const FREQUENCY: Self = Dimension([0, 0, -1, 0, 0, 0]);
+    pub const LINE_MASS: Self = Dimension([-1, 1, 0, 0, 0, 0]);
+    pub const AREAL_MASS: Self = Dimension([-2, 1, 0, 0, 0, 0]);
+    pub const FLEXURAL_RIGIDITY: Self = Dimension([3, 1, -2, 0, 0, 0]);
+    pub const MOMENT: Self = Dimension([2, 1, -2, 0, 0, 0]);
+    pub const FORCE_PER_LENGTH: Self = Dimension([0, 1, -2, 0, 0, 0]);
+    pub const CURVATURE: Self = Dimension([-1, 0, 0, 0, 0, 0]);
+    pub const SHEAR_SLOPE: Self = Dimension([0, 1, -2, -1, 0, 0]);
+
+    pub const TEMPERATURE: Self = Dimension([0, 0, 0, 0, 1, 0]);
+    pub const CELSIUS: Self = Dimension([0, 0, 0, 0, 0, 1]);
 
     /// Mass in place of weight: of a bending rigidity per width, and of a flexural rigidity.
-    pub const WEIGHED_MOMENT: Self = Dimension([1, 1, 0, 0]);
-    pub const WEIGHED_RIGIDITY: Self = Dimension([2, 1, 0, 0]);
+    pub const WEIGHED_MOMENT: Self = Dimension([1, 1, 0, 0, 0, 0]);
+    pub const WEIGHED_RIGIDITY: Self = Dimension([2, 1, 0, 0, 0, 0]);
 
     /// Multiplies by another dimension's power.
     pub fn times(self, other: Dimension, power: i32) -> Self {
@@ -51,7 +54,7 @@ impl Dimension {
 }
 
 /// The dimensions with a name of their own.
-const NAMES: [(Dimension, &str); 22] = [
+const NAMES: [(Dimension, &str); 24] = [
     (Dimension::NONE, "a number without a unit"),
     (Dimension::LENGTH, "a length"),
     (Dimension::MASS, "a mass"),
@@ -72,8 +75,10 @@ const NAMES: [(Dimension, &str); 22] = [
     (Dimension::FORCE_PER_LENGTH, "a force per length"),
     (Dimension::SHEAR_SLOPE, "a force per length and angle"),
     (Dimension::CURVATURE, "a curvature"),
-    (Dimension([2, 0, 0, 0]), "an area"),
-    (Dimension([-3, 1, 0, 0]), "a density"),
+    (Dimension::TEMPERATURE, "a temperature"),
+    (Dimension::CELSIUS, "a temperature"),
+    (Dimension([2, 0, 0, 0, 0, 0]), "an area"),
+    (Dimension([-3, 1, 0, 0, 0, 0]), "a density"),
 ];
 
 impl fmt::Display for Dimension {
@@ -82,7 +87,7 @@ impl fmt::Display for Dimension {
             return f.write_str(name);
         }
         f.write_str("a quantity in")?;
-        for (symbol, power) in ["m", "kg", "s", "rad"].into_iter().zip(self.0) {
+        for (symbol, power) in ["m", "kg", "s", "rad", "K", "degC"].into_iter().zip(self.0) {
             match power {
                 0 => {}
                 1 => write!(f, " {symbol}")?,
@@ -96,12 +101,15 @@ impl fmt::Display for Dimension {
 /// Standard gravity (m/s²): what makes a weight of a mass.
 pub(super) const STANDARD_GRAVITY: f64 = 9.806_65;
 
+/// What 0 °C is (K).
+pub(super) const FREEZING: f64 = 273.15;
+
 /// The pound (kg) and the foot (m) of the international agreement of 1959.
 const POUND: f64 = 0.453_592_37;
 const FOOT: f64 = 0.3048;
 
 /// Symbols of units, their size in SI base units and their dimension.
-const UNITS: [(&str, f64, Dimension); 42] = [
+const UNITS: [(&str, f64, Dimension); 45] = [
     ("m", 1.0, Dimension::LENGTH),
     ("cm", 1e-2, Dimension::LENGTH),
     ("mm", 1e-3, Dimension::LENGTH),
@@ -114,12 +122,15 @@ const UNITS: [(&str, f64, Dimension); 42] = [
     ("rad", 1.0, Dimension::ANGLE),
     ("deg", std::f64::consts::PI / 180.0, Dimension::ANGLE),
     ("°", std::f64::consts::PI / 180.0, Dimension::ANGLE),
+    ("K", 1.0, Dimension::TEMPERATURE),
+    ("degC", 1.0, Dimension::CELSIUS),
+    ("°C", 1.0, Dimension::CELSIUS),
     ("kg", 1.0, Dimension::MASS),
     ("g", 1e-3, Dimension::MASS),
     ("mg", 1e-6, Dimension::MASS),
     ("lb", POUND, Dimension::MASS),
     ("oz", POUND / 16.0, Dimension::MASS),
-    ("sqm", 1.0, Dimension([2, 0, 0, 0])),
+    ("sqm", 1.0, Dimension([2, 0, 0, 0, 0, 0])),
     ("gsm", 1e-3, Dimension::AREAL_MASS),
     ("osy", POUND / 16.0 / (9.0 * FOOT * FOOT), Dimension::AREAL_MASS),
     ("s", 1.0, Dimension::TIME),
@@ -188,6 +199,8 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
         "inch" | "inches" | "\"" => "in",
         "degree" | "degrees" | "grad" => "deg",
         "radian" | "radians" => "rad",
+        "c" | "celsius" | "oc" => "degC",
+        "kelvin" => "K",
         "sec" | "second" | "seconds" => "s",
         "minute" | "minutes" => "min",
         "hr" | "hour" | "hours" => "h",

@@ -156,6 +156,10 @@ usual! {
     TENSION: "a tensile stiffness of", "N/m", [1e4, 1e8], "plies have 1e4 N/m to 1e8 N/m", &["N/mm", "MN/m"];
     /// From a loose fabric to a stitched one with resin.
     SHEAR: "a shear slope of", "N/m per radian", [0.0, 1e4], "plies have up to 1e4 N/m per radian", &[];
+    /// From the freezer to the debulking of a hot ply.
+    TEMPERATURE: "a temperature of", "K", [250.0, 450.0], "plies are laid at 250 K to 450 K, -23 degC to 177 degC", &["degC"];
+    /// From a hot resin to a cold one.
+    RELAXATION: "a relaxation of", "s", [1e-3, 1e4], "resins relax within 1 ms to 3 h", &["ms"];
     /// Bellows and springs to a rigid frame.
     MOUNT: "a mount of", "N/m", [500.0, 1e7], "mounts have 500 N/m to 1e7 N/m", &["N/mm"];
     /// From ice to rubber.
@@ -199,7 +203,7 @@ impl Usual {
     pub(super) fn holds(&self, value: f64) -> bool {
         let [low, high] = self.found;
         let [below, above] = match self.unit {
-            "" | "rad" | "rad/s" | "rad/s^2" => CLOSE_MARGINS,
+            "" | "rad" | "rad/s" | "rad/s^2" | "K" => CLOSE_MARGINS,
             _ => MARGINS,
         };
         let too_small = 0.0 < value && value < low * below;

@@ -17,7 +17,7 @@ mod steps;
 mod tool;
 
 pub use comparison::comparison;
-pub(crate) use errors::{sample_in_words, share, tolerance_in_words};
+pub(crate) use errors::{sample_in_words, share, tolerances};
 pub use ink::Ink;
 pub use limited_by::limited_by;
 pub use screen::{details, draped, heading, screen, verdict};

@@ -89,6 +89,7 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
             shear_curve: None,
             tension: None,
             locking_angle: None,
+            shear_rate: None,
             moment: Default::default(),
             scatter: Default::default(),
         },

@@ -173,6 +173,7 @@ pub(crate) fn cloth(grid: Grid) -> Ply {
         tension: None,
         shear_curve: None,
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

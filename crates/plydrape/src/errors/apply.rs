@@ -16,7 +16,7 @@
 use super::draw::{Draw, MaterialError, PickUpError, RelativeError, RigidError};
 use crate::geometry::vector::{along, sub, turned};
 use crate::layup::Layup;
-use crate::material::{Material, Section, ShearCurve};
+use crate::material::{Material, Section, ShearCurve, ShearRate};
 use crate::mold::{Mold, Raised};
 use crate::motion::Motion;
 use crate::ply::{Ply, tangents};
@@ -165,6 +165,8 @@ impl MaterialError {
         };
         let shear_curve = material.shear_curve.as_ref().map(curve);
         let moment = material.moment.clone().map(|curve| curve.map(|curve| curve.times(bending)));
-        Material { section, moment, shear_curve, ..material.clone() }
+        let stiffer = |rate: ShearRate| ShearRate { stiffness: shear * rate.stiffness, ..rate };
+        let shear_rate = material.shear_rate.clone().map(stiffer);
+        Material { section, moment, shear_curve, shear_rate, ..material.clone() }
     }
 }

@@ -48,6 +48,7 @@ pub(crate) fn layup(nu: usize, nv: usize) -> Layup {
         shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0, 2.0] }),
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

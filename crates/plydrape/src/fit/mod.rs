@@ -1,10 +1,11 @@
 //! Laws of a ply from tests of specimens, with their uncertainty.
 //!
 //! `shear` turns forces of a bias-extension or picture-frame test into shear force per length, `bending` overhangs, hanging
-//! strips and bending tests into rigidities and curves of the moment. `record` finds the part of a machine's record that is the test,
+//! strips and bending tests into rigidities and curves of the moment, `rate` strips that are pulled at several speeds into what resin adds. `record` finds the part of a machine's record that is the test,
 //! `statistics` says how sure the laws are. Theory: `docs/theory/fit.md`.
 
 mod bending;
+mod rate;
 mod record;
 mod shear;
 mod statistics;
@@ -13,6 +14,7 @@ mod tests;
 
 pub use crate::error::PointFault;
 pub use bending::{Hang, MomentFit, Overhang, fit_hang, fit_moments, rigidity_of_overhang};
+pub use rate::{RateFit, TimedSpecimen, fit_rate};
 pub use record::Remark;
 pub use shear::{BiasExtension, PictureFrame, ShearFit, ShearSpecimen, ShearTest, fit_shear};
 pub use statistics::{Estimate, Sure};

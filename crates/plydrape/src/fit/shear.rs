@@ -250,10 +250,7 @@ pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
         );
         return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
     }
-    let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();
-    if shared > angle[whole] + 0.2 * SPACING {
-        angle.push(shared);
-    }
+    let angle = angles_to(shared);
     let at =
         |n: usize| -> Vec<f64> { curves.iter().map(|[x, y]| smoothed(x, y, angle[n])).collect() };
     let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&at(n))).collect();
@@ -294,6 +291,23 @@ impl ShearFit {
     pub fn curve(&self) -> ShearCurve {
         ShearCurve::Table { angle: self.angle.clone(), force: self.force.clone() }
     }
+}
+
+/// The angles of a table up to a largest one (rad).
+fn angles_to(largest: f64) -> Vec<f64> {
+    let whole = (largest / SPACING + 1e-9).floor() as usize;
+    let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();
+    if largest > angle[whole] + 0.2 * SPACING {
+        angle.push(largest);
+    }
+    angle
+}
+
+/// A table of a curve up to a largest angle (rad): angles, and forces that do not fall.
+pub(super) fn table_of(largest: f64, curve: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let angle = angles_to(largest);
+    let force: Vec<f64> = angle.iter().map(|angle| curve(*angle).max(0.0)).collect();
+    (angle, rising(&force))
 }
 
 /// The value at an angle of a straight line through the points within half a spacing of it, which takes noise out; between the two

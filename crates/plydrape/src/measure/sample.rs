@@ -18,6 +18,7 @@ pub fn layup() -> Layup {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        shear_rate: None,
         scatter: Scatter::default(),
     };
     let ply = Ply::of_array(Grid { nu: 2, nv: 2 }, [0.1; 2], material);

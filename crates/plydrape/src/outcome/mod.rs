@@ -9,13 +9,14 @@
 //! 3. `sensitivity`: whether it depends on what is too small to know;
 //! 4. `forecast`: how long drapes of the sheet will take;
 //! 5. `sample`, `robustness`: the verdict over cells with the errors of the scene;
-//! 6. `tolerance`: how far grippers and ply may be off.
+//! 6. `tolerance`, `rate_tolerance`: how far grippers and ply may be off, and how fast a ply with resin may be draped.
 
 mod check;
 mod drape;
 pub mod forecast;
 #[cfg(test)]
 mod forecast_tests;
+mod rate_tolerance;
 mod recorder;
 mod retime;
 mod robustness;
@@ -36,6 +37,7 @@ pub use check::check_model;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
 pub(crate) use drape::{drape_catenaries, drape_places};
 pub use forecast::{Effort, Forecast, Pace};
+pub use rate_tolerance::RateTolerance;
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Watch};
 pub use sensitivity::minute_changes;

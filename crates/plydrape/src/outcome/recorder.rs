@@ -107,6 +107,7 @@ impl<'a> Recorder<'a> {
             catenaries: None,
             sample: None,
             tolerance: None,
+            rate_tolerance: None,
             tool: None,
         }
     }

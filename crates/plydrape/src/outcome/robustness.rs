@@ -4,9 +4,10 @@
 //! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it tolerates is said
 //! for information. Both are complete drapes along the motion that was draped, by the model that decides.
 
-use super::{Status, Summary, Tolerance, Watch};
+use super::{RateTolerance, Status, Summary, Tolerance, Watch};
 use crate::errors::Errors;
 use crate::layup::Stepping;
+use crate::measure::{Scope, Verdict};
 use crate::motion::Motion;
 use crate::scene::{Scene, World};
 use crate::sheet::event::at_these_times;
@@ -65,8 +66,18 @@ impl Robustness {
         Scene { layup: at_these_times(&self.scene.layup, &summary.events), ..self.scene.clone() }
     }
 
-    /// Finds what the motion tolerates: nothing if it is not accepted without errors. Returns whether that was done to its end.
+    /// Finds what the motion tolerates: nothing if it is not accepted without errors; and how fast a ply with resin may be draped along it.
+    /// Returns whether that was done to its end.
     pub fn judge_tolerance(&self, summary: &mut Summary, watch: &Watch) -> bool {
+        if RateTolerance::applies_to(&self.scene.layup).is_some() {
+            let timeless = |v: &&Verdict| v.name.measure().scope() != Scope::Time;
+            let is_kept = summary.status == Status::Converged
+                && summary.limits.iter().filter(timeless).all(|verdict| verdict.ok);
+            summary.rate_tolerance = RateTolerance::of(&self.scene_of(summary), is_kept, watch);
+            if summary.rate_tolerance.is_none() {
+                return false;
+            }
+        }
         if !self.tolerance {
             return true;
         }

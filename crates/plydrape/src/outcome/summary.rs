@@ -1,6 +1,6 @@
 //! How a drape came out: worst values, limits, and the verdict that follows from them.
 
-use super::{SampleVerdict, Tolerance};
+use super::{RateTolerance, SampleVerdict, Tolerance};
 use crate::draping::record::CatenaryId;
 use crate::layup::{Layup, Model};
 use crate::measure::{self, Limits, Name, Numbers, Verdict};
@@ -76,6 +76,9 @@ pub struct Summary {
     /// What the motion tolerates; `None` where it was not asked for.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub tolerance: Option<Tolerance>,
+    /// How fast the ply may be draped along the motion; `None` of a ply without resin, and of one that is draped quasi-statically.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub rate_tolerance: Option<RateTolerance>,
     /// What the motion takes of the tool; `None` where each gripper moves by itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub tool: Option<ToolRecord>,
@@ -124,7 +127,15 @@ impl Summary {
     #[must_use]
     pub fn unjudged(self) -> Self {
         let world = World::default();
-        Summary { world, limits: Vec::new(), sample: None, tolerance: None, tool: None, ..self }
+        Summary {
+            world,
+            limits: Vec::new(),
+            sample: None,
+            tolerance: None,
+            rate_tolerance: None,
+            tool: None,
+            ..self
+        }
     }
 
     /// Whether somebody broke the drape off.

@@ -36,6 +36,7 @@ fn summary(height: f64) -> Summary {
         catenaries: None,
         sample: None,
         tolerance: None,
+        rate_tolerance: None,
         tool: None,
     }
 }

@@ -16,7 +16,7 @@ use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
 use crate::measure::{Course, Name, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
-use crate::outcome::{self, Drape, Effort, Forecast, Judged};
+use crate::outcome::{self, Drape, Effort, Forecast, Judged, RateTolerance, Watch};
 use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
@@ -37,6 +37,8 @@ pub struct Decision {
     pub decided: Decided,
     /// What limits the time of the motion, once that is its least one and all is judged that belongs to it.
     pub limited_by: Option<Vec<LimitedBy>>,
+    /// How many times slower than that the motion is, because the resin of the ply takes its time; 1 if it does not.
+    pub slowed: f64,
     /// Whether it was draped once more in that time.
     redraped: bool,
 }
@@ -73,6 +75,7 @@ impl Decision {
         let planned = Planned::of(scene, strategy, positions)?;
         state.set_forecast(forecast(scene, &planned.motion, ranked, state));
         let decision = planned.decide(scene, state).and_then(|mut decision| {
+            decision.slow_down(scene, state, true)?;
             if decision.decided.judged.accepted() {
                 decision.finish(scene, Vec::new(), state, true)?;
             }
@@ -128,11 +131,15 @@ impl Decision {
             return Ok(());
         }
         let mut limited_by = Vec::new();
-        // half a drape has no least time, and who broke it off waits
-        if !self.decided.drape.summary.interrupted() {
+        if self.slowed == 1.0 {
+            self.slow_down(scene, state, counted)?;
+        }
+        // half a drape has no least time, and who broke it off waits; a motion that resin slows is as quick as it may be
+        if !self.decided.drape.summary.interrupted() && self.slowed == 1.0 {
             let found = quickest(scene, &self.motion, &self.decided.drape);
             if found.motion != self.motion {
                 self.retime(scene, found.motion, state, counted)?;
+                self.slow_down(scene, state, counted)?;
             }
             limited_by = found.limited_by;
         }
@@ -180,6 +187,36 @@ impl Decision {
         state: &SearchState,
     ) -> Result<Self, Error> {
         Planned::of(scene, strategy, positions)?.decide(scene, state)
+    }
+
+    /// Slows a motion that is not accepted until the resin of the ply follows it, by a power of 2; leaves it as it is where that does not
+    /// help, or time does not matter.
+    fn slow_down(
+        &mut self,
+        scene: &Scene,
+        state: &SearchState,
+        counted: bool,
+    ) -> Result<(), Error> {
+        if self.decided.judged.accepted() || RateTolerance::applies_to(&scene.layup).is_none() {
+            return Ok(());
+        }
+        let stop = || state.report().is_break();
+        let watch = Watch { stop: &stop, done: &|_, _| {} };
+        let layup = evaluation::along_motion(&scene.layup, self.motion.steps());
+        let along = Scene { layup, ..scene.clone() };
+        let found = RateTolerance::of(&along, false, &watch).and_then(|found| found.speed);
+        let Some(speed) = found else { return Ok(()) };
+        let before = self.clone();
+        // cells with errors may need more time than the ply alone
+        for slower in [1.0 / speed, 2.0 / speed] {
+            self.retime(scene, before.motion.slowed(slower), state, counted)?;
+            if self.decided.judged.accepted() {
+                self.slowed = slower;
+                return Ok(());
+            }
+        }
+        *self = before;
+        Ok(())
     }
 
     /// Takes another time for the same places.
@@ -257,8 +294,8 @@ impl Planned {
     fn decide(self, scene: &Scene, state: &SearchState) -> Result<Decision, Error> {
         let decided = decide(scene, &self.motion, state)?;
         let Planned { strategy, positions, asked, motion } = self;
-        let (limited_by, redraped) = (None, false);
-        Ok(Decision { strategy, positions, asked, motion, decided, limited_by, redraped })
+        let (limited_by, slowed, redraped) = (None, 1.0, false);
+        Ok(Decision { strategy, positions, asked, motion, decided, limited_by, slowed, redraped })
     }
 }
 

@@ -104,7 +104,7 @@ pub fn plan_without_errors(
 
     decision.finish(scene, own_limits, &state, true)?;
     decision.decided.drape.summary.judge_rest(&scene.layup, &scene.limits);
-    let Decision { strategy, positions, motion, decided, limited_by, .. } = decision;
+    let Decision { strategy, positions, motion, decided, limited_by, slowed, .. } = decision;
     let Decided { drape, attitudes, .. } = decided;
     let evaluations = match scene.plan.method {
         PlanMethod::Path => state.candidates() + state.decisions(),
@@ -113,7 +113,10 @@ pub fn plan_without_errors(
     let (interrupted, decisions) = (state.is_interrupted(), state.decisions());
     let (method, rate) = (scene.plan.method, motion.fitting_rate(scene.plan.rate));
     let limited_by = limited_by.unwrap_or_default();
-    let record = PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by);
+    let record = PlanRecord {
+        slowed: Some(slowed).filter(|slowed| *slowed != 1.0),
+        ..PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by)
+    };
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
     let own = Checkpoint::new(scene, before + evaluations, strategy, positions);
     let checkpoint = match scene.plan.method {

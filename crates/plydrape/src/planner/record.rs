@@ -20,6 +20,9 @@ pub struct PlanRecord {
     pub rate: f64,
     /// What limits the time of the motion, that of the longest time first.
     pub limited_by: Vec<LimitedBy>,
+    /// How many times slower the motion is than its limits ask for, because the resin of the ply takes its time; `None` if it is not.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub slowed: Option<f64>,
     /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
     pub path: Vec<Vec<[f64; 3]>>,
     /// Distances of the knots of the path (m).
@@ -70,7 +73,8 @@ impl PlanRecord {
         limited_by: Vec<LimitedBy>,
     ) -> Self {
         let (spacing, law) = (motion.spacing(), motion.law());
-        PlanRecord { method, evaluations, rate, limited_by, path, spacing, law, picked_up: None }
+        let (slowed, picked_up) = (None, None);
+        PlanRecord { method, evaluations, rate, limited_by, slowed, path, spacing, law, picked_up }
     }
 
     /// The motion at any time.

@@ -67,6 +67,7 @@ impl<'a> Cloth<'a> {
         self.system = system(self.sheet, &self.pads);
         let energies = Energies::new(self.sheet, &self.tuning, &self.pads, &self.system);
         let before = std::mem::replace(&mut self.energies, energies);
+        self.energies.shear.take_over(before.shear);
         if let (Some(contact), Some(before)) = (&mut self.energies.contact, before.contact) {
             contact.take_over(before, &self.now.x);
         }

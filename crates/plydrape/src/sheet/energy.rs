@@ -97,7 +97,7 @@ impl<'a> Energies<'a> {
             inertia: Inertia::new(&masses),
             weight: Weight::new(masses, sheet.gravity),
             stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), system),
-            shear: Shear::new(&fabric.cells, sheet.shear.clone(), system),
+            shear: Shear::new(sheet, system),
             bending: Bending::new(&fabric.bends, sheet.rigidity, &sheet.moment, system),
             contact: sheet
                 .mold

@@ -228,7 +228,9 @@ impl<'a> March<'a> {
     /// is from the mold.
     pub fn rest(&mut self, places: &[[f64; 3]], falls: bool) -> bool {
         let tolerance = self.tuning.rest_tolerance * self.sheet.mesh;
-        let longest = self.stretched(self.sheet.pitch);
+        // as long as what moves it takes to end: gravity, and resin
+        let relaxed = self.tuning.relaxed * self.cloth.energies.shear.relaxation();
+        let longest = self.stretched(self.sheet.pitch).max(relaxed);
         self.cloth.phase = Phase::Rest;
         let mut dt = 0.01 * longest;
         if falls {

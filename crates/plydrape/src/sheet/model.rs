@@ -3,8 +3,8 @@
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
 use crate::Error;
-use crate::layup::{Friction, Layup, PadSettings, Settings};
-use crate::material::{MomentCurve, Section, ShearCurve, TensionLaw};
+use crate::layup::{Friction, Layup, PadSettings, Settings, SheetTime};
+use crate::material::{MomentCurve, Section, ShearCurve, ShearRate, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, Neighbours, Outline, Ply};
 use crate::tool::Tool;
@@ -34,6 +34,8 @@ pub struct Sheet {
     pub tension: TensionLaw,
     /// Shear force per length of the cells.
     pub shear: ShearCurve,
+    /// What resin adds to it while the ply is sheared; `None` of a ply that is draped quasi-statically, whose time is no real one.
+    pub shear_rate: Option<ShearRate>,
     /// Acceleration of gravity g (m/s²).
     pub gravity: f64,
     /// What holds it along the mold.
@@ -131,6 +133,12 @@ impl Sheet {
         for rigidity in rigidity {
             not_negative("the bending rigidity", rigidity)?;
         }
+        let is_real = settings.sheet.time == SheetTime::Real;
+        let shear_rate = material.shear_rate.clone().filter(|_| is_real);
+        if let Some(rate) = &shear_rate {
+            not_negative("the stiffness of fast shear", rate.stiffness)?;
+            positive("the relaxation time of shear", rate.time())?;
+        }
         let mount = mount_stiffness(&settings.pad, 1e3 * tension.tension(0.0)[2], pitch);
         let gripper = |n: usize| {
             let place = ply.place(n);
@@ -146,6 +154,7 @@ impl Sheet {
             moment,
             tension,
             shear,
+            shear_rate,
             gravity: settings.gravity,
             friction: settings.contact.friction,
             tack: settings.contact.tack,

@@ -37,8 +37,10 @@ impl Cloth<'_> {
     ) -> Result<usize, Failure> {
         self.before.copy_from(&self.now);
 
-        // 1. inertia predicts where the nodes go without forces
+        // 1. inertia predicts where the nodes go without forces, and resin begins to flow; a ply that is hung has no time
         self.energies.inertia.predict(&self.now, dt);
+        let flowing = if self.phase == Phase::Hang { f64::INFINITY } else { dt };
+        self.energies.shear.begin(&self.now.x, flowing);
 
         // 2. the grippers aim at their next places
         self.pads.aim(targets, &mut self.now, &mut self.system);
@@ -54,8 +56,9 @@ impl Cloth<'_> {
             return found;
         }
 
-        // 11. the positions give the velocities
+        // 11. the positions give the velocities, and what resin holds
         self.now.set_velocities(&self.before, dt);
+        self.energies.shear.end(&self.now.x);
 
         // 12. fabric slides under pads
         self.pads.slide(&mut self.now);

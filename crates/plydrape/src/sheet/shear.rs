@@ -4,7 +4,11 @@
 //! (α, β) changes γ by −[(α² + β²) cos θ − 2 α β] / (2 sin θ): by the stress τ the second derivative has the parts
 //! τ tan(θ/2) for a turn alike and −τ cot(θ/2) for an opposite one. Where the whole matrix is not positive definite with
 //! all of it, only the positive parts are kept.
+//!
+//! Resin adds q to τ where the ply is draped in real time, q̇ = G₁ γ̇ − q/θ. Over a time step Δt, by the implicit rule of Euler,
+//! q = (qⁿ + G₁ (γ − γⁿ)) / (1 + Δt/θ), which is the slope of an energy in γ, so that a time step stays a minimum.
 
+use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::fabric::Cell;
@@ -23,6 +27,33 @@ const FOLDED: f64 = 0.9999;
 pub struct Shear {
     cells: Vec<Element>,
     curve: ShearCurve,
+    /// What resin adds; `None` where the ply has none, or time is no real one.
+    flow: Option<Flow>,
+}
+
+/// The Maxwell elements of all cells over a time step.
+#[derive(Debug)]
+struct Flow {
+    /// Stiffness G₁ (N/m per rad).
+    stiffness: f64,
+    /// Relaxation time θ (s).
+    relaxation: f64,
+    /// Shear angle of each cell at the beginning of the time step γⁿ (rad).
+    angles: Vec<f64>,
+    /// Force per length of each cell at the beginning of the time step qⁿ (N/m).
+    forces: Vec<f64>,
+    /// What a time step leaves of a force that is there at once, 1/(1 + Δt/θ).
+    left: f64,
+}
+
+impl Flow {
+    /// Energy per area (J/m²), force per length (N/m) and its slope (N/m per rad) that a cell adds at a shear angle (rad).
+    fn of(&self, cell: usize, angle: f64) -> [f64; 3] {
+        let (before, more) = (self.forces[cell], angle - self.angles[cell]);
+        let slope = self.left * self.stiffness;
+        let force = self.left * before + slope * more;
+        [(self.left * before + 0.5 * slope * more) * more, force, slope]
+    }
 }
 
 #[derive(Debug)]
@@ -61,8 +92,8 @@ pub fn angle(nodes: [[f64; 3]; 4]) -> f64 {
 }
 
 impl Shear {
-    /// The shear of cells with a shear law.
-    pub fn new(cells: &[Cell], curve: ShearCurve, system: &System) -> Self {
+    /// The shear of the cells of a sheet.
+    pub fn new(sheet: &Sheet, system: &System) -> Self {
         let element = |cell: &Cell| {
             let [a, b, c, d] = cell.nodes;
             let pairs = [[a, b], [a, d], [c, b], [c, d], [a, c], [b, d]];
@@ -72,25 +103,80 @@ impl Shear {
                 pairs: pairs.map(|nodes| system.pair(nodes)),
             }
         };
-        Shear { cells: cells.iter().map(element).collect(), curve }
+        let cells = &sheet.fabric.cells;
+        let flow = sheet.shear_rate.as_ref().map(|rate| Flow {
+            stiffness: rate.stiffness,
+            relaxation: rate.time(),
+            angles: vec![0.0; cells.len()],
+            forces: vec![0.0; cells.len()],
+            left: 1.0,
+        });
+        Shear { cells: cells.iter().map(element).collect(), curve: sheet.shear.clone(), flow }
+    }
+
+    /// Begins a time step `dt` (s) of a ply with its nodes at `x` (m); an infinite one has no time, and nothing flows in it.
+    pub fn begin(&mut self, x: &[[f64; 3]], dt: f64) {
+        let Some(flow) = &mut self.flow else { return };
+        flow.left = 1.0 / (1.0 + dt / flow.relaxation);
+        flow.see(&self.cells, x);
+    }
+
+    /// Ends a time step with the nodes at `x` (m): what resin holds there is what it begins the next one with.
+    pub fn end(&mut self, x: &[[f64; 3]]) {
+        let Some(flow) = &mut self.flow else { return };
+        for (cell, e) in self.cells.iter().enumerate() {
+            let [_, force, _] = flow.of(cell, angle(e.nodes.map(|n| x[n])));
+            flow.forces[cell] = force;
+        }
+        flow.left = 1.0;
+        flow.see(&self.cells, x);
+    }
+
+    /// Goes on with what resin holds in the same cells with other unknowns.
+    pub fn take_over(&mut self, before: Self) {
+        self.flow = before.flow;
+    }
+
+    /// The longest relaxation (s), 0 where nothing flows.
+    pub fn relaxation(&self) -> f64 {
+        self.flow.as_ref().map_or(0.0, |flow| flow.relaxation)
+    }
+
+    /// Shear stress of a cell at a shear angle (N/m), its slope (N/m per rad).
+    fn stress(&self, cell: usize, angle: f64) -> [f64; 2] {
+        let (size, slope) = self.curve.force(angle);
+        let stress = if angle < 0.0 { -size } else { size };
+        let [_, more, steeper] = self.flow.as_ref().map_or([0.0; 3], |flow| flow.of(cell, angle));
+        [stress + more, slope + steeper]
+    }
+}
+
+impl Flow {
+    /// Takes the shear angles of cells with nodes at `x` (m) for those of the beginning.
+    fn see(&mut self, cells: &[Element], x: &[[f64; 3]]) {
+        for (before, e) in self.angles.iter_mut().zip(cells) {
+            *before = angle(e.nodes.map(|n| x[n]));
+        }
     }
 }
 
 impl Energy for Shear {
     fn value(&self, now: &Configuration) -> f64 {
-        let energy =
-            |e: &Element| e.area * self.curve.energy(MidLines::of(e.nodes.map(|n| now.x[n])).angle);
-        self.cells.iter().map(energy).sum()
+        let energy = |(cell, e): (usize, &Element)| {
+            let angle = angle(e.nodes.map(|n| now.x[n]));
+            let flow = self.flow.as_ref().map_or(0.0, |flow| flow.of(cell, angle)[0]);
+            e.area * (self.curve.energy(angle) + flow)
+        };
+        self.cells.iter().enumerate().map(energy).sum()
     }
 
     fn linearize(&self, now: &Configuration, stiffness: Stiffness, system: &mut System) {
-        for e in &self.cells {
+        for (cell, e) in self.cells.iter().enumerate() {
             if system.skips(&e.nodes) {
                 continue;
             }
             let lines = MidLines::of(e.nodes.map(|n| now.x[n]));
-            let (size, slope) = self.curve.force(lines.angle);
-            let stress = if lines.angle < 0.0 { -size } else { size };
+            let [stress, slope] = self.stress(cell, lines.angle);
             let [u, v] = lines.unit;
 
             // ∂γ/∂e_u = (v − sin γ u) / (|e_u| cos γ), and ∂γ/∂e_v alike

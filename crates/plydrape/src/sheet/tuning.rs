@@ -68,6 +68,8 @@ pub struct Tuning {
     pub rest_steps: usize,
     /// Largest movement in a time step (of the mesh) at which the ply is at rest.
     pub rest_movement: f64,
+    /// Relaxation times of the resin that the last time step of the relaxation takes at least.
+    pub relaxed: f64,
     /// Stiffness that holds a pad within its tilt limit, as a multiple of the weight of a pitch by a pitch times the pitch,
     /// per radian.
     pub tilt_stiffness: f64,
@@ -104,6 +106,7 @@ impl Default for Tuning {
             tries: 400,
             rest_steps: 100,
             rest_movement: 1e-4,
+            relaxed: 10.0,
             tilt_stiffness: 1e3,
             turn_stiffness: 1e-6,
         }

@@ -17,6 +17,7 @@ fn ply() -> Ply {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

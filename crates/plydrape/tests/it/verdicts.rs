@@ -21,6 +21,7 @@ fn ply(nu: usize, nv: usize) -> Ply {
         shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0] }),
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

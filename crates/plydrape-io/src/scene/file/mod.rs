@@ -30,7 +30,8 @@ use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
     Acceleration, Angle, BendingRigidity, Curvature, FlexuralRigidity, Force, ForcePerLength,
-    Length, Mass, MomentPerWidth, Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
+    Length, Mass, MomentPerWidth, Pressure, Quantity, Ratio, ShearSlope, Temperature,
+    TensileStiffness, Time,
 };
 use plydrape::layup::Model;
 use schemars::JsonSchema;
@@ -120,6 +121,8 @@ pub(super) struct PlyTable {
     pub points: Option<Located<Polygon>>,
     /// A shipped material by name, a .toml file relative to the scene, or a table.
     pub material: Located<MaterialChoice>,
+    /// Temperature of the ply in the cell (K), of a material whose resin is known at several; the lowest of those unless given.
+    pub temperature: Option<Quantity<Temperature>>,
     /// The grid direction along which the warp runs, "u" unless given. Of a ply that is cut, the angle from the drawing's x
     /// axis to the warp (rad), or "u" for its x axis and "v" for its y axis.
     pub warp: Option<Located<WarpChoice>>,
@@ -227,12 +230,36 @@ pub(super) struct MaterialTable {
     pub tension: Option<Located<Curve<TensileStiffness, TensionTable>>>,
     /// Picture-frame shear force per length over the shear angle: a slope (N/m per rad) or a table. The sheet needs it.
     pub shear_curve: Option<Located<Curve<ShearSlope, ShearCurveTable>>>,
+    /// What resin adds to the shear force while the ply is sheared. Only a sheet with `time = "real"` knows it.
+    pub shear_rate: Option<Located<ShearRateTable>>,
     /// Shear angle at which the weave locks (rad).
     pub locking_angle: Option<Quantity<Angle>>,
     /// The test that found the locking angle.
     pub locking_test: Option<Located<String>>,
     /// How its fibers are held together: "woven" (the default), or "unidirectional", which is refused so far.
     pub fabric: Option<Located<FabricKey>>,
+}
+
+/// What resin adds to the shear force: a spring and a damper one after the other, beside the shear curve.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "ShearRate")]
+pub(super) struct ShearRateTable {
+    /// Stiffness against a shear that is much faster than the relaxation (N/m per rad).
+    pub stiffness: Quantity<ShearSlope>,
+    /// Time in which the force falls to its 1/e-th part where the ply stands (s), or a table of such times over temperatures.
+    pub relaxation: Located<Curve<Time, RelaxationTable>>,
+}
+
+/// Relaxation times over temperatures; between them the law of Arrhenius holds.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Relaxation")]
+pub(super) struct RelaxationTable {
+    /// Temperatures, ascending (K).
+    pub temperature: Located<Vec<Quantity<Temperature>>>,
+    /// Relaxation time at each temperature, falling (s).
+    pub time: Located<Vec<Quantity<Time>>>,
 }
 
 /// How the fibers of a ply are held together.

@@ -3,7 +3,8 @@
 use super::{WIDTH, limiting, significant, verdict_text};
 use crate::result::ResultFile;
 use crate::store::shown;
-use plydrape::outcome::{SampleVerdict, Tolerance};
+use plydrape::measure::Name;
+use plydrape::outcome::{RateTolerance, SampleVerdict, Tolerance};
 use plydrape::sheet::pitch;
 
 /// The lines below a verdict; empty where nothing was draped with errors and nothing was to be.
@@ -18,9 +19,7 @@ pub(super) fn errors(result: &ResultFile) -> String {
         }
         (None, _) => {}
     }
-    if let Some(tolerance) = &summary.tolerance {
-        lines.extend(tolerance_in_words(result, tolerance));
-    }
+    lines.extend(tolerances(result));
     lines.iter().map(|line| shown::excerpt(line, WIDTH) + "\n").collect()
 }
 
@@ -64,9 +63,17 @@ pub(crate) fn share(sample: &SampleVerdict) -> String {
     format!("{} %", significant(100.0 * sample.errors.share))
 }
 
-/// What a motion tolerates, in lines: the errors of its grippers, and multiples of the shear stiffness and the mass of its ply.
+/// What a motion tolerates, in lines; none where it was not asked for.
 #[must_use]
-pub(crate) fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> Vec<String> {
+pub(crate) fn tolerances(result: &ResultFile) -> Vec<String> {
+    let summary = &result.summary;
+    let own = summary.tolerance.as_ref().map(|tolerance| tolerance_in_words(result, tolerance));
+    let rate = summary.rate_tolerance.map(|tolerance| rate_in_words(result, tolerance));
+    own.into_iter().flatten().chain(rate).collect()
+}
+
+/// The errors of its grippers that a motion tolerates, and multiples of the shear stiffness and the mass of its ply.
+fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> Vec<String> {
     if tolerance.tried == 0 {
         return vec!["tolerates no errors: it is not accepted without any".into()];
     }
@@ -92,6 +99,32 @@ pub(crate) fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> 
     lines
 }
 
+/// How fast, or how warm, a ply with resin may be draped, in one line.
+fn rate_in_words(
+    result: &ResultFile,
+    RateTolerance { speed, temperature }: RateTolerance,
+) -> String {
+    let Some(speed) = speed else {
+        let most = RateTolerance::MOST;
+        return format!("the resin of the ply does not follow at 1/{most} of the speed either");
+    };
+    let slower = speed < 1.0;
+    let times = if slower { format!("1/{}", speed.recip()) } else { speed.to_string() };
+    let (verb, most) = match (slower, speed >= RateTolerance::MOST) {
+        (true, _) => ("needs", ""),
+        (false, true) => ("tolerates", "at least "),
+        (false, false) => ("tolerates", ""),
+    };
+    let seconds =
+        result.summary.last.value(Name::Duration).map(|duration| rounded(duration / speed));
+    let seconds = seconds.map_or(String::new(), |seconds| format!(" ({seconds} s)"));
+    let celsius = temperature.map(|celsius| format!(", or {celsius:.0} °C at its own speed"));
+    format!(
+        "the resin of the ply {verb} {most}{times} of the speed{seconds}{}",
+        celsius.unwrap_or_default()
+    )
+}
+
 /// Two digits: an error is known within 9 %.
 fn rounded(value: f64) -> String {
     significant(format!("{value:.1e}").parse().unwrap_or(value))
@@ -102,7 +135,7 @@ mod tests {
     use super::super::{Ink, screen, verdict};
     use super::*;
     use crate::sample;
-    use plydrape::measure::{Name, Verdict};
+    use plydrape::measure::Verdict;
     use plydrape::outcome::Status;
 
     /// What was found at an end of what was tried is said to be no more than that; catenaries know no shear stiffness.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::geometry::vector::{cross, norm};
-use crate::material::{MomentCurve, ShearCurve};
+use crate::material::{MomentCurve, Relaxation, ShearCurve, ShearRate};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::{Phase, Stiffness};
 use crate::sheet::matrix3::{rotation, times};
@@ -44,6 +44,11 @@ fn held(max_tilt: f64) -> Sheet {
     sheet.friction = Friction::Coulomb(0.4);
     sheet.tension = TensionLaw::Table { strain: vec![0.0, 0.01, 0.1], force: vec![0.0, 10.0, 1e3] };
     sheet.shear = ShearCurve::Polynomial { coefficients: vec![50.0, 30.0] };
+    sheet.shear_rate = Some(ShearRate {
+        stiffness: 80.0,
+        relaxation: Relaxation { temperature: vec![300.0], time: vec![0.03] },
+        temperature: 300.0,
+    });
     sheet.moment[1] = Some(softening());
     let [pin, pad] = [0, 2];
     sheet.grippers[pin].mount = Some([2e3, 2e3, 5e3]);
@@ -74,6 +79,10 @@ fn loaded(sheet: &Sheet) -> Cloth<'_> {
     cloth.now.pads[2].rotate([0.2, -0.2, 0.1]);
     cloth.now.v.iter_mut().flatten().for_each(|v| *v = random(&mut seed));
     cloth.energies.inertia.predict(&cloth.now, 0.02);
+    let flat = flat(sheet, 0.05).now;
+    cloth.energies.shear.begin(&flat.x, 0.01);
+    cloth.energies.shear.end(&cloth.now.x);
+    cloth.energies.shear.begin(&cloth.now.x, 0.02);
     if let Some(contact) = &mut cloth.energies.contact {
         contact.anchor(&cloth.now.x);
     }

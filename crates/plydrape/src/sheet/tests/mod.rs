@@ -6,6 +6,7 @@ pub(crate) mod hanging;
 mod mounts;
 mod on_mold;
 mod random;
+mod rate;
 mod release;
 
 use super::cloth::Cloth;
@@ -42,6 +43,7 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
         moment: Default::default(),
         tension: TensionLaw::Linear { stiffness: 1e6 },
         shear: linear(5.0),
+        shear_rate: None,
         gravity: G,
         friction: Friction::Stick,
         tack: 0.0,

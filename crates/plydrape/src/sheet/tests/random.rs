@@ -57,6 +57,7 @@ fn layup(seed: u64) -> Layup {
         shear_curve: Some(linear(slope)),
         tension: Some(r.one(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };

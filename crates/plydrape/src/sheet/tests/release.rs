@@ -30,6 +30,7 @@ pub(super) fn layup(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> 
         shear_curve: Some(linear(5.0)),
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
+        shear_rate: None,
         moment: Default::default(),
         scatter: Default::default(),
     };
