@@ -41,6 +41,9 @@ impl ShearRate {
     }
 }
 
+/// Share of a relaxation time that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Relaxation times over temperatures. Between two of them, and beyond the last ones, ln θ is a straight line over 1/T, the law of
 /// Arrhenius; a single one is that of every temperature.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +75,8 @@ impl Relaxation {
     #[must_use]
     pub fn temperature_of(&self, seconds: f64) -> Option<f64> {
         let pairs = self.temperature.windows(2).zip(self.time.windows(2));
-        let mut within = pairs.filter(|(_, time)| (time[1]..=time[0]).contains(&seconds));
+        let [longer, shorter] = [1.0 + ROUNDING, 1.0 - ROUNDING].map(|share| share * seconds);
+        let mut within = pairs.filter(|(_, time)| time[1] <= longer && shorter <= time[0]);
         let (temperature, time) = within.next()?;
         let share = (time[0] / seconds).ln() / (time[0] / time[1]).ln();
         let [cold, warm] = [temperature[0], temperature[1]].map(f64::recip);

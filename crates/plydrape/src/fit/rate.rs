@@ -20,6 +20,8 @@ const PER_DECADE: f64 = 8.0;
 const HALVINGS: usize = 40;
 /// Share of the residuals that resin must explain: what explains less is none that a test shows.
 const EXPLAINED: f64 = 0.1;
+/// Share of the forces, root mean square, that a curve alone must leave: no machine knows less of them.
+const LEFT: f64 = 1e-3;
 
 /// A bias strip in time.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,7 +190,9 @@ pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
     let (solution, squares) = solved(&records, Some(relaxation)).ok_or_else(none)?;
     let without = solved(&records, None).map_or(f64::INFINITY, |found| found.1);
     let stiffness = solution[POWERS];
-    if stiffness <= 0.0 || squares > (1.0 - EXPLAINED) * without {
+    let forces = system(&records, None).1.norm_squared();
+    let is_shown = without > LEFT * LEFT * forces && squares < (1.0 - EXPLAINED) * without;
+    if stiffness <= 0.0 || !is_shown {
         return Err(none());
     }
 
