@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import program
 import pytest
-from scipy.integrate import solve_bvp
+from scipy.integrate import solve_bvp, solve_ivp
 
 MASS, GRAVITY = 0.314, 9.81
 WEIGHT = MASS * GRAVITY
@@ -234,6 +234,54 @@ def test_every_file_is_fitted_by_the_sizes_that_it_states(tmp_path: Path) -> Non
     assert "the file states another width than --width" in refused("bias", *files, *SIZES)
     silent = pulled(tmp_path / "silent.csv", ROWS)
     assert "the width of the specimens is given nowhere" in refused("bias", files[0], silent)
+
+
+def in_time(path: Path, speed: float, pull: float, hold: float) -> str:
+    """A strip with 20 g + 60 g^3 N/m, and resin of 150 N/m per rad and 0.8 s: pulled, held."""
+    width, length, stiffness, relaxation = 0.1, 0.25, 150.0, 0.8
+
+    def gamma(way: float) -> float:
+        cosine = (length - width + way) / (math.sqrt(2) * (length - width))
+        return math.pi / 2 - 2 * math.acos(cosine)
+
+    def slope(way: float) -> float:
+        return (gamma(way + 1e-7) - gamma(way - 1e-7)) / 2e-7
+
+    def flow(t: float, q: np.ndarray) -> np.ndarray:
+        turning = slope(speed * t) * speed if t < pull else 0.0
+        return np.asarray(stiffness * turning * np.array([1, 0.5]) - q / relaxation)
+
+    times = np.linspace(0, pull + hold, 40)
+    q = solve_ivp(flow, (0, times[-1]), [0, 0], t_eval=times, rtol=1e-9, max_step=0.01).y
+    lines = []
+    for t, middle, corner in zip(times, *q, strict=True):
+        way = speed * min(t, pull)
+        g = gamma(way)
+        # areas that shear by g and by g/2, times how fast these grow with the way
+        whole = width * (length - 1.5 * width) * (20 * g + 60 * g**3 + middle)
+        corners = 0.5 * width**2 * (10 * g + 60 * (g / 2) ** 3 + corner)
+        lines.append(f"{t:.5f},{1e3 * way:.5f},{slope(way) * (whole + corners):.6f}\n")
+    path.write_text("time (s),displacement (mm),force (N)\n" + "".join(lines))
+    return str(path)
+
+
+def test_strips_in_time_give_their_resin_back(tmp_path: Path) -> None:
+    """Stiffness, relaxation and curve come back within 1 %; dry strips are refused."""
+    slow = in_time(tmp_path / "slow.csv", 0.5e-3, 60, 0)
+    fast = in_time(tmp_path / "fast.csv", 20e-3, 1.5, 3)
+    found = fit("rate", slow, fast, *SIZES)
+    rate = found["shear_rate"]
+    assert rate["stiffness"]["value"] == pytest.approx(150, rel=0.01)
+    assert rate["relaxation"]["value"] == pytest.approx(0.8, rel=0.01)
+    law = math.radians(25)
+    assert at(rate, 25) == pytest.approx(20 * law + 60 * law**3, rel=0.01)
+    assert 'relaxation = "0.8' in found["toml"] or 'relaxation = "0.79' in found["toml"]
+    timeless = pulled(tmp_path / "timeless.csv", ROWS, "# width = 100 mm\n# length = 250 mm\n")
+    assert "time" in refused("rate", timeless)
+    dry = tmp_path / "dry.csv"
+    rows = "".join(f"{n},{way:.4f},{force:.6f}\n" for n, (way, force) in enumerate(ROWS))
+    dry.write_text("time (s),displacement (mm),force (N)\n" + rows)
+    assert "do not depend on how fast" in refused("rate", str(dry), *SIZES)
 
 
 def test_frames_and_strips_have_their_own_measures(tmp_path: Path) -> None:

@@ -15,8 +15,8 @@ use std::path::PathBuf;
 ///
 /// Parameters
 /// ----------
-/// test : {"bias", "frame", "overhang", "hang", "moments"}
-///     What was tested.
+/// test : {"bias", "rate", "frame", "overhang", "hang", "moments"}
+///     What was tested; "rate" is bias extension with a column of the time.
 /// warp : sequence of str or path
 ///     CSV files, one a specimen: of a shear test, or of strips along the warp.
 /// weft : sequence of str or path

@@ -367,6 +367,19 @@ impl Material {
         .collect()
     }
 
+    /// What resin adds to the shear force while the ply is sheared in real time, where it is known: `stiffness` against fast shear
+    /// (N/m per rad), `relaxation` (s) at the `temperature` of the ply (K).
+    #[getter]
+    fn shear_rate(&self) -> Option<BTreeMap<&'static str, f64>> {
+        let rate = self.0.shear_rate.as_ref()?;
+        let values = [
+            ("stiffness", rate.stiffness),
+            ("relaxation", rate.time()),
+            ("temperature", rate.temperature),
+        ];
+        Some(values.into_iter().collect())
+    }
+
     /// Shear angle at which the weave locks (rad), where it is known.
     #[getter]
     fn locking_angle(&self) -> Option<f64> {

@@ -133,3 +133,31 @@ fn a_scatter_of_the_shear_is_a_share_or_a_factor_in_a_result() {
         assert_eq!(serde_json::from_str::<Scatter>(&written).expect("a scatter"), scatter);
     }
 }
+
+/// What resin adds is read in SI units; the ply has the lowest temperature of its table, or that of the scene, between the two.
+#[test]
+fn the_resin_of_a_ply_relaxes_at_its_temperature() {
+    let ply = |temperature: &str, relaxation: &str| {
+        let text = format!(
+            "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n{temperature}\nmaterial = {{ mass = 0.3, bending_rigidity_warp = 0, \
+             bending_rigidity_weft = 0, tension = 1e6, shear_curve = 5, shear_rate = {{ stiffness = \"150 N/m\", relaxation = {relaxation} }} }}\n\
+             [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
+        );
+        let scene = plydrape_io::scene::parse(&text, Path::new(""), "scene.toml");
+        let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
+        scene.layup.ply.material.shear_rate.expect("resin")
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+    };
+    let one = ply("", "\"800 ms\"");
+    near(one.stiffness, 150.0);
+    near(one.time(), 0.8);
+
+    let table = "{ temperature = [\"25 degC\", \"333.15 K\"], time = [\"0.8 s\", \"32 ms\"] }";
+    near(ply("", table).time(), 0.8);
+    near(ply("temperature = \"60 °C\"", table).time(), 0.032);
+    // half-way between the inverse temperatures the time is the geometric mean
+    let middle = 2.0 / (1.0 / 298.15 + 1.0 / 333.15);
+    near(ply(&format!("temperature = {middle}"), table).time(), (0.8_f64 * 0.032).sqrt());
+}
