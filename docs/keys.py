@@ -101,7 +101,6 @@ LIKELY = {
     "ply.outline": '"blank.dxf"',
     "ply.outline.layers": '["CUT"]',
     "ply.outline.tolerance": '"0.1 mm"',
-    "ply.overhang": '"20 mm"',
     "ply.piece.block": '"P1"',
     "ply.piece.label": '"FRONT"',
     "ply.piece.point": '["120 mm", "80 mm"]',
