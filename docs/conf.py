@@ -17,7 +17,6 @@ from sphinx.util import logging
 # beside this file, for Sphinx too
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import api
-import keys
 
 if TYPE_CHECKING:
     from docutils import nodes
@@ -60,8 +59,18 @@ def rust() -> str:
     return f"<ul>{''.join(links)}</ul>\n"
 
 
-# Pages whose tables are made from the schema and from the Python sources.
-MADE = {"guide/keys": keys.markdown, "guide/api": api.markdown, "guide/rust": rust}
+# Pages whose tables are made from the Python sources.
+MADE = {"guide/api": api.markdown, "guide/rust": rust}
+# What people type into the search, and the page that answers it: entries of the index come before
+# all matches of words.
+SOUGHT = {
+    "guide/not_accepted": ["my plan is not accepted", "plan not accepted", "not accepted"],
+    "guide/duration": ["how long does a plan take"],
+    "guide/exactness": ["how exact must my robot be"],
+}
+# The page whose tables have a style of their own, which its Markdown cannot say.
+KEYS = "guide/keys"
+TABLE = re.compile(r"(?:^\|.*\n)+", re.M)
 
 # A link to a document that is no page of the guide.
 OUTER_LINK = re.compile(r"\[((?:DESIGN|CONTRIBUTING|SECURITY)\.md)\]\((?:\.\./)+\1\)")
@@ -89,7 +98,13 @@ def without_outer_links(_app: Sphinx, _page: str, source: list[str]) -> None:
 
 
 def with_tables(_app: Sphinx, page: str, source: list[str]) -> None:
-    """Adds what is made when the guide is built."""
+    """Adds what is made when the guide is built, entries of the index, and the style of tables."""
+    if page == KEYS:
+        source[0] = TABLE.sub(
+            lambda table: f"```{{table}}\n:class: keys\n\n{table[0]}```\n", source[0]
+        )
+    entries = "".join(f"```{{index}} ! {sought}\n```\n" for sought in SOUGHT.get(page, []))
+    source[0] = entries + source[0]
     if page in MADE:
         source[0] += "\n" + MADE[page]()
 

@@ -1,4 +1,4 @@
-"""Every key of a scene as Markdown, made from the JSON Schema: the page guide/keys.md."""
+"""Every key of a scene as Markdown, made from the JSON Schema: `python docs/keys.py` writes it."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ import tomllib
 Json = dict[str, Any]
 
 DOCS = Path(__file__).resolve().parent
+PAGE = DOCS / "guide" / "keys.md"
 CHOICE_OF_TABLES = ("anyOf", "oneOf")
 
 # "Friction, 0 unless given." has its default in its description, as all of them have.
@@ -100,7 +101,6 @@ LIKELY = {
     "ply.outline": '"blank.dxf"',
     "ply.outline.layers": '["CUT"]',
     "ply.outline.tolerance": '"0.1 mm"',
-    "ply.overhang": '"20 mm"',
     "ply.piece.block": '"P1"',
     "ply.piece.label": '"FRONT"',
     "ply.piece.point": '["120 mm", "80 mm"]',
@@ -115,6 +115,12 @@ LIKELY = {
 # what is no bare quantity: words to choose from, and what has its least value from the schema
 WORDS = re.compile("[`≥]")
 UNIT = re.compile(r" \((?:m|rad|s|N|Hz|Pa|m/s|m/s²|m/s³|rad/s|rad/s²|N/m|N·m|N·m²)\)")
+
+
+def page() -> str:
+    """The page: its head, and all tables."""
+    head = PAGE.read_text(encoding="utf-8").split("\n## ", 1)[0]
+    return re.sub(r"\n{3,}", "\n\n", f"{head.rstrip()}\n\n{markdown().strip()}\n")
 
 
 def markdown() -> str:
@@ -160,7 +166,6 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
     name = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
     lines = ["", f"{level} `{name}`" if path else "## Before all tables", ""]
     lines += [sentence(table["description"]) if path else "", ""]
-    lines += ["```{table}", ":class: keys", ""]
     lines += ["| key | meaning | unit | default | allowed | example |", "|---|---|---|---|---|---|"]
     needed = table.get("required", [])
     for key, of in table["properties"].items():
@@ -177,7 +182,7 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
             ranges = [text if WORDS.search(text) else f"{text}, {limits}" for text in ranges]
         row = [f"`{key}`", meaning, ", ".join(units), default, " or ".join(ranges), shown]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") or "–" for cell in row) + " |")
-    return "\n".join([*lines, "```", ""])
+    return "\n".join([*lines, ""])
 
 
 def sentence(text: str) -> str:
@@ -377,3 +382,7 @@ def shown(value: Any) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(map(shown, value)) + "]"
     return json.dumps(value, ensure_ascii=False)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1246,7 +1246,18 @@ class Result:
         self,
         /,
         to: typing.Literal[
-            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"
+            "vtk",
+            "inp",
+            "ros2",
+            "rapid",
+            "krl",
+            "urscript",
+            "abb",
+            "kuka",
+            "ur",
+            "csv",
+            "pattern",
+            "boundary",
         ],
         folder: str | PathLike[str],
         *,
@@ -1260,7 +1271,8 @@ class Result:
         Parameters
         ----------
         to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
-            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
+            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary"; "abb", "kuka" and "ur"
+            mean "rapid", "krl" and "urscript".
         folder : str or path
             Where they go; other files there stay.
         even_if_rejected : bool, default False

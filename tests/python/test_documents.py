@@ -6,6 +6,7 @@ import copy
 import importlib.util
 import json
 import re
+import shutil
 import subprocess
 from pathlib import Path
 from types import ModuleType
@@ -90,6 +91,33 @@ def test_every_table_of_a_scene_has_its_keys_on_the_page() -> None:
             assert f"| `{key}` | " in page, key
     rows = [line for line in page.splitlines() if line.startswith("| `")]
     assert len(rows) > 150 and not any("|  |" in row for row in rows)
+
+
+def test_the_page_of_all_keys_is_made_from_the_schema() -> None:
+    """What stands in the sources is what `python docs/keys.py` writes."""
+    made_now = made("keys").page()
+    assert (ROOT / "docs" / "guide" / "keys.md").read_text(encoding="utf-8") == made_now
+
+
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="there is no cargo")
+def test_the_package_needs_nothing_compiled_anew_that_the_program_has() -> None:
+    """Every dependency of both has the same features in either build, so each is compiled once."""
+
+    def features(crate: str) -> dict[str, set[str]]:
+        tree = ["cargo", "tree", "--offline", "-p", crate, "-e", "normal,build", "--prefix", "none"]
+        done = subprocess.run(
+            [*tree, "-f", "{p}|{f}"], cwd=ROOT, capture_output=True, text=True, check=True
+        )
+        found: dict[str, set[str]] = {}
+        for line in done.stdout.splitlines():
+            name, listed = line.split("|")
+            found.setdefault(name.split(" (")[0], set()).add(listed.removesuffix(" (*)"))
+        return found
+
+    program, package = features("plydrape-cli"), features("plydrape-py")
+    both = program.keys() & package.keys()
+    assert len(both) > 100
+    assert {name for name in both if program[name] != package[name]} == set()
 
 
 def test_examples_of_keys_are_what_a_scene_takes(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import { Motion } from "./data/motion";
 import { BrokenData, fieldsOf, nearest, readPageData, type Limit, type PageData } from "./data/page_data";
 import { Charts } from "./page/charts";
 import { Comparison, tell } from "./page/compare";
-import { byId } from "./page/dom";
+import { byId, measureHead } from "./page/dom";
 import { Exporter } from "./page/export";
 import { handle, type FullHandle, type Handle } from "./page/handle";
 import { linkHover } from "./page/hover";
@@ -36,6 +36,7 @@ async function open(): Promise<void> {
   byId("title").textContent = data.title;
   showVerdict(data);
   showTolerance(data.tolerance);
+  measureHead();
   const motion = await Motion.unpack(data);
   const wanted = asked(data);
   const model = wanted.model ?? data.drape.model;

@@ -196,11 +196,15 @@ async function eventually(check) {
 }
 
 async function opens(report, { page, complaints, requests }) {
-  for (const [width, height] of [
+  const title = await page.locator("#title").textContent();
+  const long = "A title that does not stand beside the verdict in a line, as real parts have them".repeat(2);
+  for (const [width, height, other] of [
     [1920, 1080],
     [1280, 720],
+    [1400, 900, long],
   ]) {
     await page.setViewportSize({ width, height });
+    if (other) await page.evaluate((text) => (document.querySelector("#title").textContent = text), other);
     await frames(page, 2);
     // Title, verdict and picture are in view, and nothing is wider than the window.
     for (const selector of ["#title", "#verdict", "#picture", "#slider"]) {
@@ -213,6 +217,7 @@ async function opens(report, { page, complaints, requests }) {
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(overflow <= 0, `wider than the window by ${overflow}`);
   }
+  await page.evaluate((text) => (document.querySelector("#title").textContent = text), title);
   assert.deepEqual(complaints, []);
   assert.deepEqual(
     requests.filter((url) => !url.startsWith("data:")).map((url) => decodeURI(url)),

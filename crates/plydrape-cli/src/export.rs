@@ -20,6 +20,8 @@ The result must be as `plydrape simulate` or `plydrape plan` wrote it, by this v
 same name in the folder that plydrape did not write, or that were edited since, are never \
 overwritten; all others stay.
 
+abb, kuka and ur mean rapid, krl and urscript.
+
 csv, ros2, rapid, krl and urscript drive machines: of a result that is not accepted they are only \
 written with --even-if-rejected.")]
 pub struct Arguments {
@@ -62,10 +64,13 @@ enum Format {
     /// ROS 2: axes, flange and vacuum as YAML, and trajectory.mcap, a bag with frames and the ply's shape in it.
     Ros2,
     /// ABB: a RAPID module.
+    #[value(alias = Robot::Rapid.maker())]
     Rapid,
     /// KUKA: a KRL program, .src and .dat.
+    #[value(alias = Robot::Krl.maker())]
     Krl,
     /// Universal Robots: a URScript.
+    #[value(alias = Robot::Urscript.maker())]
     Urscript,
     /// ParaView: drape.pvd and its parts.
     Vtk,

@@ -5,7 +5,7 @@ use crate::error;
 use crate::jacobian::Jacobian;
 use crate::stations::{at_least_two, every_station};
 use crate::work::parallel;
-use plydrape::draping::spans::Shape;
+use plydrape::draping::spans;
 use plydrape::equilibrium::{self, Direction, EarlyEnds, Property, Status};
 use plydrape::layup::Settings;
 use plydrape::ply::{self, ContactSegment, shear};
@@ -29,7 +29,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Equilibrium {
     pub state: Mutex<State>,
     pub positions: Vec<[f64; 3]>,
-    pub shape: Shape,
+    pub shape: spans::Equilibrium,
 }
 
 impl Equilibrium {
@@ -63,25 +63,25 @@ impl Equilibrium {
     /// How the solve ended: "converged", "stalled", "iteration-limit" or "length-not-met".
     #[getter]
     fn status(&self) -> &'static str {
-        self.shape.equilibrium.status.name()
+        self.shape.solved.status.name()
     }
 
     /// Iterations on the shared slopes.
     #[getter]
     fn iterations(&self) -> usize {
-        self.shape.equilibrium.iterations
+        self.shape.solved.iterations
     }
 
     /// What is left of the rule of the slopes, scaled to a slope.
     #[getter]
     fn residual(&self) -> f64 {
-        self.shape.equilibrium.residual
+        self.shape.solved.residual
     }
 
     /// Largest error of a fabric length, as a share of it.
     #[getter]
     fn length_residual(&self) -> f64 {
-        self.shape.equilibrium.length_residual
+        self.shape.solved.length_residual
     }
 
     /// How often a part of the solve ended early or was replaced, by name; all zero in a plain solve.
@@ -94,7 +94,7 @@ impl Equilibrium {
             active_sets,
             damping_limits,
             continuation,
-        } = self.shape.equilibrium.early_ends;
+        } = self.shape.solved.early_ends;
         BTreeMap::from([
             ("line_searches", line_searches),
             ("linear_solves", linear_solves),
@@ -114,7 +114,7 @@ impl Equilibrium {
     /// Horizontal force of each catenary (N), shape (catenaries,); nan of a stretched diagonal or a straight one.
     #[getter]
     fn forces(&self) -> Array<f64> {
-        let forces: Vec<f64> = self.shape.spans.iter().map(|span| or_nan(span.force)).collect();
+        let forces: Vec<f64> = self.shape.forces().map(or_nan).collect();
         Array::new(&[forces.len()], forces)
     }
 
@@ -228,7 +228,7 @@ impl Equilibrium {
                 return Err(PyValueError::new_err(text));
             }
         };
-        if self.shape.equilibrium.status != Status::Converged {
+        if self.shape.solved.status != Status::Converged {
             let text = "the equilibrium was not found, so it has no derivative";
             return Err(error::solve(text, self.status(), self.iterations(), self.residual()));
         }

@@ -696,7 +696,8 @@ impl Result {
     /// Parameters
     /// ----------
     /// to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
-    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
+    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary"; "abb", "kuka" and "ur"
+    ///     mean "rapid", "krl" and "urscript".
     /// folder : str or path
     ///     Where they go; other files there stay.
     /// even_if_rejected : bool, default False
@@ -728,7 +729,7 @@ impl Result {
     /// ...     sorted(path.name for path in result.export("csv", folder))
     /// ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
     #[pyo3(signature = (
-        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'pattern', 'boundary']",
+        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'abb', 'kuka', 'ur', 'csv', 'pattern', 'boundary']",
         folder, *, even_if_rejected = false, position_error: "float | str | None" = None,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
@@ -745,17 +746,17 @@ impl Result {
             "vtk" => export::Format::Vtk,
             "inp" => export::Format::Inp,
             "ros2" => export::Format::Ros2,
-            "rapid" => export::Format::Robot(Robot::Rapid),
-            "krl" => export::Format::Robot(Robot::Krl),
-            "urscript" => export::Format::Robot(Robot::Urscript),
             "csv" => export::Format::Csv,
             "pattern" => export::Format::Pattern,
             "boundary" => export::Format::Boundary,
             other => {
-                let text = format!(
-                    "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
-                );
-                return Err(PyValueError::new_err(text));
+                let robot = Robot::named(other).map(export::Format::Robot);
+                let text = || {
+                    format!(
+                        "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
+                    )
+                };
+                robot.ok_or_else(|| PyValueError::new_err(text()))?
             }
         };
         let default = Tolerance::default();

@@ -8,7 +8,7 @@ use crate::error;
 use crate::ply::Ply;
 use crate::quantity::Amount;
 use crate::scene::Scene;
-use plydrape::draping::spans::shape;
+use plydrape::draping::spans;
 use plydrape::equilibrium::{self, Status};
 use plydrape::layup::{Settings, SlopeRule};
 use plydrape::ply;
@@ -195,7 +195,8 @@ impl Solver {
             return Err(error::solve(&text, status, outcome.iterations, residual));
         }
         let state = state.clone();
-        let shape = shape(&state.ply, &state.solver, outcome, &positions, &contacts);
+        let shape =
+            spans::Equilibrium::of(&state.ply, &state.solver, outcome, &positions, &contacts);
         Ok(Equilibrium { state: Mutex::new(state), positions, shape })
     }
 }

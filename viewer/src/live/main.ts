@@ -5,7 +5,7 @@
 
 import { checked, type Field, type FieldKey, type PageData, type Place } from "../data/page_data";
 import { Motion } from "../data/motion";
-import { byId } from "../page/dom";
+import { byId, measureHead } from "../page/dom";
 import { linkHover } from "../page/hover";
 import { linkKeys } from "../page/keyboard";
 import { linkLegend } from "../page/legend";
@@ -130,6 +130,7 @@ async function open(): Promise<void> {
   );
   linkTheme(state);
   byId("page").hidden = false;
+  measureHead();
   const view = byId("view");
   const scene = new Scene3d(view, motion, state);
   linkToolbar(state, motion.data, scene.eye);

@@ -29,12 +29,17 @@ export function verdictOf({ page, found }: Hanging): { ok: boolean; name: string
   return { ok: false, name, text: `${Name} ${quantity(value, unit)}, ${allowed} (${where})` };
 }
 
-/** The verdict in the head. */
+/** The verdict in the head, with the model that it is of. */
 export function showVerdict(hanging: Hanging): void {
   const badge = byId("verdict");
   const { ok, text } = verdictOf(hanging);
   badge.className = ok ? "verdict pass" : "verdict fail";
-  renew(badge, [sign(ok), text]);
+  const model = make(
+    "span",
+    { class: "reason" },
+    " by the catenaries: lines of ply, not the sheet that decides on motions",
+  );
+  renew(badge, [sign(ok), text, model]);
 }
 
 /** The table of limits, and some numbers. */

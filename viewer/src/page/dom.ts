@@ -33,6 +33,15 @@ export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   return element as T;
 }
 
+/** Lets the picture know how high the head is, which wraps where a title is long: picture and play bar fill the rest of the window. */
+export function measureHead(): void {
+  const head = document.querySelector<HTMLElement>(".head");
+  if (head === null) return;
+  const tell = (): void => document.documentElement.style.setProperty("--head", `${head.offsetHeight}px`);
+  new ResizeObserver(tell).observe(head);
+  tell();
+}
+
 /** A CSS color variable of the theme in force. */
 export function themeColour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

@@ -4,7 +4,7 @@ use super::ply_state::{Detail, ply_state};
 use super::record::CatenaryStep;
 use super::recording::catenary_step;
 use super::solved_step::SolvedStep;
-use super::spans::Shape;
+use super::spans::Equilibrium;
 use super::{Draping, stop};
 use crate::layup::Layup;
 use crate::state::PlyState;
@@ -53,7 +53,7 @@ impl Draping<'_> {
         &mut self,
         options: Follow,
         mut see: impl FnMut(&PlyState, Option<CatenaryStep>, bool) -> ControlFlow<()>,
-    ) -> (Followed, Option<Shape>) {
+    ) -> (Followed, Option<Equilibrium>) {
         let Follow { most_equilibria, full } = options;
         self.most = most_equilibria;
         let planned = self.layup.motion.positions.len();

@@ -1,8 +1,8 @@
 //! The ply in one step.
 
 use super::bridge::Bridge;
-use super::spans::{Point, Shape};
-use crate::equilibrium::{Equilibrium, Status};
+use super::spans::{Equilibrium, Point};
+use crate::equilibrium::{Solved, Status};
 use crate::ply::ContactSegment;
 
 /// The ply in one step, with everything that is known of it.
@@ -15,7 +15,7 @@ pub(crate) struct Snapshot {
     /// Where the grippers are (m), which hold the fabric there.
     pub positions: Vec<Point>,
     /// Free spans and the equilibrium that holds them.
-    pub shape: Shape,
+    pub shape: Equilibrium,
     /// Contact segment of each catenary.
     pub contacts: Vec<Option<ContactSegment>>,
     /// Touches that the model does not follow, by catenary.
@@ -28,7 +28,7 @@ pub(crate) struct Snapshot {
     /// Equilibria solved in this step.
     pub equilibria: usize,
     /// The first equilibrium of this step that did not converge, or else the last one.
-    pub solved: Equilibrium,
+    pub solved: Solved,
     /// How the contact was followed.
     pub contact_status: ContactStatus,
 }

@@ -87,7 +87,7 @@ impl<'a> SolvedStep<'a> {
         self.attitudes().iter().map(|attitude| attitude.quaternion).collect()
     }
 
-    /// How each free span fits, in the order of [`Shape::spans`](super::spans::Shape::spans).
+    /// How each free span fits, in the order of [`Equilibrium::spans`](super::spans::Equilibrium::spans).
     pub fn hanging(&self) -> &[Misfit] {
         self.hanging.get_or_init(|| {
             let spans = self.snapshot.shape.spans.iter();

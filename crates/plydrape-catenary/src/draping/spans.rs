@@ -1,7 +1,7 @@
 //! The free spans of a solved ply as curves in space.
 
 use crate::catenary::{Profile, SpanState};
-use crate::equilibrium::{Equilibrium, Solver, StateTangent};
+use crate::equilibrium::{Solved, Solver, StateTangent};
 pub use crate::geometry::Point;
 use crate::mold::distance;
 use crate::ply::{ContactSegment, Ply};
@@ -138,79 +138,87 @@ impl FreeSpan {
     }
 }
 
-/// All free spans of a solved ply, catenary by catenary.
+/// A ply that hangs: all of its free spans, catenary by catenary, each with its force and its slopes.
 #[derive(Debug, Clone)]
-pub struct Shape {
+pub struct Equilibrium {
     /// Free spans, in the order of catenaries and free segments.
     pub spans: Vec<FreeSpan>,
-    /// How the equilibrium was found.
-    pub equilibrium: Equilibrium,
+    /// How it was found.
+    pub solved: Solved,
 }
 
-/// Reads the shape of the ply off its solver.
-pub fn shape(
-    ply: &Ply,
-    solver: &Solver,
-    equilibrium: Equilibrium,
-    positions: &[Point],
-    contacts: &[Option<ContactSegment>],
-) -> Shape {
-    let lines = ply.lines();
-    let problem = solver.problem();
-    let mut elements = problem.elements.iter().enumerate().peekable();
-    let mut spans = Vec::with_capacity(2 * lines.catenaries());
-    for catenary in 0..lines.catenaries() {
-        let grippers = lines.ends(catenary).map(|gripper| positions[gripper]);
-        let stretched = problem.stretched(catenary).filter(|_| contacts[catenary].is_none());
-        let segments = contacts[catenary].as_ref().map_or(1, |_| 2);
-        for segment in 0..segments {
-            let ends = match &contacts[catenary] {
-                None => grippers,
-                Some(contact) if !contact.hangs(segment) => {
-                    debug_assert!(contact.free_length(segment) >= -1e-12);
-                    continue;
-                }
-                Some(contact) if segment == 0 => [grippers[0], contact.point()[0]],
-                Some(contact) => [contact.point()[1], grippers[1]],
-            };
-            let start = contacts[catenary]
-                .as_ref()
-                .map_or(0.0, |l| if segment == 0 { 0.0 } else { l.arc()[1] });
-            let mut span = FreeSpan {
-                catenary,
-                segment,
-                element: None,
-                ends,
-                length: 0.0,
-                start,
-                profile: None,
-                curve: OnceLock::new(),
-                state: SpanState::Straight,
-                shearing: stretched.is_some(),
-                force: None,
-                slopes: [0.0; 2],
-                prescribed: [false; 2],
-            };
-            span.slopes = [span.slope(0.0); 2];
-            // a fold has no catenary
-            span.length = contacts[catenary].as_ref().map_or(0.0, |l| l.free_length(segment));
-            if let Some(path) = stretched {
-                span.length = path;
-            } else if let Some((n, element)) =
-                elements.next_if(|(_, e)| e.catenary == catenary && e.segment == segment)
-            {
-                span.element = Some(n);
-                span.length = element.length;
-                span.state = element.state;
-                span.force = solver.force(n);
-                if let Some(force) = span.force {
-                    span.profile = Some(Profile::new(&solver.span(n), force));
-                    span.slopes = solver.end_slopes(n);
-                    span.prescribed = solver.holds(n);
-                }
-            }
-            spans.push(span);
-        }
+impl Equilibrium {
+    /// Horizontal force (N) of each free span; none of a stretched diagonal or of a straight span.
+    pub fn forces(&self) -> impl Iterator<Item = Option<f64>> {
+        self.spans.iter().map(|span| span.force)
     }
-    Shape { spans, equilibrium }
+
+    /// The ply that a solver has just solved, at the positions (m) and contact segments that it solved for.
+    #[must_use]
+    pub fn of(
+        ply: &Ply,
+        solver: &Solver,
+        solved: Solved,
+        positions: &[Point],
+        contacts: &[Option<ContactSegment>],
+    ) -> Equilibrium {
+        let lines = ply.lines();
+        let problem = solver.problem();
+        let mut elements = problem.elements.iter().enumerate().peekable();
+        let mut spans = Vec::with_capacity(2 * lines.catenaries());
+        for catenary in 0..lines.catenaries() {
+            let grippers = lines.ends(catenary).map(|gripper| positions[gripper]);
+            let stretched = problem.stretched(catenary).filter(|_| contacts[catenary].is_none());
+            let segments = contacts[catenary].as_ref().map_or(1, |_| 2);
+            for segment in 0..segments {
+                let ends = match &contacts[catenary] {
+                    None => grippers,
+                    Some(contact) if !contact.hangs(segment) => {
+                        debug_assert!(contact.free_length(segment) >= -1e-12);
+                        continue;
+                    }
+                    Some(contact) if segment == 0 => [grippers[0], contact.point()[0]],
+                    Some(contact) => [contact.point()[1], grippers[1]],
+                };
+                let start = contacts[catenary]
+                    .as_ref()
+                    .map_or(0.0, |l| if segment == 0 { 0.0 } else { l.arc()[1] });
+                let mut span = FreeSpan {
+                    catenary,
+                    segment,
+                    element: None,
+                    ends,
+                    length: 0.0,
+                    start,
+                    profile: None,
+                    curve: OnceLock::new(),
+                    state: SpanState::Straight,
+                    shearing: stretched.is_some(),
+                    force: None,
+                    slopes: [0.0; 2],
+                    prescribed: [false; 2],
+                };
+                span.slopes = [span.slope(0.0); 2];
+                // a fold has no catenary
+                span.length = contacts[catenary].as_ref().map_or(0.0, |l| l.free_length(segment));
+                if let Some(path) = stretched {
+                    span.length = path;
+                } else if let Some((n, element)) =
+                    elements.next_if(|(_, e)| e.catenary == catenary && e.segment == segment)
+                {
+                    span.element = Some(n);
+                    span.length = element.length;
+                    span.state = element.state;
+                    span.force = solver.force(n);
+                    if let Some(force) = span.force {
+                        span.profile = Some(Profile::new(&solver.span(n), force));
+                        span.slopes = solver.end_slopes(n);
+                        span.prescribed = solver.holds(n);
+                    }
+                }
+                spans.push(span);
+            }
+        }
+        Equilibrium { spans, solved }
+    }
 }

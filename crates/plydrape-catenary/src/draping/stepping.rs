@@ -4,10 +4,10 @@ use super::bridge::Bridge;
 use super::contact::{self, Diagonal};
 use super::gap::GapSamples;
 use super::sampling::GapCache;
-use super::spans::{FreeSpan, Point, Shape, shape};
+use super::spans::{Equilibrium, FreeSpan, Point};
 use super::tuning::TUNING;
 use super::{CellShear, ContactStatus, Snapshot};
-use crate::equilibrium::{Equilibrium, Solver, Status};
+use crate::equilibrium::{Solved, Solver, Status};
 use crate::layup::{Layup, Stepping};
 use crate::ply::{ContactSegment, Kind, Lines, shear};
 use crate::stopwatch::Stopwatch;
@@ -32,7 +32,7 @@ pub struct Draping<'a> {
     gap_cache: GapCache,
     pub(super) equilibria: usize,
     /// The first equilibrium of a step that did not converge.
-    unsolved: Option<Equilibrium>,
+    unsolved: Option<Solved>,
     contact_status: ContactStatus,
     /// Equilibria after which a step is not cut any further.
     pub(super) most: usize,
@@ -62,7 +62,7 @@ impl<'a> Draping<'a> {
     }
 
     /// Solves the equilibrium at gripper positions (m).
-    fn solve(&mut self, positions: &[Point]) -> Shape {
+    fn solve(&mut self, positions: &[Point]) -> Equilibrium {
         let watch = Stopwatch::start();
         let equilibrium = self.solver.solve(positions, &self.contacts);
         self.solving += watch.elapsed();
@@ -70,7 +70,7 @@ impl<'a> Draping<'a> {
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
         }
-        shape(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
+        Equilibrium::of(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.
@@ -87,14 +87,14 @@ impl<'a> Draping<'a> {
             deepest: self.deepest,
             shear: self.shear(),
             equilibria: self.equilibria - before,
-            solved: self.unsolved.unwrap_or(shape.equilibrium),
+            solved: self.unsolved.unwrap_or(shape.solved),
             contact_status: self.contact_status,
             shape,
         }
     }
 
     /// Moves the grippers and follows the contact, by the layup's rule for steps.
-    pub fn move_to(&mut self, goal: &[Point]) -> Shape {
+    pub fn move_to(&mut self, goal: &[Point]) -> Equilibrium {
         (self.unsolved, self.contact_status) = (None, ContactStatus::Followed);
         self.deepest = None;
         let shape = match self.layup.settings.contact.stepping {
@@ -117,7 +117,7 @@ impl<'a> Draping<'a> {
     }
 
     /// As in the paper: one equilibrium, the contact evaluated once; solved anew where it has changed.
-    fn arrive(&mut self, goal: &[Point]) -> Shape {
+    fn arrive(&mut self, goal: &[Point]) -> Equilibrium {
         let mut shape = self.solve(goal);
         let mut gaps = self.gaps(&shape);
         if self.update_contact(&shape, &gaps) {
@@ -130,7 +130,7 @@ impl<'a> Draping<'a> {
 
     /// Cuts the move where the ply would penetrate the mold deeper than the tolerance, and follows the contact at each position
     /// until it no longer changes.
-    fn cut_to(&mut self, goal: &[Point]) -> Shape {
+    fn cut_to(&mut self, goal: &[Point]) -> Equilibrium {
         let start = self.positions.clone();
         let at = |fraction: f64| -> Vec<Point> {
             start
@@ -177,7 +177,7 @@ impl<'a> Draping<'a> {
     }
 
     /// Gap samples of every span; none without a mold.
-    fn gaps(&mut self, shape: &Shape) -> Vec<GapSamples> {
+    fn gaps(&mut self, shape: &Equilibrium) -> Vec<GapSamples> {
         let Some(mold) = &self.layup.mold else {
             return Vec::new();
         };
@@ -188,7 +188,7 @@ impl<'a> Draping<'a> {
     /// The catenary of the first span with a new contact that is deeper below the mold than the tolerance. Depths that no contact would
     /// change are left out: those of the grippers, and second touches. Diagonals that have landed are left out too, because they
     /// are no fibers, and jump where the slopes at their grippers do.
-    fn deep(&self, shape: &Shape, gaps: &[GapSamples]) -> Option<usize> {
+    fn deep(&self, shape: &Equilibrium, gaps: &[GapSamples]) -> Option<usize> {
         let mold = self.layup.mold.as_ref()?;
         let tolerance = self.layup.settings.contact.tolerance;
         let deep = |(span, gaps): &(&FreeSpan, &GapSamples)| {
@@ -202,7 +202,7 @@ impl<'a> Draping<'a> {
     }
 
     /// Notes the deepest span of a step; diagonals that have landed are left out, as above.
-    fn note_depth(&mut self, shape: &Shape, gaps: &[GapSamples]) {
+    fn note_depth(&mut self, shape: &Equilibrium, gaps: &[GapSamples]) {
         for (span, gaps) in shape.spans.iter().zip(gaps) {
             let landed = self.contacts[span.catenary].is_some();
             if landed && span.catenary >= self.lines.edges() {
@@ -236,7 +236,7 @@ impl<'a> Draping<'a> {
     }
 
     /// Updates the contact of every span once; true if it has changed.
-    fn update_contact(&mut self, shape: &Shape, gaps: &[GapSamples]) -> bool {
+    fn update_contact(&mut self, shape: &Equilibrium, gaps: &[GapSamples]) -> bool {
         let Some(mold) = &self.layup.mold else {
             return false;
         };

@@ -38,7 +38,7 @@ pub use problem::{
 };
 pub use sensitivity::{Linearized, StateTangent};
 pub use solver::Solver;
-pub use status::{EarlyEnds, Equilibrium, Status};
+pub use status::{EarlyEnds, Solved, Status};
 pub use tuning::Tuning;
 
 use num_dual::DualNum;

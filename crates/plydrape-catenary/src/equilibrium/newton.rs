@@ -7,7 +7,7 @@
 use super::problem::Problem;
 use super::rule::{Iterate, Rule, Step, Trial};
 use super::state::State;
-use super::status::{EarlyEnds, Equilibrium, Status};
+use super::status::{EarlyEnds, Solved, Status};
 use super::tuning::Tuning;
 
 /// How far the iteration goes along each Newton step.
@@ -51,7 +51,7 @@ impl Newton {
         bound: f64,
         step_length: StepLength,
         tuning: &Tuning,
-    ) -> Equilibrium {
+    ) -> Solved {
         let count = problem.shared_slopes().len();
         self.residual.resize(count, 0.0);
         self.step.change.resize(count, 0.0);
@@ -66,7 +66,7 @@ impl Newton {
         let met = length_residual <= tuning.length_tolerance;
         let status = if met { status } else { Status::LengthNotMet };
         let early_ends = self.step.early_ends;
-        Equilibrium { status, iterations, residual, length_residual, early_ends }
+        Solved { status, iterations, residual, length_residual, early_ends }
     }
 
     fn iterate(

@@ -10,7 +10,7 @@ use super::newton::{Newton, StepLength};
 use super::problem::{Circumstances, End, Factors, Problem, heading};
 use super::rule::Rule;
 use super::state::State;
-use super::status::{Equilibrium, Status};
+use super::status::{Solved, Status};
 use super::tuning::Tuning;
 use super::warm_start::WarmStart;
 use crate::catenary::{Span, SpanState};
@@ -113,11 +113,7 @@ impl Solver {
     ///
     /// Where a cell has just begun to shear, the ply is solved without constraints first: those slopes are mixed
     /// with the plane's.
-    pub fn solve(
-        &mut self,
-        positions: &[[f64; 3]],
-        contacts: &[Option<ContactSegment>],
-    ) -> Equilibrium {
+    pub fn solve(&mut self, positions: &[[f64; 3]], contacts: &[Option<ContactSegment>]) -> Solved {
         self.free.clear();
         self.state_problem(positions, contacts, 1.0);
         if !self.problem.is_partly_constrained() {
@@ -137,11 +133,7 @@ impl Solver {
 
     /// Solves the stated problem directly, or where that fails by continuation in the stiffness, which follows the
     /// hanging state to its like, or at last by whole Newton steps from where the line search ended.
-    fn follow(
-        &mut self,
-        positions: &[[f64; 3]],
-        contacts: &[Option<ContactSegment>],
-    ) -> Equilibrium {
+    fn follow(&mut self, positions: &[[f64; 3]], contacts: &[Option<ContactSegment>]) -> Solved {
         let direct = self.attempt(StepLength::LineSearch);
         if direct.status == Status::Converged {
             return direct;
@@ -182,8 +174,8 @@ impl Solver {
             return crossed;
         }
         (self.state, self.warm_start) = (state, warm_start);
-        let Equilibrium { iterations, early_ends, .. } = crossed;
-        Equilibrium { iterations, early_ends, ..cold }
+        let Solved { iterations, early_ends, .. } = crossed;
+        Solved { iterations, early_ends, ..cold }
     }
 
     /// States the problem, with the flexural rigidity multiplied by `stiffness`.
@@ -207,7 +199,7 @@ impl Solver {
     }
 
     /// Solves the stated problem from the warm start.
-    fn attempt(&mut self, step_length: StepLength) -> Equilibrium {
+    fn attempt(&mut self, step_length: StepLength) -> Solved {
         let Solver { problem, state, rule, tuning, .. } = self;
         let bound = self.settings.max_tilt.tan();
         self.warm_start.start(problem, bound, state);

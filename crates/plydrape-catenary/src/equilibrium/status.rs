@@ -30,7 +30,7 @@ impl Status {
 
 /// How the last solve went.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Equilibrium {
+pub struct Solved {
     /// How it ended.
     pub status: Status,
     /// Iterations on the slopes.
@@ -44,11 +44,11 @@ pub struct Equilibrium {
     pub early_ends: EarlyEnds,
 }
 
-impl Equilibrium {
+impl Solved {
     /// A state that depends on another one: both must have converged.
     #[must_use]
-    pub fn and(self, other: Equilibrium) -> Equilibrium {
-        Equilibrium {
+    pub fn and(self, other: Solved) -> Solved {
+        Solved {
             status: if self.status == Status::Converged { other.status } else { self.status },
             iterations: self.iterations + other.iterations,
             residual: other.residual.max(self.residual),
@@ -59,10 +59,10 @@ impl Equilibrium {
 
     /// The next solve of a continuation: its outcome, with the iterations and early ends of all.
     #[must_use]
-    pub fn then(self, next: Equilibrium) -> Equilibrium {
+    pub fn then(self, next: Solved) -> Solved {
         let mut early_ends = self.early_ends.plus(next.early_ends);
         early_ends.continuation += 1;
-        Equilibrium { iterations: self.iterations + next.iterations, early_ends, ..next }
+        Solved { iterations: self.iterations + next.iterations, early_ends, ..next }
     }
 }
 

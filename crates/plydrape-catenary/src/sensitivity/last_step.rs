@@ -2,7 +2,7 @@
 
 use super::tuning::TUNING;
 use super::{Quantity, Row, Sensitivity};
-use crate::draping::spans::Shape;
+use crate::draping::spans::Equilibrium;
 use crate::draping::{Draping, lying_segments};
 use crate::geometry::Point;
 use crate::layup::Layup;
@@ -29,7 +29,7 @@ pub struct LastStep {
 impl LastStep {
     /// Differentiates the step to which catenaries of a layup have come: `shape` are its spans ([`Draping::follow`]).
     #[must_use]
-    pub fn new(layup: &Layup, draping: &mut Draping, shape: &Shape) -> Self {
+    pub fn new(layup: &Layup, draping: &mut Draping, shape: &Equilibrium) -> Self {
         let lines = layup.ply.lines();
         let Draping { solver, positions, contacts, .. } = draping;
         let sensitivity = Sensitivity::whole(layup, solver, shape, positions, contacts);

@@ -23,7 +23,7 @@ pub use last_step::LastStep;
 pub use row::Row;
 pub use span::Place;
 
-use crate::draping::spans::{FreeSpan, Point, Shape};
+use crate::draping::spans::{Equilibrium, FreeSpan, Point};
 use crate::equilibrium::Solver;
 use crate::layup::Layup;
 use crate::ply::ContactSegment;
@@ -46,7 +46,7 @@ const ROWS: usize = 6;
 pub struct Sensitivity<'a> {
     layup: &'a Layup,
     /// The free spans.
-    pub shape: &'a Shape,
+    pub shape: &'a Equilibrium,
     positions: &'a [Point],
     contacts: &'a [Option<ContactSegment>],
     /// Derivatives of each element's force (N), end slopes, run, rise and length (m).
@@ -68,7 +68,7 @@ impl<'a> Sensitivity<'a> {
     pub fn new(
         layup: &'a Layup,
         solver: &mut Solver,
-        shape: &'a Shape,
+        shape: &'a Equilibrium,
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
@@ -81,7 +81,7 @@ impl<'a> Sensitivity<'a> {
     pub fn whole(
         layup: &'a Layup,
         solver: &mut Solver,
-        shape: &'a Shape,
+        shape: &'a Equilibrium,
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
@@ -93,7 +93,7 @@ impl<'a> Sensitivity<'a> {
         negligible: f64,
         layup: &'a Layup,
         solver: &mut Solver,
-        shape: &'a Shape,
+        shape: &'a Equilibrium,
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {

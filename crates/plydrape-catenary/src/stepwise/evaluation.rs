@@ -2,7 +2,7 @@
 
 use super::Task;
 use super::tuning::TUNING;
-use crate::draping::spans::Shape;
+use crate::draping::spans::Equilibrium;
 use crate::draping::{Draping, attitude, lying_segments, misfit};
 use crate::equilibrium::Status;
 
@@ -18,11 +18,11 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    pub fn of(task: &Task, draping: &Draping, shape: &Shape) -> Self {
+    pub fn of(task: &Task, draping: &Draping, shape: &Equilibrium) -> Self {
         let (ply, positions) = (&task.layup.ply, &draping.positions);
         let tilt = |n| attitude(&draping.solver, ply, &[], positions, n, None).tilt;
         Evaluation {
-            converged: shape.equilibrium.status == Status::Converged,
+            converged: shape.solved.status == Status::Converged,
             stretch: stretch(task, draping, shape),
             tilt: (0..ply.grippers()).map(tilt).fold(0.0, f64::max),
         }
@@ -37,7 +37,7 @@ impl Evaluation {
     }
 }
 
-fn stretch(task: &Task, draping: &Draping, shape: &Shape) -> f64 {
+fn stretch(task: &Task, draping: &Draping, shape: &Equilibrium) -> f64 {
     let (ply, lines) = (&task.layup.ply, task.layup.ply.lines());
     let edges = lines.edges();
     let length = |catenary: usize| lines.flat_length(catenary, ply.length_factor);

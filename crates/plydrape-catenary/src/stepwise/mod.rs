@@ -22,7 +22,7 @@ pub use outcome::{Outcome, PositionError, Stepwise};
 pub use task::{Limits, Task};
 
 use crate::draping::Draping;
-use crate::draping::spans::{Point, Shape};
+use crate::draping::spans::{Equilibrium, Point};
 use crate::geometry::vector::sub;
 use crate::mold::distance;
 use crate::motion::farthest;
@@ -55,7 +55,7 @@ struct Plan<'a> {
     task: &'a Task<'a>,
     targets: &'a [Point],
     draping: Draping<'a>,
-    shape: Shape,
+    shape: Equilibrium,
     front: Front,
     stage: Stage,
     reach: f64,
@@ -172,7 +172,7 @@ impl<'a> Plan<'a> {
         );
         let mut reach = self.reach;
         let before = Evaluation::of(self.task, &self.draping, &self.shape);
-        let mut best: Option<(Draping<'a>, Shape)> = None;
+        let mut best: Option<(Draping<'a>, Equilibrium)> = None;
         for trial in 0..TUNING.halvings {
             let step = Step {
                 task: self.task,

@@ -9,7 +9,7 @@ use super::Task;
 use super::program::Program;
 use super::step::target_stretch;
 use super::tuning::TUNING;
-use crate::draping::spans::{Point, Shape};
+use crate::draping::spans::{Equilibrium, Point};
 use crate::draping::{Draping, lying_segments, misfit};
 use crate::geometry::vector::{along, norm, sub, unit};
 use crate::mold::SurfaceCurve;
@@ -53,7 +53,7 @@ fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
     unit(way).filter(|_| norm(way) > least)
 }
 
-fn free_segments(task: &Task, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
+fn free_segments(task: &Task, draping: &Draping, shape: &Equilibrium) -> Vec<FreeSegment> {
     let (ply, lines) = (&task.layup.ply, task.layup.ply.lines());
     let flat_length = |n: usize| lines.flat_length(n, ply.length_factor);
     let mut out = Vec::new();
@@ -114,7 +114,7 @@ fn free_segments(task: &Task, draping: &Draping, shape: &Shape) -> Vec<FreeSegme
 pub fn removal(
     task: &Task,
     draping: &Draping,
-    shape: &Shape,
+    shape: &Equilibrium,
     targets: &[Point],
 ) -> Option<Vec<Point>> {
     let (mold, limits) = (task.layup.mold.as_ref()?, &task.limits);

@@ -10,9 +10,8 @@ use plydrape::material::Section;
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape::ply::{Ply, gripper_name};
+use plydrape::ply::{Kind, Ply, Ruck, gripper_name};
 use plydrape::scene::Scene;
-use plydrape::sheet::pitch;
 use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::text::table::verdict_text;
@@ -23,9 +22,6 @@ const FAR: f64 = 20.0;
 /// Mass of plies (kg/m²): the lightest woven ones, of spread tow, weigh some 0.05; the heaviest, rovings, 3D weaves
 /// and stitched stacks with their resin, stay below 10.
 const PLIES: [f64; 2] = [0.05, 10.0];
-/// Fabric that hangs over a pad, as a share of the pitch of the cups, beyond which an edge on a mold that sticks finds its place
-/// rarely.
-const HANGING: f64 = 0.15;
 /// Nodes of a sheet, as a multiple of those that its mesh needs, from which on the rows of the cups are what costs.
 const FINE: f64 = 2.0;
 /// Most places of grippers that are looked at in a motion.
@@ -54,10 +50,22 @@ fn overhang(scene: &SceneFile) -> Option<String> {
     }
     let beyond = reach_beyond_cups(&layup.ply, layup.settings.sheet.overhang);
     let free = beyond - layup.settings.pad.radius;
-    (free > HANGING * pitch(&layup.ply)).then(|| {
+    // where the ply bends most easily
+    let ruck = [Kind::EdgeU, Kind::EdgeV].into_iter().filter_map(|kind| {
+        let line = layup.ply.line(kind);
+        let weight = line.mass * layup.settings.gravity;
+        (free > 0.0).then(|| Ruck::of_free_edge(free, line.flexural_rigidity, weight))?
+    });
+    let ruck = ruck.max_by(|a, b| a.height().total_cmp(&b.height()))?;
+    let [height, angle] = [Name::Height, Name::OutOfPlane].map(|name| scene.limits.most(name));
+    // the height goes as the fourth power of the edge, the slope as the third
+    let share = (height / ruck.height()).powf(0.25).min((angle / ruck.steepest()).cbrt());
+    (share < 1.0).then(|| {
         format!(
-            "the ply reaches up to {} mm beyond the middles of its outer cups, and the mold holds what touches it: an edge that touches early cannot slide into its place, and few such plies find a plan; move the cups outwards, give `friction` in [contact], or cut the ply closer",
-            millimetres(rounded(beyond))
+            "the ply reaches up to {} mm beyond the middles of its outer cups. This edge hangs lower than its cup, touches the mold first, and sticks short of its place: a fold of some {} mm stays beside the cup, where the limits allow what an edge of {} mm leaves. Cut the ply closer, or move the cups outwards",
+            millimetres(rounded(beyond)),
+            millimetres(rounded(ruck.height().min(free))),
+            millimetres(rounded(share * free + layup.settings.pad.radius))
         )
     })
 }

@@ -142,7 +142,7 @@ fn what_a_plan_will_meet_is_warned_of() {
     };
     let all = warned(&scene);
     let causes = [
-        ("the mold holds what touches it", "[limits]", "[contact]\nfriction = 0.3\n[limits]"),
+        ("sticks short of its place", "[limits]", "[contact]\nfriction = 0.3\n[limits]"),
         ("the cups stand in so many rows", "warp = \"45 deg\"", "warp = \"0 deg\""),
         (
             "obstacle post stands 200 mm deep in the mold",
@@ -162,6 +162,23 @@ fn what_a_plan_will_meet_is_warned_of() {
     for (warnings, inside) in [(&all, false), (&lower, true)] {
         assert_eq!(warnings.contains("starts inside obstacle lamp"), inside, "{warnings}");
     }
+}
+
+/// An edge beyond the outer cups is warned of from the length on that the warning allows, and not where the ply can slide.
+#[test]
+fn an_edge_that_hangs_too_low_is_warned_of_with_the_length_that_may_hang() {
+    let scene = in_unit("mm").replace("\"catenaries\"", "\"sheet\"");
+    let material = scene.lines().find(|line| line.starts_with("material")).expect("a material");
+    let edge = |mm: f64| {
+        scene.replace(material, &format!("material = \"prepreg_warm\"\noverhang = \"{mm} mm\""))
+    };
+    let warned = warning(&edge(25.0));
+    let words = warned.split("what an edge of ").nth(1).expect(&warned);
+    let most: f64 = words.split(' ').next().unwrap().parse().unwrap();
+    assert!((5.0..25.0).contains(&most), "{warned}");
+    assert_eq!(warnings(&edge(0.98 * most)), [""; 0]);
+    assert_eq!(warnings(&edge(1.02 * most)).len(), 1);
+    assert_eq!(warnings(&format!("{}\n[contact]\nfriction = 0.3\n", edge(25.0))), [""; 0]);
 }
 
 /// The line of a table `[release]` says the order and the dwell; without the table there is none.

@@ -55,6 +55,19 @@ fn every_format_is_made_from_the_result_alone() {
     assert!(asked.join("steps.csv").exists() && asked.join("ply.inp").exists());
 }
 
+/// The maker of a controller stands for its language: the same answer, here that there is no tool.
+#[test]
+fn a_maker_names_the_language_of_its_controllers() {
+    let home = tempfile::tempdir().unwrap();
+    let result = result(home.path(), "01_flat_sheared_mold");
+    for (maker, language) in [("abb", "rapid"), ("kuka", "krl"), ("ur", "urscript")] {
+        let [one, two] = [maker, language]
+            .map(|word| plydrape(&["export", "--to", word, "--even-if-rejected"], &result));
+        assert!(text(&one.stderr).contains("say in [tool]"), "{maker}: {}", text(&one.stderr));
+        assert_eq!((one.status.code(), one.stderr), (two.status.code(), two.stderr), "{maker}");
+    }
+}
+
 /// Tables and page are those that the simulation wrote.
 #[test]
 fn exports_are_what_the_simulation_wrote() {

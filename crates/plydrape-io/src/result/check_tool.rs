@@ -2,7 +2,7 @@
 
 use super::ResultFile;
 use plydrape::geometry::vector::dot;
-use plydrape::tool::Tool;
+use plydrape::tool::{MissingStroke, Tool};
 
 /// What is impossible in the tool and in what the motion takes of it.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
@@ -19,9 +19,16 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
         return Some("the axes and rates of its tool are none".into());
     }
     let record = record?;
+    let steps = 1..=result.summary.steps_planned.max(1);
+    let is_known = |missing: &MissingStroke| {
+        missing.gripper < grippers
+            && missing.axis < tool.axes.len()
+            && steps.contains(&missing.step)
+    };
     let known = record.gripper < grippers
-        && (1..=result.summary.steps_planned.max(1)).contains(&record.step)
-        && record.strokes_mm.len() == tool.axes.len();
+        && steps.contains(&record.step)
+        && record.strokes_mm.len() == tool.axes.len()
+        && record.missing.as_ref().is_none_or(is_known);
     (!known).then(|| "what its motion takes of the tool is not of this tool".into())
 }
 

@@ -10,6 +10,59 @@ use crate::store::file_kind::edits;
 use std::ops::Range;
 use toml::de::DeTable;
 
+/// A key by another name.
+struct OtherName {
+    /// What it is called elsewhere, in small letters.
+    words: &'static [&'static str],
+    /// Its name in a scene, and what is to be known beside.
+    name: &'static str,
+    beside: &'static str,
+    /// The table that is proposed where the key is written in a table that does not have it; none where it could be any.
+    table: Option<&'static str>,
+}
+
+const fn other(
+    words: &'static [&'static str],
+    name: &'static str,
+    beside: &'static str,
+    table: Option<&'static str>,
+) -> OtherName {
+    OtherName { words, name, beside, table }
+}
+
+/// Names by which data sheets and other programs call keys. A key has one name in scenes, and these propose it.
+const OTHER_NAMES: [OtherName; 11] = [
+    other(
+        &["pad_diameter", "cup_diameter"],
+        "pad_radius",
+        ", half of the diameter",
+        Some("grippers"),
+    ),
+    other(&["cup_radius"], "pad_radius", "", Some("grippers")),
+    other(&["pitch"], "cell", ", the fabric between neighbors", Some("ply")),
+    other(&["pitch"], "spacing", ", the distance of neighbors at the start", None),
+    other(&["center", "centre"], "middle", "", None),
+    other(&["center", "centre"], "position", ", the place of the mold's origin", None),
+    other(
+        &["areal_mass", "areal_weight", "grammage"],
+        "mass",
+        ", as in \"380 g/m^2\"",
+        Some("ply.material"),
+    ),
+    other(&["mass"], "areal_mass", "", None),
+    other(&["sigma", "std"], "deviation", ", the standard deviation", None),
+    other(&["diameter"], "radius", ", half of the diameter", None),
+    other(&["shape", "type"], "kind", "", None),
+];
+
+/// Words by which other programs call a choice, and the choice.
+const OTHER_WORDS: [(&[&str], &str, &str); 4] = [
+    (&["stl", "obj", "inp", "triangles"], "mesh", ", with its `file` and its `unit`"),
+    (&["csv", "heights", "grid"], "height-grid", ", with its `file`"),
+    (&["flat"], "plane", ""),
+    (&["dome", "hemisphere"], "sphere", ", with its `radius`"),
+];
+
 /// A diagnostic of the TOML reader or of serde as an [`Error`].
 pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error {
     let Fault { message, span } = fault.into();
@@ -29,7 +82,14 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
         (format!("the key `{quoted}` is missing{place}"), hint(quoted))
     } else if head.starts_with("unknown variant") {
         let known = every_tick(expected);
-        let suggestion = suggestion(quoted, &known);
+        let word = quoted.to_lowercase();
+        let other = OTHER_WORDS
+            .iter()
+            .find(|(words, choice, _)| words.contains(&word.as_str()) && known.contains(choice));
+        let suggestion = match other {
+            Some((_, choice, beside)) => format!("write \"{choice}\"{beside}; "),
+            None => suggestion(quoted, &known),
+        };
         (
             format!("\"{}\" is no choice here", excerpt(quoted)),
             match known.as_slice() {
@@ -205,7 +265,17 @@ fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
     if key == "landing_contact" && known.contains(&"position") {
         return (message, "it is `position` now, which judges sheet and catenaries alike".into());
     }
-    let suggestion = suggestion(key, known);
+    let word = key.to_lowercase();
+    let others = OTHER_NAMES.iter().filter(|other| other.words.contains(&word.as_str()));
+    let here = others.clone().find(|other| known.contains(&other.name));
+    let elsewhere = others.clone().find_map(|other| Some((other, other.table?)));
+    let suggestion = match (here, elsewhere) {
+        (Some(other), _) => format!("write `{}`{}; ", other.name, other.beside),
+        (None, Some((other, table))) => {
+            format!("write `{}` in [{table}]{}; ", other.name, other.beside)
+        }
+        (None, None) => suggestion(key, known),
+    };
     let help = format!("{suggestion}the keys here are {}", listed(known, '`'));
     (message, help)
 }

@@ -28,7 +28,7 @@ use crate::ResultFile;
 use crate::result::sheet::ended;
 use crate::store::shown;
 use plydrape::layup::Model;
-use plydrape::measure::Verdict;
+use plydrape::measure::{Name, Verdict};
 use plydrape::outcome::Summary;
 use plydrape::scene::World;
 
@@ -70,16 +70,29 @@ pub fn verdict_in_a_line(result: &ResultFile, summary: &Summary) -> String {
         return format!("accepted by {model}{}", result.world());
     }
     match (limiting(&summary.limits), ended(summary)) {
-        (Some(worst), _) => format!("not accepted by {model}: {}", verdict_text(worst)),
+        (Some(worst), _) => {
+            let need = tool::need(result).map(|need| need + "; ").unwrap_or_default();
+            format!("not accepted by {model}: {need}{}", verdict_text(worst))
+        }
         (None, Some(ended)) => format!("not accepted by {model}: {ended}"),
         (None, None) => format!("not accepted by {model} with the errors of the scene"),
     }
 }
 
-/// Of the limits that do not hold, the one exceeded furthest.
+/// Of the limits that do not hold, the one exceeded furthest; those of the tool come before all others, because the ply lies badly where
+/// the tool does not follow.
 #[must_use]
 pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
-    limits.iter().filter(|v| !v.ok).max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+    let of_tool = |verdict: &Verdict| {
+        matches!(
+            verdict.name,
+            Name::ToolResidual | Name::ToolTurnRate | Name::ToolTurnAcceleration | Name::AxisSpeed
+        )
+    };
+    limits
+        .iter()
+        .filter(|v| !v.ok)
+        .max_by(|a, b| of_tool(a).cmp(&of_tool(b)).then(a.ratio().total_cmp(&b.ratio())))
 }
 
 /// Of the limits that hold, the one that is nearest to not holding; none of zero, which only zero keeps.
@@ -174,7 +187,7 @@ pub(crate) fn aligned(rows: &[Vec<String>], texts: &[usize]) -> String {
 mod tests {
     use super::*;
     use crate::sample;
-    use plydrape::measure::{Name, Worst};
+    use plydrape::measure::Worst;
     use plydrape::outcome::Status;
     use plydrape::scene::World;
 
@@ -192,6 +205,9 @@ mod tests {
             limit(Name::Overstretch, 2.0, 1.0, false),
             limit(Name::ContactShare, 10.0, 90.0, false),
         ];
+        result.summary.limits.push(limit(Name::AxisSpeed, 1.1, 1.0, false));
+        assert_eq!(limiting(&result.summary.limits).map(|v| v.name), Some(Name::AxisSpeed));
+        result.summary.limits.pop();
         let line = "not accepted by the catenaries: contact share 10 mm against 90 mm in step 30, gripper g0_0";
         assert_eq!(verdict_in_a_line(&result, &result.summary), line);
         result.summary.limits.truncate(1);

@@ -1,6 +1,7 @@
 //! The tables `steps.csv`, `trajectory.csv` and `motion.csv`, units in their headers.
 //!
-//! Numbers are in the shortest form that reads back to the same double. All of them are of the model that decides: a measure that it does
+//! Numbers are in the shortest form that reads back to the same double; what is rounding beside the other components of its vector is zero,
+//! see [`without_rounding`]. All of them are of the model that decides: a measure that it does
 //! not evaluate has no column, and one without a meaning in a step leaves its cells empty. How the solver ended is there where catenaries
 //! decide.
 //!
@@ -220,8 +221,8 @@ impl<'a> Poses<'a> {
         let known = self.loads.and_then(|loads| loads.at(time));
         for (n, (id, position, quaternion)) in poses.enumerate() {
             let mut row = vec![number(time), gripper_name(id)];
-            row.extend(position.map(number));
-            row.extend(quaternion.map(number));
+            row.extend(without_rounding(position).map(number));
+            row.extend(without_rounding(quaternion).map(number));
             let on = self.vacuum.is_none_or(|events| holds(events, id, time));
             if let Some(loads) = self.loads {
                 let load = known.as_ref().map(|all| if on { &all[n] } else { &Load::NONE });
@@ -237,7 +238,7 @@ impl<'a> Poses<'a> {
 /// The fields of a load, empty where none is known, and of the mount, if it yields.
 fn load_row(load: Option<&Load>, mount: Option<&Stiffness>) -> Vec<String> {
     let fields = |vector: Option<[f64; 3]>| match vector {
-        Some(vector) => vector.map(number),
+        Some(vector) => without_rounding(vector).map(number),
         None => Default::default(),
     };
     let mut row = fields(load.map(|load| load.force)).to_vec();
@@ -261,6 +262,17 @@ pub(crate) fn comment(text: &str) -> String {
 
 fn is_formula(text: &str) -> bool {
     text.starts_with(['=', '+', '-', '@', '\t', '\r'])
+}
+
+/// Numbers of one kind, those smaller than a double's relative spacing times the largest of them zero: a component of 1e-33 beside one of 0.1
+/// is what rounding has left, and says nothing.
+pub(crate) fn without_rounding<V: AsMut<[f64]>>(mut values: V) -> V {
+    let numbers = values.as_mut();
+    let least = f64::EPSILON * numbers.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    for value in numbers.iter_mut().filter(|value| value.abs() <= least) {
+        *value = 0.0;
+    }
+    values
 }
 
 /// The shortest decimal that reads back to the same double.
@@ -292,11 +304,12 @@ mod tests {
         assert_eq!(text.lines().next(), Some(header));
     }
 
-    /// Time, position and orientation read back to the same bits, step by step, gripper by gripper.
+    /// Time, position and orientation read back to the same bits, step by step, gripper by gripper; of a vector what is rounding beside its
+    /// largest component is zero, and what is just above stays.
     #[test]
     fn trajectory_reads_back_to_the_same_numbers() {
         let mut result = sample::draped(4, 2, 3);
-        result.steps[1].grippers[0].commanded = [1.0 / 3.0, 1e-300, -0.0];
+        result.steps[1].grippers[0].commanded = [1.0, 3e-16, -3e-33];
         let rows = rows(&trajectory(&result).unwrap());
         let mut rows = rows.iter();
         for step in &result.steps {
@@ -306,8 +319,11 @@ mod tests {
                 let written: Vec<f64> =
                     [0, 2, 3, 4, 5, 6, 7, 8].map(|k| row[k].parse().unwrap()).to_vec();
                 let mut expected = vec![step.time];
-                expected.extend(gripper.commanded);
+                let [x, y, z] = gripper.commanded;
+                expected.extend([x, y, if z == -3e-33 { 0.0 } else { z }]);
                 expected.extend(gripper.quaternion);
+                // zero has no sign
+                let expected: Vec<f64> = expected.into_iter().map(|value| value + 0.0).collect();
                 let bits = |list: &[f64]| list.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&written), bits(&expected));
             }

@@ -3,7 +3,7 @@
 
 use crate::common::{self, Point, distance, example, lines};
 use crate::scaled::scaled;
-use plydrape::draping::spans::{Shape, shape};
+use plydrape::draping::spans::Equilibrium;
 use plydrape::equilibrium::{Side, Solver, Status};
 use plydrape::layup::{ContactEnd, SlopeRule, Stepping};
 use plydrape::measure::Name;
@@ -134,7 +134,7 @@ fn any_ply() -> impl Strategy<Value = Ply> {
 
 struct Solved {
     solver: Solver,
-    shape: Shape,
+    shape: Equilibrium,
     positions: Vec<Point>,
 }
 
@@ -144,7 +144,8 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
         .collect();
     let mut solver = Solver::new(&ply.scene.layup.ply, &ply.scene.layup.settings);
     let equilibrium = solver.solve(&positions, &ply.contacts);
-    let shape = shape(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
+    let shape =
+        Equilibrium::of(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
     Solved { solver, shape, positions }
 }
 
@@ -221,8 +222,8 @@ proptest! {
         let (mut low, mut middle, mut high) =
             (solve(&ply, -h, &direction), solve(&ply, 0.0, &direction), solve(&ply, h, &direction));
         for solved in [&low, &middle, &high] {
-            prop_assume!(solved.shape.equilibrium.status == Status::Converged);
-            prop_assume!(solved.shape.equilibrium.residual < 1e-9);
+            prop_assume!(solved.shape.solved.status == Status::Converged);
+            prop_assume!(solved.shape.solved.residual < 1e-9);
         }
         prop_assume!(kind(&ply, &low) == kind(&ply, &middle));
         prop_assume!(kind(&ply, &high) == kind(&ply, &middle));

@@ -8,6 +8,7 @@ use plydrape_io::result::ResultFile;
 use plydrape_io::result::read;
 use plydrape_io::robot::program::Program;
 use plydrape_io::scene;
+use plydrape_io::text::table::verdict_in_a_line;
 use std::path::Path;
 
 /// 2 × 2 grippers, 98 mm apart, of which one row comes 18 mm nearer to the other and 30 mm lower.
@@ -57,6 +58,15 @@ fn what_the_axes_cannot_follow_is_not_done() {
     assert!((record.residual_mm - 1e3 * off).abs() < 1e-6 && off > 5e-3, "{record:?} {off}");
     let verdict = result.summary.limits.iter().find(|v| v.name == Name::ToolResidual).unwrap();
     assert!(!verdict.ok && !result.summary.accepted() && verdict.step == Some(10), "{verdict:?}");
+
+    // the cause leads the verdict, with what the plan would need
+    let short = closing(
+        "[tool]\nresidual = \"1 mm\"\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }, { direction = \"x\", stroke = [-0.002, 0.002] }]",
+    );
+    let result = draped(&short);
+    let verdict = verdict_in_a_line(&result, &result.summary);
+    assert!(verdict.contains(": x of g"), "{verdict}");
+    assert!(verdict.contains("has -2 mm in step 10; tool residual 4.28 mm"), "{verdict}");
 
     let both = closing(
         "[tool]\nresidual = \"1 mm\"\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }, { direction = \"x\", stroke = [-0.02, 0.02] }]",

@@ -1,7 +1,7 @@
 //! A whole motion as a tool makes it.
 
-use super::{Posture, Tool};
-use crate::geometry::vector::{distance, dot};
+use super::{Axis, Posture, Tool};
+use crate::geometry::vector::{distance, dot, sub};
 use rayon::prelude::*;
 
 /// A motion that a tool makes.
@@ -30,14 +30,56 @@ pub struct ToolRecord {
     pub strokes_mm: Vec<[f64; 2]>,
     /// Largest turn of the frame from its start (°).
     pub turn_deg: f64,
+    /// The stroke that is missing most; none where all are long enough.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub missing: Option<MissingStroke>,
+}
+
+/// A stroke that a motion asks for beyond an end of its axis.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct MissingStroke {
+    /// The axis, by its number among those of a gripper.
+    pub axis: usize,
+    /// The gripper, by its number.
+    pub gripper: usize,
+    /// The step, counted from 1.
+    pub step: usize,
+    /// The stroke that brings the gripper as near as the axis can (mm).
+    pub needs_mm: f64,
+    /// The end of the axis on that side (mm).
+    pub has_mm: f64,
+}
+
+impl MissingStroke {
+    /// How much is missing (mm).
+    #[must_use]
+    pub fn by_mm(&self) -> f64 {
+        (self.needs_mm - self.has_mm).abs()
+    }
 }
 
 impl ToolRecord {
     /// The record of two motions in one, of which the first is that of the tool and the second only asked for places near it.
     #[must_use]
     pub fn with_residual_of(self, asked: &ToolRecord) -> Self {
-        let ToolRecord { residual_mm, gripper, step, .. } = *asked;
-        ToolRecord { residual_mm, gripper, step, ..self }
+        let ToolRecord { residual_mm, gripper, step, ref missing, .. } = *asked;
+        ToolRecord { residual_mm, gripper, step, missing: missing.clone(), ..self }
+    }
+
+    /// Keeps the stroke of an axis that brings a gripper to a place off the zero of its axes (m), if more of it is missing than of any
+    /// before.
+    fn miss(&mut self, off: [f64; 3], axes: &[Axis], gripper: usize, step: usize) {
+        for (n, axis) in axes.iter().enumerate() {
+            let [needs_mm, has_mm] =
+                [dot(axis.direction, off), axis.stroke_to(off)].map(|stroke| 1e3 * stroke);
+            let missing = MissingStroke { axis: n, gripper, step, needs_mm, has_mm };
+            let before = self.missing.as_ref().map_or(0.0, MissingStroke::by_mm);
+            if missing.by_mm() > before {
+                self.missing = Some(missing);
+            }
+        }
     }
 }
 
@@ -56,6 +98,7 @@ impl Tool {
             step: 1,
             strokes_mm: vec![[0.0; 2]; self.axes.len()],
             turn_deg: 0.0,
+            missing: None,
         };
         for (k, posture) in postures.iter().enumerate() {
             for (n, (a, b)) in asked[k].iter().zip(&positions[k]).enumerate() {
@@ -63,6 +106,9 @@ impl Tool {
                 if residual > record.residual_mm {
                     (record.residual_mm, record.gripper, record.step) = (residual, n, k + 1);
                 }
+            }
+            for (n, (place, mount)) in asked[k].iter().zip(&self.mounts).enumerate() {
+                record.miss(sub(posture.frame.local(*place), *mount), &self.axes, n, k + 1);
             }
             for strokes in &posture.strokes {
                 for (range, stroke) in record.strokes_mm.iter_mut().zip(strokes) {

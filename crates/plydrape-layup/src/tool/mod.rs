@@ -20,7 +20,7 @@ mod rates;
 mod tests;
 mod tuning;
 
-pub use carried::{Carried, ToolRecord};
+pub use carried::{Carried, MissingStroke, ToolRecord};
 pub use posture::Posture;
 pub use rates::{ToolPeaks, turn_between};
 

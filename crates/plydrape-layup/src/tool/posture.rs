@@ -149,7 +149,7 @@ impl Tool {
 
 impl Axis {
     /// The stroke that comes nearest to a place off its zero (m).
-    fn stroke_to(&self, off: [f64; 3]) -> f64 {
+    pub(super) fn stroke_to(&self, off: [f64; 3]) -> f64 {
         dot(self.direction, off).clamp(self.stroke[0], self.stroke[1])
     }
 

@@ -35,6 +35,24 @@ fn at_the_start_a_tool_stands_with_its_strokes_at_zero() {
     }
 }
 
+/// Four grippers 100 mm apart that close to half of it each need 25 mm of an axis that has 10, and no axis is missing where it has 30.
+#[test]
+fn a_motion_says_which_stroke_it_would_need() {
+    let x = [1.0, 0.0, 0.0];
+    let start = start(2, 2);
+    let half = start.iter().map(|p| [0.025 + 0.5 * p[0], p[1], p[2]]).collect::<Vec<_>>();
+    let record = |stroke| {
+        Tool::new(&start, vec![axis(Z, 0.05), axis(x, stroke)])
+            .carry(&[start.clone(), half.clone()])
+            .record
+    };
+    let missing = record(0.01).missing.unwrap();
+    assert_eq!((missing.axis, missing.step), (1, 2));
+    assert!((missing.by_mm() - 15.0).abs() < 1e-9 && missing.has_mm.abs() == 10.0, "{missing:?}");
+    assert!((record(0.01).residual_mm - 15.0).abs() < 1e-9);
+    assert_eq!(record(0.03).missing, None);
+}
+
 fn turn() -> impl Strategy<Value = [f64; 3]> {
     [-0.8..0.8, -0.8..0.8, -0.8..0.8].prop_map(|w: [f64; 3]| w)
 }

@@ -5,7 +5,7 @@ use super::recorder::Recorder;
 use super::sensitivity::judge_sensitivity;
 use super::{Status, Step, Summary, check_catenaries};
 use crate::Error;
-use crate::draping::spans::Shape;
+use crate::draping::spans::Equilibrium;
 use crate::draping::{self, Draping, Follow};
 use crate::layup::{Layup, Model};
 use crate::measure::{Judge, Limits, Name, Scope, Verdict};
@@ -148,7 +148,7 @@ pub(crate) fn drape_catenaries(
     limits: &Limits,
     draping: &mut Draping,
     watch: &mut DrapeWatch,
-) -> (Drape, Option<Shape>) {
+) -> (Drape, Option<Equilibrium>) {
     let recorder = Recorder::new(layup, limits);
     let ((summary, steps, solving), shape) = follow_catenaries(draping, recorder, watch);
     (Drape { steps, summary, sheet: None, solving }, shape)
@@ -159,7 +159,7 @@ fn follow_catenaries(
     draping: &mut Draping,
     mut recorder: Recorder,
     watch: &mut DrapeWatch,
-) -> ((Summary, Vec<Step>, Duration), Option<Shape>) {
+) -> ((Summary, Vec<Step>, Duration), Option<Equilibrium>) {
     let follow = Follow { most_equilibria: usize::MAX, full: true };
     let (followed, shape) = draping.follow(follow, |state, record, last| {
         recorder.add(state, record, last);

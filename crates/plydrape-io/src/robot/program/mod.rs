@@ -267,10 +267,13 @@ fn carried(tool: &Tool, pads: &mut [Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<
         pad.tilts = pad.poses.iter().zip(&postures).map(of).collect();
     }
     let flange = postures.iter().map(|posture| posture.frame.compose(&tool.flange)).collect();
+    let strokes = |n: usize, a: usize| -> Vec<f64> {
+        postures.iter().map(|posture| posture.strokes[n][a]).collect()
+    };
     let axis = |n: usize, a: usize| Axis {
         name: format!("{}_{}", pads[n].name, tool.axes[a].name),
         gripper: ids[n],
-        values: postures.iter().map(|posture| posture.strokes[n][a]).collect(),
+        values: csv::without_rounding(strokes(n, a)),
         stroke: Some(tool.axes[a].stroke),
         speed: tool.axes[a].speed,
     };

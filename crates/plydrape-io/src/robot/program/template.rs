@@ -70,6 +70,22 @@ impl Robot {
         }
     }
 
+    /// Its maker, by whose name it is known too.
+    #[must_use]
+    pub const fn maker(self) -> &'static str {
+        match self {
+            Robot::Rapid => "abb",
+            Robot::Krl => "kuka",
+            Robot::Urscript => "ur",
+        }
+    }
+
+    /// The controller of a name or of a maker.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Robot> {
+        Robot::ALL.into_iter().find(|robot| [robot.name(), robot.maker()].contains(&word))
+    }
+
     /// The command that prints its template, the program where there are data too.
     pub(super) fn printed(self) -> &'static str {
         match self {

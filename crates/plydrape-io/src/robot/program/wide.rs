@@ -8,13 +8,14 @@
 //! | `g2_0 vacuum` | 1 while the vacuum of a gripper is on, else 0 |
 //! | `g2_0 tilt (deg)` | the angle of a passive joint; no axis moves it |
 //!
-//! Numbers are in the shortest form that reads back to the same double.
+//! Numbers are in the shortest form that reads back to the same double; what is rounding beside the other components of its vector, or
+//! beside the largest stroke of its axis, is zero.
 
 use super::context::rejected;
 use super::sampling::nearest;
 use super::{Event, EventKind, Program};
 use crate::Error;
-use crate::write::csv::{cell, comment, number, text as text_of};
+use crate::write::csv::{cell, comment, number, text as text_of, without_rounding};
 use ::csv::Writer;
 use plydrape::geometry::Pose;
 use plydrape::ply::gripper_name;
@@ -48,8 +49,8 @@ pub fn text(program: &Program) -> Result<String, Error> {
     for (k, time) in program.times.iter().enumerate() {
         let mut row = vec![number(*time)];
         if let Some(flange) = &program.flange {
-            row.extend(flange[k].position.map(number));
-            row.extend(turns[k].map(number));
+            row.extend(without_rounding(flange[k].position).map(number));
+            row.extend(without_rounding(turns[k]).map(number));
         }
         row.extend(program.axes.iter().map(|axis| number(axis.values[k])));
         row.extend(vacuum[k].iter().map(|on| u8::from(*on).to_string()));

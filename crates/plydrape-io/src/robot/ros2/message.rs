@@ -1,5 +1,6 @@
 //! The messages as Rust types: same names and same order of fields as in their definitions (`schema.rs`).
 
+use crate::write::csv::without_rounding;
 use serde::Serialize;
 
 /// `builtin_interfaces/msg/Time`.
@@ -177,13 +178,15 @@ pub(super) struct MarkerArray {
 }
 
 impl From<[f64; 3]> for Vector3 {
-    fn from([x, y, z]: [f64; 3]) -> Self {
+    fn from(vector: [f64; 3]) -> Self {
+        let [x, y, z] = without_rounding(vector);
         Vector3 { x, y, z }
     }
 }
 
 impl From<[f64; 4]> for Quaternion {
-    fn from([x, y, z, w]: [f64; 4]) -> Self {
+    fn from(quaternion: [f64; 4]) -> Self {
+        let [x, y, z, w] = without_rounding(quaternion);
         Quaternion { x, y, z, w }
     }
 }

@@ -1,7 +1,9 @@
 //! A result on one screen, and the rest of it.
 
 use super::ink::{Ink, Tone};
-use super::{WIDTH, beside, errors, limited_by, limits, model_name, report, significant, steps};
+use super::{
+    WIDTH, beside, errors, limited_by, limits, model_name, report, significant, steps, tool,
+};
 use super::{limiting, steps_table, verdict_text};
 use crate::result::ResultFile;
 use crate::result::sheet::{ended, overstrained};
@@ -86,8 +88,12 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
         (true, false) => ("accepted only without errors", "", Tone::Bad),
         (false, _) => ("not accepted", "", Tone::Bad),
     };
-    let worst = limiting(&summary.limits).map(|worst| format!(": {}", verdict_text(worst)));
-    let line = format!("{word} by {model}{world}{}", worst.unwrap_or_default());
+    let worst = limiting(&summary.limits).map(verdict_text);
+    // what causes the rest comes first
+    let need = worst.as_ref().and_then(|_| tool::need(result));
+    let causes: Vec<String> = need.into_iter().chain(worst).collect();
+    let colon = if causes.is_empty() { "" } else { ": " };
+    let line = format!("{word} by {model}{world}{colon}{}", causes.join("; "));
     let mut text = ink.tinted(&shown::excerpt(&line, WIDTH), tone) + "\n";
     let unseen = result.unseen().filter(|_| summary.accepted());
     let why =

@@ -1,4 +1,4 @@
-//! What a motion takes of its tool.
+//! What a motion takes of its tool, and what it would need.
 
 use super::significant;
 use crate::result::ResultFile;
@@ -23,4 +23,23 @@ pub(super) fn tool(result: &ResultFile) -> String {
         let _ = write!(text, "; {} {} to {} mm", axis.name, mm(*least), mm(*most));
     }
     text + "\n"
+}
+
+/// What the motion of a result would need of its tool, as in `y of g5_1 needs -41 mm, has -40 mm in step 80`: the stroke that is missing most,
+/// where the tool leaves more than its residual may be, or where none is limited more than what counts as touching. `None` where the tool
+/// follows.
+pub(crate) fn need(result: &ResultFile) -> Option<String> {
+    let (tool, record) = (result.scene.tool.as_ref()?, result.summary.tool.as_ref()?);
+    let missing = record.missing.as_ref()?;
+    let allowed = tool.residual.unwrap_or(result.scene.settings.contact.tolerance);
+    (record.residual_mm > 1e3 * allowed).then(|| {
+        format!(
+            "{} of {} needs {} mm, has {} mm in step {}",
+            tool.axes[missing.axis].name,
+            gripper_name(result.scene.ply.id(missing.gripper)),
+            significant(missing.needs_mm),
+            significant(missing.has_mm),
+            missing.step
+        )
+    })
 }
