@@ -15,6 +15,7 @@ use crate::Error;
 use csv_core::{ReadFieldResult, Reader, ReaderBuilder};
 use header::Header;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// A column that a table must have.
 #[derive(Debug, Clone, Copy)]
@@ -304,8 +305,18 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
+/// A reader of each of [`SEPARATORS`]: it takes much longer to build one than to copy it, and a header is looked for with many.
+static READERS: LazyLock<[Reader; 3]> =
+    LazyLock::new(|| SEPARATORS.map(|byte| ReaderBuilder::new().delimiter(byte).build()));
+
 fn reader(separator: u8) -> Reader {
-    ReaderBuilder::new().delimiter(separator).build()
+    let [semicolon, tab, comma] = &*READERS;
+    match separator {
+        b';' => semicolon,
+        b'\t' => tab,
+        _ => comma,
+    }
+    .clone()
 }
 
 /// The bytes of the fields of a line, without spaces and quotes around them; within quotes nothing separates.
