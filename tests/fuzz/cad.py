@@ -161,6 +161,7 @@ def reading(path: Path) -> int:
     try:
         points, triangles = _occ.read_here(path, None, ANGLE, None)
     except CadError as error:
+        print(str(error)[:300], file=sys.stderr)
         return REFUSED if is_short(str(error)) else WRONG
     except MemoryError:
         return NO_MEMORY
@@ -174,8 +175,7 @@ def reading(path: Path) -> int:
 
 
 def is_short(message: str) -> bool:
-    """Whether a message is one; it goes to standard error."""
-    print(message[:300], file=sys.stderr)
+    """Whether a message is one line that can be read."""
     return 0 < len(message) < 2000 and "\n" not in message
 
 

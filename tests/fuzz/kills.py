@@ -330,7 +330,7 @@ class Kills:
         while_writing = name != "study" and rng.random() < 0.5
         while process.poll() is None:
             if while_writing:
-                if any(out.glob(".plydrape-*/new-*")) or any(out.glob("**/.*.tmp")):
+                if writes(out):
                     time.sleep(rng.uniform(0.0, 0.02))
                     break
                 time.sleep(0.0005)
@@ -457,6 +457,14 @@ class Kills:
         hidden = [p for p in folder.rglob(".*") if p.name not in (listed, ".lock")]
         if hidden or not is_sealed(out):
             yield Fault("the next run clears what is left", f"{hidden or 'no seal'}")
+
+
+def writes(out: Path) -> bool:
+    """Whether files are being staged for a folder."""
+    # what goes while it is listed is no fault
+    with contextlib.suppress(FileNotFoundError):
+        return any(out.glob(".plydrape-*/new-*")) or any(out.glob("**/.*.tmp"))
+    return False
 
 
 def accepted(result: bytes) -> bool:

@@ -1,8 +1,8 @@
 """`scripts/fuzz threads`: every command once with one thread and once with two, to the same bytes.
 
-The commands, their inputs and the folders they write have the same names in both places. What they
-print, their exit codes and every file are compared. A command that is not listed here is named, so
-that a new one is not forgotten.
+The commands, their inputs and the folders they write have the same names in both places. Every file
+is compared, with the exit code and what they print but for the time that they took. A command that
+is not listed here is named, so that a new one is not forgotten.
 """
 
 from __future__ import annotations
@@ -74,6 +74,15 @@ PLANNED = ("01_flat_sheared_mold", "04_dome", "12_real_cell", "17_robot")
 FORMATS = ("csv", "inp", "pattern", "boundary", "ros2", "rapid", "krl", "urscript", "vtk")
 
 
+# How long something took: in a sentence, in JSON, and how far a search was.
+TOOK = re.compile(
+    rb"(?<= in )[\d.]+ (\xc2\xb5s|ms|s|min|h)\b( \d+ (s|min))?"
+    rb'|(?<="time_s":)[\d.e-]+|(?<="mean_equilibrium_us":)[\d.e-]+'
+    rb"|^plydrape: .*(\n  .*)*\n",
+    re.MULTILINE,
+)
+
+
 def write(folder: Path) -> list[str]:
     """Writes all inputs; the commands, each after those whose files it reads."""
     for name, text in TABLES.items():
@@ -83,7 +92,8 @@ def write(folder: Path) -> list[str]:
     (folder / "offset.toml").write_text(OFFSET.format(x=3))
     (folder / "lines").write_text(LINES)
     (folder / "book.toml").write_text(BOOK)
-    commands = [*WITHOUT_INPUT, "check mine/scene.toml"]
+    scenes: list[str] = []
+    plans: list[str] = []
     for place in sorted(ROOT.glob("examples/*/scene.toml")):
         name, mold = place.parent.name, tomllib.loads(place.read_text()).get("mold", {}).get("file")
         if mold and not (Path(mold).name == mold and (place.parent / mold).is_file()):
@@ -91,7 +101,7 @@ def write(folder: Path) -> list[str]:
         shutil.copytree(place.parent, folder / name)
         (folder / name / "scene.toml").write_text(scene.short(place.read_text()))
         one = f"{name}/scene.toml"
-        commands += [
+        scenes += [
             f"check {one} --html -o out/{name}.check",
             f"check {one} --json",
             f"net {one} -o out/{name}.net",
@@ -99,8 +109,10 @@ def write(folder: Path) -> list[str]:
             f"simulate {one} -o out/{name}.catenaries --model catenaries --json",
         ]
         if name in PLANNED:
-            commands.append(f"plan {one} -o out/{name}.plan")
-    commands += [
+            plans.append(f"plan {one} -o out/{name}.plan")
+    commands = [
+        *WITHOUT_INPUT,
+        "check mine/scene.toml",
         "check flat.toml",
         "plan flat.toml -o out/plan --verbose",
         "plan flat.toml -o out/compare --compare",
@@ -121,12 +133,14 @@ def write(folder: Path) -> list[str]:
         "template krl-src",
         "study flat.study.toml -o out/study --workers THREADS",
     ]
-    for source in ("plan", "moved", "17_robot.plan", "17_robot.sheet", "04_dome.sheet"):
-        commands += [
-            f"export out/{source} --to {to} --even-if-rejected -o out/{source}.{to}"
-            for to in FORMATS
-        ]
-    return commands
+    commands += [*exports("plan"), *exports("moved"), *scenes, *exports("17_robot.sheet")]
+    return [*commands, *exports("04_dome.sheet"), *plans, *exports("17_robot.plan")]
+
+
+def exports(source: str) -> list[str]:
+    """All exports of a result."""
+    ask = "export out/{0} --to {1} --even-if-rejected -o out/{0}.{1}"
+    return [ask.format(source, to) for to in FORMATS]
 
 
 def forgotten(binary: Path, commands: list[str]) -> list[str]:
@@ -161,7 +175,7 @@ def ran(binary: Path, command: str, folder: Path, threads: int) -> tuple[int, by
         capture_output=True,
         check=False,
     )
-    return done.returncode, done.stdout, done.stderr
+    return done.returncode, TOOK.sub(b"", done.stdout), TOOK.sub(b"", done.stderr)
 
 
 def differences(one: Contents, two: Contents) -> Iterator[str]:

@@ -42,6 +42,9 @@ const MISSING: i32 = 97;
 const PROGRAM: &str = "\
 import os, signal, sys, threading
 def listen():
+    # those who hold signals back in the first thread would get them by this one
+    if hasattr(signal, 'pthread_sigmask'):
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     os.read(0, 1)
     os.kill(os.getpid(), signal.SIGTERM)
 threading.Thread(target=listen, daemon=True).start()
