@@ -77,7 +77,7 @@ FORMATS = ("csv", "inp", "pattern", "boundary", "ros2", "rapid", "krl", "urscrip
 # How long something took: in a sentence, in JSON, and how far a search was.
 TOOK = re.compile(
     rb"(?<= in )[\d.]+ (\xc2\xb5s|ms|s|min|h)\b( \d+ (s|min))?"
-    rb'|(?<="time_s":)[\d.e-]+|(?<="mean_equilibrium_us":)[\d.e-]+'
+    rb'|(?<="time_s":)[\d.e-]+|(?<="plan_time_s":)[\d.e-]+|(?<="mean_equilibrium_us":)[\d.e-]+'
     rb"|^plydrape: .*(\n  .*)*\n",
     re.MULTILINE,
 )
