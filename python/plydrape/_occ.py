@@ -2,10 +2,16 @@
 
 OpenCASCADE divides each edge once for both of its faces. Nodes on a shared edge are therefore
 joined by their number along the edge, not by their distance, and the surface has no cracks.
+
+Of ten damaged files it crashes on one or so. It therefore runs in a process of its own.
 """
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,10 +21,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plydrape._extra import load
-from plydrape.errors import CadError
+from plydrape.errors import CadError, ExtraError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+FINE = 1.0 / 5000.0
+"""The tolerance if none is given, as a share of the diagonal of the part's box."""
+
+SEAM = 0.1
+"""Faces are joined along edges that are closer than this share of the tolerance."""
 
 STEP_UNITS = {
     "millimetre": 1e-3,
@@ -29,6 +41,119 @@ STEP_UNITS = {
     "foot": 0.3048,
 }
 """Names of units in STEP files, and their meters."""
+
+
+REFUSED, MISSING = 3, 4
+"""Exit codes of the process that reads: its `CadError` is in a file; there is no OpenCASCADE."""
+
+PROGRAM = """\
+import sys
+sys.path = [path for path in sys.path if path]
+from plydrape._occ import child
+sys.exit(child())
+"""
+"""What the process runs, by a way that takes no folder `plydrape` of the current one for it."""
+
+REPAIR = "repair the part in the program that made it, or export the faces as an STL or OBJ file"
+
+
+def read(
+    path: Path, chord: float | None, angle: float, unit: float | None
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Triangles of a file's faces, read in a process of its own.
+
+    Parameters
+    ----------
+    path : path
+        A file that ends in .step, .stp, .iges or .igs.
+    chord : float or None
+        Most distance between triangles and faces (m); a share of the part if None.
+    angle : float
+        Most angle between neighboring triangles (rad).
+    unit : float or None
+        What one unit of the file is (m), where the file says it wrongly.
+
+    Returns
+    -------
+    tuple of ndarray, ndarray
+        Points (P, 3) in m and triangles (T, 3), turned as the faces are.
+
+    Raises
+    ------
+    CadError
+        The file is refused, or OpenCASCADE has crashed.
+    ExtraError
+        OpenCASCADE is not installed.
+
+    """
+    with tempfile.TemporaryDirectory(prefix="plydrape-cad-") as folder:
+        surroundings = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+        given = [str(path), folder, repr(chord), repr(angle), repr(unit)]
+        done = subprocess.run(
+            [sys.executable, "-c", PROGRAM, *given],
+            env=surroundings,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+        )
+        if done.returncode == MISSING:
+            raise ExtraError("OpenCASCADE", "cadquery-ocp-novtk")
+        if done.returncode == REFUSED:
+            raise CadError((Path(folder) / "refused").read_text(encoding="utf-8"))
+        if done.returncode != 0:
+            said = done.stderr.decode(errors="replace").strip().splitlines()
+            why = f"fails: {said[-1][:200]}" if said and done.returncode > 0 else "crashes on it"
+            raise CadError(f"{path}: OpenCASCADE {why}; {REPAIR}")
+        with np.load(Path(folder) / "read.npz") as arrays:
+            return arrays["points"], arrays["triangles"]
+
+
+def child() -> int:
+    """Reads the file of the arguments, and writes what is in it, or why not; the exit code."""
+    path, folder, *numbers = sys.argv[1:]
+    chord, angle, unit = (None if text == "None" else float(text) for text in numbers)
+    assert angle is not None
+    try:
+        points, triangles = read_here(Path(path), chord, angle, unit)
+    except ExtraError:
+        return MISSING
+    except CadError as error:
+        (Path(folder) / "refused").write_text(str(error), encoding="utf-8")
+        return REFUSED
+    np.savez(Path(folder) / "read.npz", points=points, triangles=triangles)
+    return 0
+
+
+def read_here(
+    path: Path, chord: float | None, angle: float, unit: float | None
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The same in this process, which ends where OpenCASCADE crashes; arguments as of `read`.
+
+    Raises
+    ------
+    CadError
+        The file is refused.
+
+    """
+    need("gp")
+    with quiet():
+        source = step if path.suffix.lower() in (".step", ".stp") else iges
+        try:
+            shape, scale = source(path, unit)
+            if shape is None or shape.IsNull() or not faces(shape):
+                raise CadError(f"{path}: no face in it; a mold needs surfaces, not only curves")
+            deflection = FINE * size(shape) if chord is None else chord / scale
+            shape = sewn(shape, SEAM * deflection)
+            points, triangles = mesh(shape, deflection, angle)
+        except Exception as error:
+            if not type(error).__module__.startswith("OCP."):
+                raise
+            why = " ".join(str(error).split())[:200]
+            raise CadError(f"{path}: OpenCASCADE cannot read it ({why}); {REPAIR}") from error
+    points = points * scale
+    if len(triangles) == 0 or not np.isfinite(points).all():
+        raise CadError(f"{path}: its faces could not be divided into triangles; {REPAIR}")
+    return points, triangles
 
 
 def need(module: str) -> ModuleType:

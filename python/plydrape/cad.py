@@ -37,12 +37,6 @@ __all__ = ["CadError", "Triangles", "convert", "mold", "read"]
 UNITS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """Names of units of length, and their meters."""
 
-FINE = 1.0 / 5000.0
-"""The tolerance if none is given, as a share of the diagonal of the part's box."""
-
-SEAM = 0.1
-"""Faces are joined along edges that are closer than this share of the tolerance."""
-
 
 class Triangles(NamedTuple):
     """A surface of triangles."""
@@ -83,7 +77,8 @@ def read(
     Raises
     ------
     CadError
-        No such file, not of its kind, without a face, or a tolerance that makes no sense.
+        No such file, not of its kind, without a face, so damaged that OpenCASCADE fails or
+        crashes, which ends no more than a process of its own, or a tolerance that makes no sense.
     ImportError
         OpenCASCADE is not installed.
 
@@ -110,18 +105,8 @@ def read(
         raise CadError(f'"{unit}" is no unit of length; there are {", ".join(UNITS)}')
     factor = None if unit is None else UNITS[unit]
 
-    _occ.need("gp")
-    with _occ.quiet():
-        source = _occ.step if kind in (".step", ".stp") else _occ.iges
-        shape, scale = source(where, factor)
-        if shape is None or shape.IsNull() or not _occ.faces(shape):
-            raise CadError(f"{where}: no face in it; a mold needs surfaces, not only curves")
-        deflection = FINE * _occ.size(shape) if chord is None else chord / scale
-        shape = _occ.sewn(shape, SEAM * deflection)
-        points, triangles = _occ.mesh(shape, deflection, float(np.deg2rad(angle_deg)))
-    if len(triangles) == 0:
-        raise CadError(f"{where}: its faces could not be divided into triangles")
-    return Triangles(points * scale, _upward(points, triangles))
+    points, triangles = _occ.read(where, chord, float(np.deg2rad(angle_deg)), factor)
+    return Triangles(points, _upward(points, triangles))
 
 
 def mold(

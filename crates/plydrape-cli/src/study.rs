@@ -7,7 +7,7 @@ use crate::failure::{Done, Failure};
 use std::env;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
 /// Drape many scenes made of one: a grid or a random sample of its numbers.
 #[derive(Debug, clap::Args)]
@@ -37,9 +37,17 @@ pub struct Arguments {
 const MISSING: i32 = 97;
 
 /// What Python runs: the command of the package, by a way that takes no folder named `plydrape` in the
-/// current one for it.
+/// current one for it. Its standard input ends with this process, and then it ends as by SIGTERM: nobody would see a study that goes
+/// on, and it would keep its folder.
 const PROGRAM: &str = "\
-import sys
+import os, signal, sys, threading
+def listen():
+    # those who hold signals back in the first thread would get them by this one
+    if hasattr(signal, 'pthread_sigmask'):
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    os.read(0, 1)
+    os.kill(os.getpid(), signal.SIGTERM)
+threading.Thread(target=listen, daemon=True).start()
 sys.path = [path for path in sys.path if path]
 try:
     from plydrape.study.__main__ import main
@@ -62,13 +70,17 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let mut child = Command::new(&python)
         .args(["-c", PROGRAM])
         .args(arguments_of(arguments, quiet))
+        .stdin(Stdio::piped())
         .spawn()
         .map_err(unknown)?;
+    // `wait` would close it
+    let input = child.stdin.take();
     // Python keeps what is finished and says how to go on; here it is waited for. Ctrl-C reaches both, what is sent to
     // this process alone is passed on.
     let id = child.id();
     let _ = ctrlc::set_handler(move || terminate(id));
     let status = child.wait().map_err(unknown)?;
+    drop(input);
     match status.code() {
         Some(MISSING) => Err(Failure::Refused {
             message: format!("the Python `{}` has no package plydrape", python.display()),

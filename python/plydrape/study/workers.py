@@ -203,6 +203,9 @@ class Pool:
 def _begin(ear: Connection) -> None:
     """Begins a worker: Ctrl-C is for the client alone, and who ends with it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    mask = getattr(signal, "pthread_sigmask", None)
+    if mask is not None:
+        mask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     threading.Thread(target=_listen, args=(ear,), daemon=True).start()
 
 
@@ -215,12 +218,15 @@ def _listen(ear: Connection) -> None:
 
 @contextlib.contextmanager
 def _starting() -> Iterator[None]:
-    """What processes inherit that are started within: one thread each, and no Ctrl-C."""
+    """What processes inherit that are started within: one thread each, and no Ctrl-C.
+
+    A client that is interrupted here would leave one that waits for what it shall do, and says so.
+    """
     before = {name: os.environ.get(name) for name in THREADS}
     os.environ.update(THREADS)
     mask = getattr(signal, "pthread_sigmask", None)
     if mask is not None:
-        held = mask(signal.SIG_BLOCK, {signal.SIGINT})
+        held = mask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         yield
     finally:

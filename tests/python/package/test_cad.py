@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from collections import Counter
@@ -23,7 +24,7 @@ from OCP.gp import gp_Ax3, gp_Cylinder, gp_Dir, gp_Pln, gp_Pnt, gp_Sphere
 from OCP.IGESControl import IGESControl_Writer
 from OCP.Interface import Interface_Static
 from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
-from plydrape import cad
+from plydrape import _occ, cad
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,8 +72,6 @@ def iges(path: Path, *shapes: Any, unit: str = "MM") -> Path:
 
 def quiet() -> Any:
     """OpenCASCADE writes on the standard output."""
-    from plydrape import _occ
-
     return _occ.quiet()
 
 
@@ -354,8 +353,35 @@ def test_a_package_is_named_where_it_is_missing(
 ) -> None:
     """Not before it is used: the module itself can be imported without OpenCASCADE."""
     path = step(tmp_path / "cap.step", cap())
-    for name in [name for name in sys.modules if name.split(".")[0] == "OCP"]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "OCP", None)
+    stub = 'raise ModuleNotFoundError("No module named OCP", name="OCP")\n'
+    (tmp_path / "OCP.py").write_text(stub)
+    monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ImportError, match=r"pip install cadquery-ocp-novtk"):
+        cad.read(path)
+
+
+@pytest.mark.parametrize(
+    ("end", "words"),
+    [
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "crashes on it"),
+        ("raise MemoryError", "fails: MemoryError"),
+    ],
+)
+def test_a_crash_of_opencascade_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, end: str, words: str
+) -> None:
+    """It crashes on one damaged file of ten or so; here the process that reads ends so."""
+    path = step(tmp_path / "cap.step", cap())
+    monkeypatch.setattr(_occ, "PROGRAM", end)
+    with pytest.raises(cad.CadError, match=rf"cap\.step: OpenCASCADE {words}; repair the part"):
+        cad.read(path)
+
+
+def test_what_opencascade_refuses_is_an_error(tmp_path: Path) -> None:
+    """A radius that is no length fails in the middle of its work, by an exception of its own."""
+    path = step(tmp_path / "cap.step", cap())
+    text = path.read_text()
+    path.write_text(re.sub(r"(SPHERICAL_SURFACE\('',#\d+,)200\.", r"\g<1>-1.E308", text))
+    assert path.read_text() != text
+    with pytest.raises(cad.CadError, match=r"cap\.step: .*"):
         cad.read(path)

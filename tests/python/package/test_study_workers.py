@@ -14,7 +14,7 @@ import pytest
 from deadly import Deadly
 from plydrape.study import StudyError
 from plydrape.study.scenario import Line
-from plydrape.study.workers import here
+from plydrape.study.workers import Pool, _starting, here
 from studies import study, write
 
 
@@ -75,6 +75,21 @@ def test_workers_end_when_their_rows_are_wanted_no_more() -> None:
     assert len(set(multiprocessing.active_children()) - others) == 2
     lines.close()
     assert set(multiprocessing.active_children()) <= others
+
+
+def test_an_interruption_waits_until_workers_are_started() -> None:
+    """Otherwise one that has not got its task yet would end with a traceback; later all hear it."""
+
+    def held() -> set[signal.Signals | int]:
+        return set(signal.pthread_sigmask(signal.SIG_BLOCK, []))
+
+    before = held()
+    with _starting():
+        assert {signal.SIGINT, signal.SIGTERM} <= held()
+    assert held() == before
+    with Pool(1) as pool:
+        found = pool._pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, [])
+        assert signal.SIGTERM not in found.result()
 
 
 def test_a_worker_that_cannot_be_started_is_an_error() -> None:

@@ -3,9 +3,10 @@
 
 use crate::common::{command, one_line, text};
 use std::fs;
+use std::io::{BufRead, BufReader, Read};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::process::Output;
+use std::process::{Output, Stdio};
 
 /// A program that stands in for Python.
 fn python(folder: &Path, script: &str) -> PathBuf {
@@ -76,11 +77,39 @@ fn a_termination_is_passed_on_to_python() {
     let child = command()
         .args(["study", "study.toml"])
         .env("PLYDRAPE_PYTHON", python)
-        .stderr(std::process::Stdio::null())
+        .stderr(Stdio::null())
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_millis(500));
     let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+}
+
+/// SIGKILL cannot be passed on. A study that went on would keep its folder, and nobody would see it; here a package stands in for the
+/// real one.
+#[test]
+fn a_study_ends_with_the_command_that_was_killed() {
+    let home = tempfile::tempdir().unwrap();
+    let package = home.path().join("plydrape/study");
+    fs::create_dir_all(&package).unwrap();
+    let main = "import time\ndef main():\n    print('began', flush=True)\n    time.sleep(10)\n    print('went on')\n";
+    for (name, text) in [("../__init__.py", ""), ("__init__.py", ""), ("__main__.py", main)] {
+        fs::write(package.join(name), text).unwrap();
+    }
+    let mut child = command()
+        .args(["study", "study.toml"])
+        .env("PLYDRAPE_PYTHON", "python3")
+        .env("PYTHONPATH", home.path())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut output = BufReader::new(child.stdout.take().unwrap());
+    let mut said = String::new();
+    output.read_line(&mut said).unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    // until Python has ended too
+    output.read_to_string(&mut said).unwrap();
+    assert_eq!(said, "began\n");
 }

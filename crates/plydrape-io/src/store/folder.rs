@@ -56,7 +56,7 @@ pub struct Folder {
     read: Vec<PathBuf>,
     /// The folder was made for this run.
     made: bool,
-    stage: Option<TempDir>,
+    stage: Option<Stage>,
     /// Held as long as the claim.
     _lock: File,
 }
@@ -79,11 +79,16 @@ impl Folder {
             // a disk without locks: two runs at a time are then not noticed
             Err(TryLockError::Error(_)) => {}
         }
-        for stage in stages(dir) {
+        for stage in hidden(dir) {
             // left by a run that was killed: whoever staged it would hold the lock
-            let _ = fs::remove_dir_all(stage);
+            if stage.join(OWNER).is_file() {
+                clear(&stage);
+            } else {
+                // empty if it was killed before it had an owner, or after; any other one is not of such a run, and stays
+                let _ = fs::remove_dir(stage);
+            }
         }
-        let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(dir);
+        let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(dir).map(Stage);
         let owner = format!("`plydrape {by}`, process {}", std::process::id());
         let noted =
             stage.and_then(|stage| fs::write(stage.path().join(OWNER), owner).map(|()| stage));
@@ -98,7 +103,7 @@ impl Folder {
     /// A hidden folder on the same disk for files of this run that are no results yet; it is gone when the claim ends.
     #[must_use]
     pub fn stage(&self) -> &Path {
-        self.stage.as_ref().map_or(&self.dir, TempDir::path)
+        self.stage.as_ref().map_or(&self.dir, Stage::path)
     }
 
     /// The folder.
@@ -370,20 +375,61 @@ pub fn is_sealed(dir: &Path) -> bool {
     Manifest::read(dir).map_or(true, |list| list.is_sealed())
 }
 
-/// Hidden folders of a folder in which files are or were staged.
-fn stages(dir: &Path) -> Vec<PathBuf> {
+/// A hidden folder in which files are staged. Its owner goes last, so that what a run leaves that is killed while it goes is known as its.
+#[derive(Debug)]
+struct Stage(TempDir);
+
+impl Stage {
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    /// Lets it stay, without its owner: no later run takes it for one that may be cleared.
+    fn keep(mut self) -> PathBuf {
+        self.0.disable_cleanup(true);
+        let path = self.path().to_path_buf();
+        let _ = fs::remove_file(path.join(OWNER));
+        std::mem::forget(self);
+        path
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        if self.path().join(OWNER).is_file() {
+            clear(self.path());
+        }
+    }
+}
+
+/// Removes a stage, its owner last.
+fn clear(stage: &Path) {
+    let Ok(entries) = fs::read_dir(stage) else { return };
+    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        let _ = match path.is_dir() {
+            true => fs::remove_dir_all(path),
+            false if path.ends_with(OWNER) => Ok(()),
+            false => fs::remove_file(path),
+        };
+    }
+    let _ = fs::remove_file(stage.join(OWNER));
+    let _ = fs::remove_dir(stage);
+}
+
+/// Hidden folders of a folder with the name of a stage.
+fn hidden(dir: &Path) -> Vec<PathBuf> {
     let Ok(entries) = fs::read_dir(dir) else { return Vec::new() };
-    let staged = |path: &PathBuf| {
+    let named = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        name.starts_with(STAGE) && path.is_dir() && path.join(OWNER).is_file()
+        name.starts_with(STAGE) && path.is_dir()
     };
-    entries.filter_map(|entry| Some(entry.ok()?.path())).filter(staged).collect()
+    entries.filter_map(|entry| Some(entry.ok()?.path())).filter(named).collect()
 }
 
 /// Who writes into a folder, as far as that is known.
 fn owner(dir: &Path) -> String {
     let read = |stage: &PathBuf| fs::read_to_string(stage.join(OWNER)).ok();
-    stages(dir).iter().find_map(read).unwrap_or_else(|| "another run".into())
+    hidden(dir).iter().find_map(read).unwrap_or_else(|| "another run".into())
 }
 
 /// Makes the folder; true if it was not there before.
@@ -423,13 +469,13 @@ fn stage_file<C: Content>(
 /// Files moved into the folder so far, and what was there before each.
 struct Moves {
     dir: PathBuf,
-    stage: TempDir,
+    stage: Stage,
     /// Name, and whether an earlier file of that name is kept in the stage.
     done: Vec<(String, bool)>,
 }
 
 impl Moves {
-    fn new(dir: &Path, stage: TempDir) -> Self {
+    fn new(dir: &Path, stage: Stage) -> Self {
         Moves { dir: dir.into(), stage, done: Vec::new() }
     }
 
@@ -477,8 +523,6 @@ impl Moves {
         }
         if failed {
             let kept = self.stage.keep();
-            // without its owner no later run takes it for one that may be cleared
-            let _ = fs::remove_file(kept.join(OWNER));
             Error::Torn { path: self.dir, kept, cause: Box::new(fault) }
         } else {
             fault

@@ -81,7 +81,7 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     for name in ["a", "b"] {
         stage_file(stage.path(), dir.path(), name, &&b"2"[..]).unwrap();
     }
-    let mut moves = Moves::new(dir.path(), stage);
+    let mut moves = Moves::new(dir.path(), Stage(stage));
     moves.put("a", "a").unwrap();
     moves.put("b", "b").unwrap();
     moves.take("gone").unwrap();
@@ -318,18 +318,21 @@ fn a_claim_without_files_leaves_nothing() {
     assert!(!dir.exists());
 }
 
-/// What a run that was killed has staged is cleared; a folder of the user's with such a name stays.
+/// What a run that was killed has staged is cleared, also one that had nothing yet or nothing any more; a folder of the user's with such a
+/// name stays.
 #[test]
 fn stages_of_dead_runs_are_cleared() {
     let dir = tempfile::tempdir().unwrap();
     let (dead, mine) = (dir.path().join(".plydrape-dead"), dir.path().join(".plydrape-mine"));
+    let empty = dir.path().join(".plydrape-empty");
+    fs::create_dir(&empty).unwrap();
     for folder in [&dead, &mine] {
         fs::create_dir(folder).unwrap();
         fs::write(folder.join("new-result.json"), "half").unwrap();
     }
     fs::write(dead.join(OWNER), "`plydrape simulate`, process 1").unwrap();
     write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap();
-    assert!(!dead.exists() && mine.exists());
+    assert!(!dead.exists() && !empty.exists() && mine.exists());
 }
 
 /// A kill between two renames leaves a list without a seal; a whole run seals it again, an addition does not.

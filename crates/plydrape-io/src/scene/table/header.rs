@@ -1,7 +1,7 @@
 //! The header of a table: the first line that names all columns, and the units below it.
 
 use super::title::{bare, title, words};
-use super::{Column, SEPARATORS, fields, lines, mark, reader};
+use super::{Column, SEPARATORS, fields, lines, mark};
 use crate::Error;
 use crate::scene::source::{Document, excerpt};
 use crate::scene::units::{self, Dimension};
@@ -34,7 +34,7 @@ struct Titles<'a> {
 
 impl<'a> Titles<'a> {
     fn new(document: &'a Document, line: &Range<usize>, separator: u8) -> Self {
-        let fields = fields(&mut reader(separator), &document.text, line);
+        let fields = fields(separator, &document.text, line);
         let titles = fields.iter().map(|field| title(&document.text[field.clone()])).collect();
         Titles { document, fields, titles }
     }
@@ -101,7 +101,7 @@ pub(super) fn find(
             }
         }
         let numbers = |separator: u8| {
-            let fields = fields(&mut reader(separator), &document.text, &line);
+            let fields = fields(separator, &document.text, &line);
             let number =
                 |field: &Range<usize>| mark::number(&document.text[field.clone()]).is_some();
             fields.len() > 1 && fields.iter().all(number)
@@ -148,7 +148,7 @@ pub(super) fn find(
 
 /// What may separate the fields of a line: commas where there are no semicolons and no tabs, and any where there is one field.
 fn separators(document: &Document, line: &Range<usize>) -> Vec<u8> {
-    let many = |separator: &u8| fields(&mut reader(*separator), &document.text, line).len() > 1;
+    let many = |separator: &u8| fields(*separator, &document.text, line).len() > 1;
     let [semicolon, tab, comma] = SEPARATORS;
     let found: Vec<u8> = [semicolon, tab].into_iter().filter(many).collect();
     match found.is_empty() {
@@ -213,7 +213,7 @@ pub(super) fn units_below(
     header: &mut Header,
     row: &Range<usize>,
 ) -> Result<bool, Error> {
-    let fields = fields(&mut reader(header.separator), &document.text, row);
+    let fields = fields(header.separator, &document.text, row);
     let said: Vec<Option<&Range<usize>>> = header
         .columns
         .iter()

@@ -14,6 +14,7 @@ use super::units::Dimension;
 use crate::Error;
 use csv_core::{ReadFieldResult, Reader, ReaderBuilder};
 use header::Header;
+use std::cell::RefCell;
 use std::ops::Range;
 
 /// A column that a table must have.
@@ -120,7 +121,7 @@ impl<'a> Table<'a> {
     /// The title of each column.
     pub fn titles(&self) -> Vec<Title> {
         let text = &self.document.text;
-        let fields = fields(&mut reader(self.found.separator), text, &self.found.span);
+        let fields = fields(self.found.separator, text, &self.found.span);
         let of = |place: Range<usize>| {
             let (name, unit) = title::title(&text[place.clone()]);
             Title { name, unit: unit.map(str::to_owned), place }
@@ -138,10 +139,9 @@ impl<'a> Table<'a> {
 
     /// The rows below the header.
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let mut reader = reader(self.found.separator);
         self.lines().map(move |span| Row {
             table: self,
-            fields: fields(&mut reader, &self.document.text, &span),
+            fields: fields(self.found.separator, &self.document.text, &span),
             span,
         })
     }
@@ -304,12 +304,25 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-fn reader(separator: u8) -> Reader {
-    ReaderBuilder::new().delimiter(separator).build()
+thread_local! {
+    /// A reader of each of [`SEPARATORS`]: to build one takes much longer than to read a line, and a header is looked for with many.
+    static READERS: RefCell<[Reader; 3]> =
+        RefCell::new(SEPARATORS.map(|byte| ReaderBuilder::new().delimiter(byte).build()));
 }
 
 /// The bytes of the fields of a line, without spaces and quotes around them; within quotes nothing separates.
-fn fields(reader: &mut Reader, text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
+fn fields(separator: u8, text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
+    READERS.with_borrow_mut(|[semicolon, tab, comma]| {
+        let reader = match separator {
+            b';' => semicolon,
+            b'\t' => tab,
+            _ => comma,
+        };
+        read_fields(reader, text, line)
+    })
+}
+
+fn read_fields(reader: &mut Reader, text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
     let bytes = &text.as_bytes()[line.clone()];
     let mut found = Vec::new();
     let (mut start, mut at) = (0, 0);
