@@ -195,7 +195,7 @@ fn of_plan(bytes: &[u8]) -> Corpus {
 /// What a camera sees, as a file and as a line of standard input.
 fn of_picks(bytes: &[u8]) -> Corpus {
     let Some(text) = text(bytes) else { return Corpus::Reject };
-    judge(scene::json_offset(text, 2e-3), |_| {});
+    judge(scene::json_offset(text, 2e-3).seen, |_| {});
     judge(scene::parse_offset(text, "picked.toml", 2e-3), |_| {})
 }
 

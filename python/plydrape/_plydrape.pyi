@@ -1263,6 +1263,10 @@ class Result:
         *,
         even_if_rejected: bool = False,
         position_error: float | str | None = None,
+        least_way: float | str | None = None,
+        least_time: float | str | None = None,
+        large: bool = False,
+        tf: bool = False,
         templates: typing.Sequence[str | PathLike[str]] = ...,
     ) -> list[Path]:
         """
@@ -1279,7 +1283,14 @@ class Result:
             Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
             result is not accepted; the files say so in their heads.
         position_error : float or str, optional
-            How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+            How far what a robot passes between its points may be from the motion (m); 0.1 mm unless given.
+        least_way, least_time : float or str, optional
+            Least way (m) and time (s) between two points of a robot, whatever error that leaves; 1 mm and 0.1 s
+            unless given.
+        large : bool, default False
+            Write what drives a machine also of a motion of more than ten minutes, or with samples of more than 50 MB.
+        tf : bool, default False
+            Write the frames over time (``/tf``) into the bag of "ros2".
         templates : sequence of str or path, optional
             Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
 

@@ -75,14 +75,14 @@ class Result:
         numbers = numbers.reshape(-1, count, 8)
         return numbers[:, 0, 0], numbers[:, :, 1:]
 
-    def export(self, kind: str) -> Path:
+    def export(self, kind: str, *flags: str) -> Path:
         """The files of one kind, made from the result file and the states of its sheet alone."""
         home = self.folder.parent / f"alone_{self.folder.name}_{kind}"
         home.mkdir()
         for file in (self.folder / "result.json", self.folder / "sheet.npz"):
             if file.exists():
                 (home / file.name).write_bytes(file.read_bytes())
-        options = ["--to", kind, "-o", str(home / kind), "--even-if-rejected"]
+        options = ["--to", kind, "-o", str(home / kind), "--even-if-rejected", *flags]
         run("export", str(home / "result.json"), *options)
         return home / kind
 

@@ -18,7 +18,9 @@ use std::process::ExitCode;
 #[command(after_help = "\
 The result must be as `plydrape simulate` or `plydrape plan` wrote it, by this version. Files of the \
 same name in the folder that plydrape did not write, or that were edited since, are never \
-overwritten; all others stay.
+overwritten; all others stay. The tool, the mold, the load and the signals of rapid, krl and urscript are in a \
+file of their own (NAME_cell.mod, NAME.dat, NAME_cell.script), which is written once and stays as it is \
+where it exists.
 
 abb, kuka and ur mean rapid, krl and urscript.
 
@@ -40,9 +42,25 @@ pub struct Arguments {
     #[arg(long)]
     even_if_rejected: bool,
 
-    /// How far straight lines between the points of rapid, krl, urscript and ros2 may be from the motion; 0.1 mm unless given.
+    /// How far what rapid, krl and urscript pass between their points may be from the motion; 0.1 mm unless given.
     #[arg(long, value_name = "LENGTH")]
     position_error: Option<String>,
+
+    /// Least way between two points of rapid, krl and urscript, whatever error that leaves; 1 mm unless given.
+    #[arg(long, value_name = "LENGTH")]
+    least_way: Option<String>,
+
+    /// Least time between two points of rapid, krl and urscript, whatever error that leaves; 0.1 s unless given.
+    #[arg(long, value_name = "TIME")]
+    least_time: Option<String>,
+
+    /// Write what drives a machine also of a motion of more than ten minutes, or with samples of more than 50 MB.
+    #[arg(long)]
+    large: bool,
+
+    /// Write the frames over time (/tf) into the bag of ros2.
+    #[arg(long)]
+    tf: bool,
 
     /// A template of your own for rapid, krl or urscript, such as a changed copy of what `plydrape template` prints; its name ends
     /// as in cell.mod.j2. May be given several times.
@@ -109,6 +127,9 @@ impl Format {
 /// Range of the position error (m): below it doubles and controllers cannot tell, above it no motion is left.
 const POSITION_ERRORS: [f64; 2] = [1e-7, 1.0];
 
+/// Range of the least way (m) and of the least time (s) between two points.
+const LEAST: [f64; 2] = [0.0, 1.0];
+
 /// Reads the result and writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let options = options(arguments)?;
@@ -116,11 +137,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let result = read::read(&file)?;
     let beside = || file.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let files = export::files(&result, arguments.to.of(), &options)?;
+    let made = export::files(&result, arguments.to.of(), &options)?;
+    let names: Vec<String> = made.iter().map(|(name, _)| name.clone()).collect();
+    let files = export::to_write(made, arguments.to.of(), &options, &folder);
+    let written = |name: &String| files.iter().any(|(file, _)| file == name);
+    let stays: Vec<String> = names.into_iter().filter(|name| !written(name)).collect();
     let read = [&result.files[..], &arguments.template].concat();
     let files = whole(|| export::put(&files, &folder, &read))?;
     if !quiet {
-        results::print(&results::list(&files), &files)?;
+        let mut text = results::list(&files);
+        if !stays.is_empty() {
+            text += &format!("stays as it is: {}\n", stays.join(", "));
+        }
+        results::print(&text, &files)?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -133,24 +162,48 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             help: "rapid, krl and urscript are written by templates".into(),
         });
     }
-    if let (Some(text), false) =
-        (&arguments.position_error, is_robot || arguments.to == Format::Ros2)
-    {
-        let fault = format!("has no meaning for {}", arguments.to.folder());
-        let help = "it is for rapid, krl, urscript and ros2, whose points are thinned out";
-        return Err(crate::argument::refused("--position-error", text, &fault, help));
+    if arguments.tf && arguments.to != Format::Ros2 {
+        return Err(Failure::Refused {
+            message: format!("--tf has no meaning for {}", arguments.to.folder()),
+            help: "it is for ros2, whose bag then has the frames over time".into(),
+        });
     }
+    let Arguments { position_error, least_way, least_time, .. } = arguments;
     let mut tolerance = Tolerance::default();
-    if let Some(text) = &arguments.position_error {
-        let help = "give a length from 0.0001 mm to 1 m, as in --position-error \"0.1 mm\"";
-        tolerance.position = value(
+    let lengths = Measured::Length;
+    for (option, text, measured, usual, range, to) in [
+        (
             "--position-error",
-            text,
-            Measured::Length,
+            position_error,
+            lengths,
             &usual::POSITION_ERROR,
             POSITION_ERRORS,
-            help,
-        )?;
+            &mut tolerance.position,
+        ),
+        (
+            "--least-way",
+            least_way,
+            lengths,
+            &usual::POSITION_ERROR,
+            LEAST,
+            &mut tolerance.least_way,
+        ),
+        ("--least-time", least_time, Measured::Time, &usual::ANY, LEAST, &mut tolerance.least_time),
+    ] {
+        let Some(text) = text else { continue };
+        if !is_robot {
+            let fault = format!("has no meaning for {}", arguments.to.folder());
+            let help = "it is for rapid, krl and urscript, whose points are thinned out";
+            return Err(crate::argument::refused(option, text, &fault, help));
+        }
+        let help = match option {
+            "--position-error" => {
+                "give a length from 0.0001 mm to 1 m, as in --position-error \"0.1 mm\""
+            }
+            "--least-way" => "give a length from 0 to 1 m, as in --least-way \"1 mm\"",
+            _ => "give a time from 0 to 1 s, as in --least-time \"0.1 s\"",
+        };
+        *to = value(option, text, measured, usual, range, help)?;
     }
     let read = |path: &PathBuf| {
         let text = input::text(path, LONGEST_TEMPLATE).map_err(|error| Failure::Refused {
@@ -161,5 +214,6 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         Ok(Template { name, text })
     };
     let templates = arguments.template.iter().map(read).collect::<Result<_, Failure>>()?;
-    Ok(export::Options { even_if_rejected: arguments.even_if_rejected, tolerance, templates })
+    let Arguments { even_if_rejected, large, tf, .. } = *arguments;
+    Ok(export::Options { even_if_rejected, tolerance, large, tf, templates })
 }

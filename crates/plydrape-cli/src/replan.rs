@@ -11,7 +11,7 @@ use plydrape::planner::replan::{Replanned, Replanner};
 use plydrape::tool::Posture;
 use plydrape_io::replan::PlannedResult;
 use plydrape_io::result::read;
-use plydrape_io::scene::{SeenOffset, json_offset, read_offset};
+use plydrape_io::scene::{Request, SeenOffset, json_offset, read_offset};
 use plydrape_io::store::json;
 use plydrape_io::text::table;
 use plydrape_io::{Error, Folder, write_into};
@@ -33,7 +33,7 @@ that the ply is turned about (the middle of the grippers at the start unless giv
 `far = true` beside them says that the ply does lie more than 50 mm or 10° off.
 
 With --json and without --picked, reads objects of the same keys from standard input, one a line, and answers with one line each until the input \
-ends. A line that is refused is answered with `error` and `help`, and the next one is read. The exit code is that of the worst answer.")]
+ends; an `id` in an object, a text or a number, is repeated in its answer. A line that is refused is answered with `error` and `help`, and the next one is read. The exit code is that of the worst answer.")]
 pub struct Arguments {
     /// The result.json of a plan, or its folder.
     result: PathBuf,
@@ -65,6 +65,8 @@ const LONGEST_LINE: u64 = 1 << 20;
 /// What `--json` prints of a corrected motion.
 #[derive(Serialize)]
 struct Answer<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<serde_json::Value>,
     accepted: bool,
     /// Every limit, judged by the model that decides.
     limits: &'a [Verdict],
@@ -107,13 +109,15 @@ struct Flange {
 /// What `--json` prints of a line that is refused.
 #[derive(Serialize)]
 struct Refusal {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<serde_json::Value>,
     error: String,
     help: String,
 }
 
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
-        Refusal { error: error.message().into(), help: error.help().into() }
+        Refusal { id: None, error: error.message().into(), help: error.help().into() }
     }
 }
 
@@ -193,6 +197,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
         let answer = match whole {
             true => answer(arguments, planned, replanner, &line),
             false => Err(Refusal {
+                id: None,
                 error: "the line is longer than 1 MiB".into(),
                 help: "give one offset a line".into(),
             }),
@@ -240,13 +245,18 @@ fn answer(
     line: &[u8],
 ) -> Result<(String, bool), Refusal> {
     let text = std::str::from_utf8(line).map_err(|_| Refusal {
+        id: None,
         error: "the line is no UTF-8 text".into(),
         help: "give one JSON object a line".into(),
     })?;
-    let seen = json_offset(text, planned.tolerance())?.also_far(arguments.far);
-    let found = planned.replan(replanner, &seen)?;
-    let answer = Answer::of(planned, replanner, &found, arguments.rate)?;
-    Ok((json::of(&answer)?, answer.accepted))
+    let Request { id, seen } = json_offset(text, planned.tolerance());
+    let answer = || {
+        let found = planned.replan(replanner, &seen?.also_far(arguments.far))?;
+        let answer = Answer::of(planned, replanner, &found, arguments.rate)?;
+        let answer = Answer { id: id.clone(), ..answer };
+        Ok((json::of(&answer)?, answer.accepted))
+    };
+    answer().map_err(|error: Error| Refusal { id: id.clone(), ..error.into() })
 }
 
 impl<'a> Answer<'a> {
@@ -281,6 +291,7 @@ impl<'a> Answer<'a> {
             picked_up.map(|picked| (picked.offset, picked.residual)).unwrap_or_default();
         let [x, y] = offset.shift;
         Ok(Answer {
+            id: None,
             accepted: summary.accepted(),
             limits: &summary.limits,
             duration_s: motion.duration(),

@@ -5,7 +5,7 @@
 
 use crate::Error;
 use crate::result::ResultFile;
-use crate::robot::program::{Program, Robot, Template, Tolerance, template, wide};
+use crate::robot::program::{Program, Robot, Template, Tolerance, cam, template, wide};
 use crate::robot::ros2;
 use crate::store::folder;
 use crate::store::folder::Files;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// What a result is made into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Tables: `steps.csv`, `trajectory.csv`, `motion_wide.csv`, for a plan `motion.csv`.
+    /// Tables: `steps.csv`, `trajectory.csv`, `motion_wide.csv`, for a plan `motion.csv`, for a tool with axes `array_cam.csv`.
     Csv,
     /// Abaqus and CalculiX: `ply.inp`, shells, gripper motion and a rigid mold.
     Inp,
@@ -49,8 +49,34 @@ pub struct Options {
     pub even_if_rejected: bool,
     /// How far what a controller interpolates may be from the motion.
     pub tolerance: Tolerance,
+    /// Write what drives a machine also of a motion of more than ten minutes or 50 MB.
+    pub large: bool,
+    /// Frames over time (`/tf`) in a bag for ROS 2.
+    pub tf: bool,
     /// Templates of the user's own, in place of shipped ones; for robots alone.
     pub templates: Vec<Template>,
+}
+
+/// Longest motion (s) and largest tables of one (bytes) that are written without request.
+const UNASKED: [f64; 2] = [600.0, 50e6];
+
+/// Bytes of a gripper in a row of the tables of a motion, about.
+const ROW: f64 = 220.0;
+
+/// Why what holds a planned motion sample by sample is only written on request: it takes more than ten minutes or would have more than 50 MB. `None` of any other
+/// result.
+#[must_use]
+pub fn too_large(result: &ResultFile) -> Option<String> {
+    let plan = result.plan.as_ref()?;
+    let duration = result.motion().ok()??.motion.duration();
+    let bytes = duration * plan.rate * result.scene.ply.grippers() as f64 * ROW;
+    let is_large = duration > UNASKED[0] || bytes > UNASKED[1];
+    is_large.then(|| {
+        format!(
+            "the motion takes {duration:.0} s, and its samples would have some {:.0} MB",
+            bytes / 1e6
+        )
+    })
 }
 
 /// The files of a format. Same result, same options, same bytes.
@@ -60,6 +86,10 @@ pub struct Options {
 pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, Error> {
     if format.drives() && !options.even_if_rejected {
         gate(result)?;
+    }
+    if let Some(why) = too_large(result).filter(|_| format.drives() && !options.large) {
+        let help = "see in the verdict what limits its speed, give a lower `rate` in [plan], or write them with --large (in Python large=True)";
+        return Err(Error::not_possible(why, help));
     }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
@@ -72,11 +102,12 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
             let motion = csv::planned_motion(result)?;
             files.extend(motion.map(|motion| text("motion.csv", wide::head(&program) + &motion)));
             files.push(text(wide::FILE, wide::text(&program)?));
+            files.extend(cam::text(&program)?.map(|cam| text(cam::FILE, cam)));
             files
         }
         Format::Pattern => pattern::result::flat(result),
         Format::Boundary => pattern::result::boundary(result)?,
-        Format::Ros2 => ros2::files(result, &options.tolerance)?,
+        Format::Ros2 => ros2::files(result, options.tf)?,
         Format::Robot(robot) => {
             let program = Program::of(result)?;
             template::files(&program, robot, &options.templates, &options.tolerance)?
@@ -101,7 +132,8 @@ fn gate(result: &ResultFile) -> Result<(), Error> {
 }
 
 /// Writes the files of a format into a folder, all or none, and returns their paths. Other files there stay; those
-/// of the same names only make way if plydrape wrote them and nobody has changed them since.
+/// of the same names only make way if plydrape wrote them and nobody has changed them since. What is measured in a cell is written once and
+/// stays where it exists.
 ///
 /// # Errors
 /// [`Error`], as for [`files`] and [`crate::write_all`].
@@ -111,7 +143,20 @@ pub fn write(
     options: &Options,
     dir: &Path,
 ) -> Result<Vec<PathBuf>, Error> {
-    put(&files(result, format, options)?, dir, &result.files)
+    let files = to_write(files(result, format, options)?, format, options, dir);
+    put(&files, dir, &result.files)
+}
+
+/// The files without those that are written once and exist: what was measured in a cell.
+#[must_use]
+pub fn to_write(files: Files, format: Format, options: &Options, dir: &Path) -> Files {
+    let stays = |name: &str| match format {
+        Format::Robot(robot) => {
+            robot.is_of_cell(name, &options.templates) && dir.join(name).exists()
+        }
+        _ => false,
+    };
+    files.into_iter().filter(|(name, _)| !stays(name)).collect()
 }
 
 /// Writes files as [`write()`] does, by a run that has `read` others: none of them is replaced.

@@ -102,7 +102,11 @@ pub fn stage_into(
     result.check_finite()?;
     let steps = write::csv::steps(result)?;
     let trajectory = write::csv::trajectory(result)?;
-    let motion = write::csv::planned_motion(result)?;
+    // of a motion that is too large, on request: export makes it
+    let motion = match export::too_large(result) {
+        Some(_) => None,
+        None => write::csv::planned_motion(result)?,
+    };
     let page = page::html(result)?;
     let [steps, trajectory, page] = [&steps, &trajectory, &page].map(|text| text.as_bytes());
     let motion = motion.as_ref().map(|motion| motion.as_bytes());

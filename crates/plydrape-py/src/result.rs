@@ -704,7 +704,14 @@ impl Result {
     ///     Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
     ///     result is not accepted; the files say so in their heads.
     /// position_error : float or str, optional
-    ///     How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+    ///     How far what a robot passes between its points may be from the motion (m); 0.1 mm unless given.
+    /// least_way, least_time : float or str, optional
+    ///     Least way (m) and time (s) between two points of a robot, whatever error that leaves; 1 mm and 0.1 s
+    ///     unless given.
+    /// large : bool, default False
+    ///     Write what drives a machine also of a motion of more than ten minutes, or with samples of more than 50 MB.
+    /// tf : bool, default False
+    ///     Write the frames over time (``/tf``) into the bag of "ros2".
     /// templates : sequence of str or path, optional
     ///     Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
     ///
@@ -731,8 +738,11 @@ impl Result {
     #[pyo3(signature = (
         to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'abb', 'kuka', 'ur', 'csv', 'pattern', 'boundary']",
         folder, *, even_if_rejected = false, position_error: "float | str | None" = None,
+        least_way: "float | str | None" = None, least_time: "float | str | None" = None,
+        large = false, tf = false,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn export(
         &self,
         py: Python<'_>,
@@ -740,6 +750,10 @@ impl Result {
         folder: PathBuf,
         even_if_rejected: bool,
         position_error: Option<Amount>,
+        least_way: Option<Amount>,
+        least_time: Option<Amount>,
+        large: bool,
+        tf: bool,
         templates: Vec<PathBuf>,
     ) -> PyResult<Vec<PathBuf>> {
         let format = match to {
@@ -759,13 +773,17 @@ impl Result {
                 robot.ok_or_else(|| PyValueError::new_err(text()))?
             }
         };
-        let default = Tolerance::default();
-        let position = match position_error {
-            Some(length) => {
-                length.si("position_error", Measured::Length, &usual::POSITION_ERROR)?
+        let mut tolerance = Tolerance::default();
+        let length = (Measured::Length, &usual::POSITION_ERROR);
+        for (name, given, (measured, usual), to) in [
+            ("position_error", position_error, length, &mut tolerance.position),
+            ("least_way", least_way, length, &mut tolerance.least_way),
+            ("least_time", least_time, (Measured::Time, &usual::ANY), &mut tolerance.least_time),
+        ] {
+            if let Some(amount) = given {
+                *to = amount.si(name, measured, usual)?;
             }
-            None => default.position,
-        };
+        }
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let text =
@@ -774,7 +792,9 @@ impl Result {
         };
         let options = export::Options {
             even_if_rejected,
-            tolerance: Tolerance { position, ..default },
+            tolerance,
+            large,
+            tf,
             templates: templates.iter().map(read).collect::<PyResult<_>>()?,
         };
         parallel(py, || export::write(&self.0, format, &options, &folder))

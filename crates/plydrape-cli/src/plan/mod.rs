@@ -95,6 +95,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let interrupted = found.is_interrupted(ended, &interrupt);
     let (folder, kept) = results::place(folder, interrupted, |dir| is_better(result, dir))?;
     let files = plan::write_into(folder, result, checkpoint)?;
+    if let Some(why) = plydrape_io::export::too_large(result) {
+        warn(&[format!(
+            "motion.csv is not written: {why}; see what limits its speed, give a lower `rate` in [plan], or `plydrape export RESULT --to csv --large` writes it"
+        )]);
+    }
     // what is beside is where the search goes on from
     kept.map_or(Ok(()), |kept| kept.remove(plan::RUNNING))?;
     let printed = Printed {

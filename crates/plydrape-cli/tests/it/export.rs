@@ -176,6 +176,10 @@ fn options_of_programs_are_refused_where_they_mean_nothing() {
     for (arguments, what) in [
         (&["--to", "rapid", "--even-if-rejected"][..], "say in [tool] how the array is carried"),
         (&["--to", "csv", "--position-error", "1 mm"], "has no meaning for csv"),
+        (&["--to", "csv", "--least-way", "1 mm"], "has no meaning for csv"),
+        (&["--to", "ros2", "--position-error", "1 mm"], "has no meaning for ros2"),
+        (&["--to", "krl", "--tf"], "--tf has no meaning for krl"),
+        (&["--to", "krl", "--least-time", "2 s"], "is too large"),
         (&["--to", "krl", "--position-error", "0 mm"], "is zero"),
         (&["--to", "krl", "--position-error", "1 kg"], "is a mass"),
         (&["--to", "vtk", "--template", "x.mod.j2"], "there are no templates for vtk"),

@@ -123,6 +123,21 @@ fn a_replanned_result_is_a_result() {
     assert!(one_line(&output.stderr).contains("corrected for another pick-up already"));
 }
 
+/// The answer to a line has its id, though the line is refused.
+#[test]
+fn an_answer_repeats_the_id_of_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = planned(folder.path());
+    let lines = "{\"id\": 7, \"offset\": {\"x\": 0.003}}\n{\"id\": \"b\", \"offset\": {}}\n{\"offset\": {\"x\": 0, \"x\": 1}}\n";
+    let (output, found) = answers(&result, lines.as_bytes(), &[]);
+    assert_eq!((output.status.code(), found.len()), (Some(2), 3));
+    assert_eq!((&found[0]["id"], found[0]["duration_s"].is_number()), (&7.into(), true));
+    assert_eq!(found[1]["id"], "b");
+    assert!(found[1]["error"].as_str().unwrap().contains("none of x, y and yaw"));
+    assert!(found[2].get("id").is_none());
+    assert!(found[2]["error"].as_str().unwrap().contains("the key `x` is there twice"));
+}
+
 /// A bad line has one answer with what is wrong and what would be right, and the next line is read; the exit code is the worst one.
 #[test]
 fn a_stream_answers_every_line_and_goes_on() {
@@ -237,4 +252,26 @@ fn an_offset_that_is_far_is_believed_when_told() {
     assert!(found[0]["help"].as_str().unwrap().contains("far = true"), "{}", found[0]);
     assert!(found[1]["error"].is_null() && found[1]["offset"]["x"] == 0.06, "{}", found[1]);
     assert!(found[2]["help"].as_str().unwrap().contains("did you mean \"3 mm\"?"), "{}", found[2]);
+}
+
+/// A motion of more than ten minutes is planned, but its samples are only written on request, by the plan and by the export.
+#[test]
+fn a_motion_of_more_than_ten_minutes_is_written_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, plan) = (folder.path().join("slow.toml"), folder.path().join("plan"));
+    let slow = SCENE.replace("steps = 30", "steps = 30\nrate = 1");
+    std::fs::write(&scene, slow + "\n[limits]\nspeed = \"0.3 mm/s\"\n").unwrap();
+    let run = |arguments: &[&str], file: &Path| {
+        let output = command().args(arguments).arg(file).output().unwrap();
+        (output.status.code(), one_line(&output.stderr))
+    };
+    let to = plan.to_str().unwrap();
+    let (_, said) = run(&["plan", "--without-errors", "--quiet", "-o", to], &scene);
+    assert!(said.contains("motion.csv is not written: the motion takes"), "{said}");
+    assert!(!plan.join("motion.csv").exists() && plan.join("result.json").exists());
+    let export = ["export", "--to", "csv", "--even-if-rejected"];
+    let (code, said) = run(&export, &plan);
+    assert!(code == Some(2) && said.contains("write them with --large"), "{said}");
+    let (code, said) = run(&[&export[..], &["--large"]].concat(), &plan);
+    assert!(code == Some(0) && plan.join("csv/motion.csv").exists(), "{said}");
 }

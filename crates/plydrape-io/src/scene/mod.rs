@@ -62,7 +62,7 @@ pub use cut::{CupArray, IdleCup, LeftOff};
 pub use fit::{Reading, Table as FitTable, read_fit};
 pub use ideal::IdealDrape;
 pub use material::{read_material, shipped_material, shipped_materials};
-pub use offset::{SeenOffset, json_offset, parse_offset, read_offset};
+pub use offset::{Request, SeenOffset, json_offset, parse_offset, read_offset};
 pub use schema::schema;
 pub use trajectory::slow_in_seconds;
 

@@ -7,7 +7,9 @@ use super::source::Document;
 use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::pick_up::Offset;
-use serde::Deserialize;
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
 use std::path::Path;
 
 /// An offset as it was seen.
@@ -86,27 +88,105 @@ pub fn parse_offset(text: &str, name: &str, tolerance: f64) -> Result<SeenOffset
     offset(&Document::new(name, text), tolerance)
 }
 
-/// Reads a JSON object with the keys of such a file: numbers are in SI units, texts have a unit.
-///
-/// # Errors
-/// As [`read_offset`]; the place is none, since a message of one line has no lines.
-pub fn json_offset(text: &str, tolerance: f64) -> Result<SeenOffset, Error> {
+/// A line of a program: where it says the ply was seen, and the `id` that its answer repeats.
+#[derive(Debug)]
+pub struct Request {
+    /// A text or a number, if there is one, though the rest is refused.
+    pub id: Option<serde_json::Value>,
+    /// The offset, or what is wrong with the line.
+    pub seen: Result<SeenOffset, Error>,
+}
+
+/// Reads a JSON object with the keys of such a file, and an `id`: numbers are in SI units, texts have a unit. A fault is that of [`read_offset`], without a
+/// place, since a message of one line has no lines; a key that is there twice is one.
+#[must_use]
+pub fn json_offset(text: &str, tolerance: f64) -> Request {
     let document = Document::new("standard input", "");
     let help = "an object is wanted, as in {\"offset\": {\"x\": 0.003, \"y\": \"-1.5 mm\", \"yaw\": \"0.8 deg\"}}";
-    let value: serde_json::Value = serde_json::from_str(text)
-        .map_err(|fault| document.error_anywhere(format!("this is not JSON: {fault}"), help))?;
-    let serde_json::Value::Object(object) = &value else {
-        return Err(document.error_anywhere("this is no JSON object", help));
+    let refused =
+        |message: String| Request { id: None, seen: Err(document.error_anywhere(message, help)) };
+    let mut object = match serde_json::from_str(text) {
+        Ok(Unique(serde_json::Value::Object(object))) => object,
+        Ok(_) => return refused("this is no JSON object".into()),
+        Err(fault) if fault.is_data() => return refused(fault.to_string()),
+        Err(fault) => return refused(format!("this is not JSON: {fault}")),
     };
+    let id = object.remove("id");
+    if id.as_ref().is_some_and(|id| !(id.is_string() || id.is_number())) {
+        return refused("an id is a text or a number".into());
+    }
     let keys =
         object.iter().map(|(key, value)| Some(format!("{} = {}\n", quoted(key), toml_of(value)?)));
-    let text: String = keys.collect::<Option<_>>().ok_or_else(|| {
-        document.error_anywhere("a value is null, which means nothing here", help)
-    })?;
-    parse_offset(&text, "standard input", tolerance).map_err(|error| match error {
+    let Some(text) = keys.collect::<Option<String>>() else {
+        return Request { id, ..refused("a value is null, which means nothing here".into()) };
+    };
+    let seen = parse_offset(&text, "standard input", tolerance).map_err(|error| match error {
         Error::Scene(fault) => document.error_anywhere(fault.message, fault.help),
         other => other,
-    })
+    });
+    Request { id, seen }
+}
+
+/// A JSON value in which no object has a key twice.
+struct Unique(serde_json::Value);
+
+impl<'de> Deserialize<'de> for Unique {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(UniqueVisitor)
+    }
+}
+
+struct UniqueVisitor;
+
+impl<'de> Visitor<'de> for UniqueVisitor {
+    type Value = Unique;
+
+    fn expecting(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.write_str("a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Unique, E> {
+        Ok(Unique(serde_json::Value::Null))
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Unique, E> {
+        Ok(Unique(value.into()))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Unique, E> {
+        Ok(Unique(value.into()))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Unique, E> {
+        Ok(Unique(value.into()))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Unique, E> {
+        Ok(Unique(value.into()))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Unique, E> {
+        Ok(Unique(value.into()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut from: A) -> Result<Unique, A::Error> {
+        let mut values = Vec::new();
+        while let Some(Unique(value)) = from.next_element()? {
+            values.push(value);
+        }
+        Ok(Unique(values.into()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut from: A) -> Result<Unique, A::Error> {
+        let mut object = serde_json::Map::new();
+        while let Some((key, Unique(value))) = from.next_entry::<String, Unique>()? {
+            if object.contains_key(&key) {
+                return Err(A::Error::custom(format!("the key `{key}` is there twice")));
+            }
+            object.insert(key, value);
+        }
+        Ok(Unique(object.into()))
+    }
 }
 
 /// A JSON value as TOML; none of null.
@@ -146,6 +226,13 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
     match (offset, point.as_slice()) {
         (Some(table), []) => {
             let OffsetTable { x, y, yaw, about } = &table.value;
+            if x.is_none() && y.is_none() && yaw.is_none() {
+                return Err(document.error(
+                    table.span,
+                    "the offset has none of x, y and yaw",
+                    "write x = 0 if the ply does lie where it was planned; a camera that found nothing has no offset",
+                ));
+            }
             let shift = |given: &Option<Quantity<Length>>| {
                 given.as_ref().map_or(Ok(0.0), |given| place(given, document, &usual::SHIFT))
             };
@@ -238,8 +325,8 @@ mod tests {
         assert!((offset.yaw - 0.8_f64.to_radians()).abs() < 1e-15);
         assert_eq!((offset.about, residual), (Some([1.0, 0.2]), None));
         let json = "{\"offset\": {\"x\": \"3 mm\", \"y\": -0.0015, \"yaw\": \"0.8 deg\", \"about\": [1, \"0.2 m\"]}}";
-        assert_eq!(json_offset(json, 2e-3).unwrap().offset, offset);
-        assert_eq!(parse("[offset]\n").unwrap().offset.shift, [0.0; 2]);
+        assert_eq!(json_offset(json, 2e-3).seen.unwrap().offset, offset);
+        assert_eq!(parse("[offset]\nx = 0\n").unwrap().offset.shift, [0.0; 2]);
     }
 
     /// Three corners turned by 1° about the first one and shifted by 3 mm along x.
@@ -267,8 +354,10 @@ mod tests {
         let point = |p: &str, q: &str| format!("[[point]]\nplanned = {p}\nseen = {q}\n");
         let swapped =
             point("[0, 0]", "[0, 0]") + &point("[1, 0]", "[0, 1]") + &point("[0, 1]", "[1, 0]");
-        let cases: [(&str, &str); 13] = [
+        let cases: [(&str, &str); 15] = [
             ("", "neither an offset nor points"),
+            ("[offset]\n", "none of x, y and yaw"),
+            ("[offset]\nabout = [0, 0]\n", "none of x, y and yaw"),
             ("[offset]\nx = \"3\"\n", "has no unit"),
             ("[offset]\nx = \"3 deg\"\n", "is an angle"),
             ("[offset]\nx = nan\n", "is no"),
@@ -278,7 +367,7 @@ mod tests {
             ("[offset]\nx = \"1e9 m\"\n", "beyond all cells"),
             ("[offset]\nz = 1\n", "is no key here"),
             ("[offset]\nabout = [1]\n", "one value stands here"),
-            ("tolerance = 1e-3\n[offset]\n", "no meaning for an offset"),
+            ("tolerance = 1e-3\n[offset]\nx = 0\n", "no meaning for an offset"),
             (&swapped, "mm from where the others put it"),
             ("[offset]\n[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n", "both an offset and points"),
         ];
@@ -301,9 +390,26 @@ mod tests {
             ("{\"offset\": {\"x\": 900000}}", "would make a shift of 900000 m"),
             ("{\"offset\": {\"yaw\": 0.8}}", "would make a yaw of 0.8 rad"),
             ("{}", "neither"),
+            ("{\"offset\": {}}", "none of x, y and yaw"),
+            ("{\"offset\": {\"x\": 0.1, \"x\": 0.001}}", "the key `x` is there twice"),
+            ("{\"id\": 1, \"offset\": {\"x\": 0}, \"id\": 2}", "the key `id` is there twice"),
+            ("{\"id\": [1], \"offset\": {\"x\": 0}}", "an id is a text or a number"),
         ] {
-            let fault = json_offset(text, 2e-3).unwrap_err();
+            let fault = json_offset(text, 2e-3).seen.unwrap_err();
             assert!(fault.message().contains(expected), "{text}: {fault}");
+        }
+    }
+
+    /// The id is known though the rest of the line is refused.
+    #[test]
+    fn a_request_keeps_its_id() {
+        for (text, id, is_read) in [
+            ("{\"id\": 7, \"offset\": {\"x\": 0}}", Some(7.into()), true),
+            ("{\"id\": \"a\", \"offset\": {}}", Some("a".into()), false),
+            ("{\"offset\": {\"x\": 0}}", None, true),
+        ] {
+            let request = json_offset(text, 2e-3);
+            assert_eq!((request.id, request.seen.is_ok()), (id, is_read), "{text}");
         }
     }
 }

@@ -4,8 +4,9 @@
 //! point in a zone around it, in which it turns from one straight way into the next along a parabola. With the ways that
 //! lie within the zone before and behind the point, p and q, the parabola passes the point at the distance |q − p| / 4.
 
-use super::sampling::{Deviation, Sampling, Tolerance, Track, nearest};
-use plydrape::geometry::vector::norm;
+use super::sampling::{Deviation, Sampling, Tolerance, Track, largest, nearest};
+use super::spline;
+use plydrape::geometry::vector::{norm, sub};
 
 /// A point and how it is passed.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,8 +36,10 @@ pub(crate) struct Blocks {
     /// What happens at the first point; it has no points.
     pub start: Block,
     pub blocks: Vec<Block>,
-    /// The largest error of what is interpolated between the points.
+    /// The largest error of straight lines between the points, each sample at its own time.
     pub error: Deviation,
+    /// The largest distance (m) and angle (rad) at which lines, or the splines through the points, pass the motion.
+    pub passing: Deviation,
     /// The largest distance at which a point is passed (m).
     pub corner: f64,
     /// The tolerance of both.
@@ -44,12 +47,21 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Of a track, within a tolerance, with zones of some radii (m), of which the first is the smallest.
-    pub fn new(track: &Track, tolerance: &Tolerance, radii: &[f64]) -> Self {
+    /// Of a track, within a tolerance, with zones of some radii (m), of which the first is the smallest; or with splines through the points.
+    pub fn new(track: &Track, tolerance: &Tolerance, radii: &[f64], splines: bool) -> Self {
         let program = track.program;
         let times = &program.times;
         let at: Vec<usize> = program.events.iter().map(|e| nearest(times, e.time)).collect();
-        let Sampling { kept, error } = track.sampling(&at, tolerance);
+        let stops = track.stops(&at, tolerance);
+        let Sampling { mut kept, mut error } = track.sampling(&stops, tolerance);
+        let passing = match splines {
+            true => {
+                let passing = spline::refine(track, &stops, &mut kept, tolerance);
+                error = largest(&kept, |a, b, k| track.deviation(a, b, k));
+                passing
+            }
+            false => largest(&kept, |a, b, k| track.passing(a, b, k)),
+        };
         let events = |sample: usize| -> Vec<usize> {
             (0..at.len()).filter(|event| at[*event] == sample).collect()
         };
@@ -97,7 +109,7 @@ impl Blocks {
             }
         }
         let start = blocks.remove(0);
-        Blocks { start, blocks, error, corner, tolerance: *tolerance }
+        Blocks { start, blocks, error, passing, corner, tolerance: *tolerance }
     }
 
     /// Numbers of points, the start not among them.
@@ -109,12 +121,6 @@ impl Blocks {
     pub fn shortest(&self) -> Option<f64> {
         let points = self.blocks.iter().flat_map(|block| &block.points);
         points.map(|point| point.duration).reduce(f64::min)
-    }
-
-    /// Whether the cell stops where the motion does not, at an event on the way: it goes on later than planned then.
-    pub fn stops_on_the_way(&self) -> bool {
-        let moving = self.blocks.iter().rposition(|block| !block.points.is_empty()).unwrap_or(0);
-        self.blocks[..moving].iter().any(|block| block.wait == 0.0 && !block.events.is_empty())
     }
 
     /// In parts of so many points at most. A block that is longer than that is cut, and the cell stops there.
@@ -143,26 +149,52 @@ impl Blocks {
     }
 }
 
+/// How many times as far as the center is from its point the turning of the tool and external axes begin to go round it at most: `pzone_ori` and
+/// `pzone_eax` of ABB's zones are up to 1.6 times `pzone_tcp` (technical reference manual 3HAC050917, `zonedata`).
+const WIDER: f64 = 1.6;
+
 /// The largest radius of the zone of a sample between two others, and the distance at which it is passed (m), both at most
 /// as large as they may be. The smallest radius is always taken: a controller makes it as small as it needs.
 fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> (f64, f64) {
-    let lengths = [track.movement(from, at).position, track.movement(at, to).position];
+    let lengths = [track.way(from, at), track.way(at, to)];
     let half = 0.5 * lengths[0].min(lengths[1]);
     let off = |radius: f64| {
-        let within = radius.min(half);
-        let shares = lengths.map(|length| if length > 0.0 { within / length } else { 0.0 });
-        let change = |before: f64, now: f64, then: f64| {
-            0.25 * (shares[1] * (then - now) - shares[0] * (now - before))
+        let shares = |radius: f64| {
+            let within = radius.min(half);
+            lengths.map(|length| if length > 0.0 { within / length } else { 0.0 })
         };
-        let axes = track.largest(|axis| {
+        let change = |shares: [f64; 2], [before, now, then]: [[f64; 3]; 3]| {
+            let [p, q] = [sub(now, before), sub(then, now)];
+            norm([0, 1, 2].map(|n| 0.25 * (shares[1] * q[n] - shares[0] * p[n])))
+        };
+        let near = shares(radius);
+        let centre = track
+            .centre
+            .as_ref()
+            .map_or(0.0, |centre| change(near, [from, at, to].map(|k| centre[k].position)));
+        // the pads have in them what turns and what the axes do
+        let wide = shares(WIDER * radius);
+        let pads = track
+            .program
+            .pads
+            .iter()
+            .map(|pad| change(wide, [from, at, to].map(|k| pad.poses[k].position)));
+        // axes of another controller are where they belong to a progress that is passed by as well
+        let late = match track.moves_axes {
+            true => 0.0,
+            false => {
+                let [p, q, r] = [from, at, to].map(|k| track.progress[k]);
+                let slip = 0.25 * (wide[1] * (r - q) - wide[0] * (q - p));
+                track.largest(|axis| track.followed(axis, q + slip) - track.followed(axis, q))
+            }
+        };
+        let own = track.largest(|axis| {
             let values = &track.program.axes[axis].values;
-            change(values[from], values[at], values[to])
+            let [p, q, r] = [values[from], values[at], values[to]];
+            0.25 * (wide[1] * (r - q) - wide[0] * (q - p))
         });
-        let centre = track.centre.as_ref().map_or(0.0, |centre| {
-            let [p, q, r] = [from, at, to].map(|k| centre[k].position);
-            norm([0, 1, 2].map(|n| change(p[n], q[n], r[n])))
-        });
-        centre + axes
+        let own = if track.program.pads.is_empty() { own } else { 0.0 };
+        pads.fold(centre.max(own), f64::max) + late
     };
     let fits = radii.iter().skip(1).rev().find(|radius| **radius <= half && off(**radius) <= most);
     let radius = fits.or(radii.first()).copied().unwrap_or_default();

@@ -5,10 +5,11 @@ use super::names;
 use super::pose::{angle, euler_zyx, quaternion, rotation_vector};
 use super::sampling::Track;
 use super::template::Robot;
-use super::{EventKind, Program, wide};
+use super::{EventKind, Program, cam};
 use plydrape::geometry::Pose;
-use plydrape::geometry::vector::distance;
+use plydrape::geometry::vector::{distance, norm, sub};
 use plydrape::ply::gripper_name;
+use plydrape::tool::turn_between;
 use serde::Serialize;
 
 /// Everything.
@@ -35,9 +36,9 @@ pub(super) struct Context {
     pub duration: f64,
     pub mold: PoseOf,
     pub tool: PoseOf,
-    /// The external axes that this program moves.
+    /// The external axes that this program moves: those of the array, or the progress of the motion.
     pub axes: Vec<AxisOf>,
-    /// Whether another controller moves the axes of the array.
+    /// Whether another controller moves the axes of the array, as a cam of the progress.
     pub separate_axes: bool,
     /// The signal that starts them.
     pub start_output: usize,
@@ -47,6 +48,10 @@ pub(super) struct Context {
     pub speed: f64,
     /// Largest rate of turning (rad/s).
     pub turn_rate: f64,
+    /// Largest acceleration of the tool's center (m/s²).
+    pub acceleration: f64,
+    /// Largest angular acceleration (rad/s²).
+    pub turn_acceleration: f64,
     pub start: BlockOf,
     pub blocks: Vec<BlockOf>,
 }
@@ -115,8 +120,10 @@ pub(super) struct PointOf {
     pub share: f64,
     #[serde(flatten)]
     pub pose: PoseOf,
-    /// Values of the external axes.
+    /// Values of the external axes; of the progress where another controller follows it, which ends at 1 m.
     pub axes: Vec<f64>,
+    /// The share of the motion that is behind it, from 0 to 1, without the time in which everything rests.
+    pub progress: f64,
     /// Mean speeds on the way here: of the center, of turning, of the fastest axis.
     pub speed: f64,
     pub turn_rate: f64,
@@ -144,7 +151,8 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
         .enumerate()
         .map(|(n, gripper)| Signal { gripper, output: n + limits.first_output })
         .collect();
-    let maker = Maker { track, grippers: &grippers };
+    let maker = Maker { track, grippers: &grippers, interpolates: limits.axes > 0 };
+    let [acceleration, turn_acceleration] = accelerations(track);
 
     let mut from = 0;
     let mut contexts: Vec<Context> = Vec::with_capacity(split.len());
@@ -175,12 +183,18 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
             duration: program.times.last().copied().unwrap_or_default(),
             mold: PoseOf::of(&program.frames.mold),
             tool: PoseOf::of(&program.frames.tool),
-            axes: if separate { Vec::new() } else { program.axes.iter().map(axis).collect() },
+            axes: match separate {
+                false => program.axes.iter().map(axis).collect(),
+                true if limits.axes > 0 => vec![progress()],
+                true => Vec::new(),
+            },
             separate_axes: separate,
             start_output: limits.first_output + grippers.len(),
             grippers: grippers.clone(),
             speed: 0.0,
             turn_rate: 0.0,
+            acceleration,
+            turn_acceleration,
             start,
             blocks: of_part,
         });
@@ -188,8 +202,40 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
     let points = || contexts.iter().flat_map(|c| &c.blocks).flat_map(|b| &b.points);
     let speed = points().map(|point| point.speed).fold(0.0, f64::max);
     let turn_rate = points().map(|point| point.turn_rate).fold(0.0, f64::max);
-    contexts.iter_mut().for_each(|c| (c.speed, c.turn_rate) = (speed, turn_rate));
+    // the progress is as fast as it is on the fastest way
+    let fastest = points().map(|point| point.axis_speed).fold(0.0, f64::max);
+    for context in &mut contexts {
+        (context.speed, context.turn_rate) = (speed, turn_rate);
+        let virtual_axes = context.axes.iter_mut().filter(|_| separate);
+        virtual_axes.for_each(|axis| axis.speed = fastest);
+    }
     contexts
+}
+
+/// The progress of the motion as an axis, whose speed is not known yet.
+fn progress() -> AxisOf {
+    let stroke = Some([0.0, cam::LENGTH]);
+    AxisOf { name: "progress".into(), gripper: String::new(), stroke, speed: 0.0 }
+}
+
+/// The largest acceleration of the center (m/s²) and the largest angular one (rad/s²), by differences between the samples.
+fn accelerations(track: &Track) -> [f64; 2] {
+    let (Some(centre), times) = (&track.centre, &track.program.times) else { return [0.0; 2] };
+    // velocities from sample to sample, each in the middle
+    let moves: Vec<(f64, [f64; 3], [f64; 3])> = (1..times.len())
+        .map(|k| {
+            let takes = times[k] - times[k - 1];
+            let way = sub(centre[k].position, centre[k - 1].position);
+            let turn = turn_between(&centre[k - 1].axes, &centre[k].axes);
+            (0.5 * (times[k] + times[k - 1]), way.map(|c| c / takes), turn.map(|c| c / takes))
+        })
+        .collect();
+    let most = |of: &dyn Fn(usize) -> [f64; 3]| {
+        let gains =
+            (1..moves.len()).map(|n| norm(sub(of(n), of(n - 1))) / (moves[n].0 - moves[n - 1].0));
+        gains.fold(0.0, f64::max)
+    };
+    [most(&|n| moves[n].1), most(&|n| moves[n].2)]
 }
 
 fn axis(axis: &super::Axis) -> AxisOf {
@@ -205,6 +251,8 @@ fn axis(axis: &super::Axis) -> AxisOf {
 struct Maker<'a> {
     track: &'a Track<'a>,
     grippers: &'a [Signal],
+    /// Whether the controller moves external axes.
+    interpolates: bool,
 }
 
 impl Maker<'_> {
@@ -232,8 +280,14 @@ impl Maker<'_> {
         let pose = |k: usize| centre.as_ref().map_or(Pose::ORIGIN, |centre| centre[k]);
         let [before, now] = [*from, sample].map(pose);
         let rate = |way: f64| if duration > 0.0 { way / duration } else { 0.0 };
-        let own = || program.axes.iter().filter(|_| self.track.moves_axes);
-        let ways = own().map(|axis| (axis.values[sample] - axis.values[*from]).abs());
+        let axes = |k: usize| -> Vec<f64> {
+            match self.track.moves_axes {
+                true => program.axes.iter().map(|axis| axis.values[k]).collect(),
+                false if self.interpolates => vec![cam::LENGTH * self.track.progress[k]],
+                false => Vec::new(),
+            }
+        };
+        let ways = axes(sample).into_iter().zip(axes(*from)).map(|(now, then)| (now - then).abs());
         let farthest = ways.fold(0.0, f64::max);
         *from = sample;
         PointOf {
@@ -245,7 +299,8 @@ impl Maker<'_> {
             turn_rate: rate(angle(&before, &now)),
             axis_speed: rate(farthest),
             pose: PoseOf::of(&now),
-            axes: own().map(|axis| axis.values[sample]).collect(),
+            axes: axes(sample),
+            progress: self.track.progress[sample],
             radius: passed.radius,
             stop: passed.radius == 0.0,
         }
@@ -277,14 +332,27 @@ fn head(
         blocks.points() + 1,
         program.times.len(),
     ));
-    lines.push(format!(
-        "Straight lines between the points stay within {:.4} mm and {:.4} deg of the motion",
-        blocks.error.position * 1e3,
-        blocks.error.angle.to_degrees(),
-    ));
+    let [passing, timely] = [blocks.passing, blocks.error]
+        .map(|off| (off.position * 1e3, off.angle.to_degrees()))
+        .map(|(position, angle)| format!("{position:.4} mm and {angle:.4} deg"));
+    let path = if limits.splines {
+        "A spline through the points, cubic or quintic, passes"
+    } else {
+        "Straight lines between the points pass"
+    };
+    lines.push(format!("{path} within {passing} of the motion"));
+    lines.push(format!("At its own times it stays within {timely} on straight lines"));
     if let Some(least) = blocks.shortest() {
         lines.push(format!(
             "Points are {least:.4} s apart or more: see whether your controller keeps up"
+        ));
+    }
+    if blocks.passing.position > blocks.tolerance.position {
+        lines.push(format!(
+            "That is more than the {:.4} mm asked for, because points are {} mm and {} s apart at least (--least-way, --least-time)",
+            1e3 * blocks.tolerance.position,
+            1e3 * blocks.tolerance.least_way,
+            blocks.tolerance.least_time,
         ));
     }
     if limits.zones {
@@ -308,17 +376,15 @@ fn head(
             lines.push(format!("External axes: {}", pairs.collect::<Vec<_>>().join(", ")));
         }
         count => {
+            let most = limits.axes;
+            lines.push(format!("The {count} axes of the array are more than the {most} that this controller moves with the arm. Their own controller follows the progress of the motion:"));
             lines.push(format!(
-                "The {count} axes of the array are more than the {} that this controller moves with the arm:",
-                limits.axes
+                "{}, from 0 to 1000, by the table {}.",
+                limits.progress,
+                cam::beside(name)
             ));
-            lines.push(format!(
-                "their own controller follows {}, from the time when array_start is set.",
-                wide::beside(name)
-            ));
-            lines.push(
-                "Both keep time by themselves; nothing holds them together on the way".into(),
-            );
+            lines.push("So override, stop, resume and emergency stop hold both. array_ready says that the array follows it, at 0.".into());
+            lines.push("An array that keeps time by itself: only at full speed, and nothing else; NEVER with a speed below 100 %".into());
         }
     }
     lines.iter().flat_map(|line| wrapped(&ascii(line))).collect()

@@ -2,19 +2,21 @@
 //!
 //! 1. [`Program`] is made of a result and is all that the files need;
 //! 2. `pose` says an orientation as each controller does: a quaternion, angles about z, y and x, a rotation vector;
-//! 3. [`sampling`] leaves out the samples that a controller interpolates well enough by itself;
+//! 3. [`sampling`] leaves out the samples that a controller interpolates well enough by itself, and `spline` adds those that a spline needs;
 //! 4. `blocks` parts what is kept at its stops, and says with which zone each point is passed;
 //! 5. [`template`] writes a [`Robot`]'s files from templates, the shipped ones or a user's copies, with the variables of
 //!    `context`, in the bounds of `render`;
 //! 6. `names` makes the names of these files, and of what is in them, from the scene's title;
-//! 7. [`wide`] is the program as one table.
+//! 7. [`wide`] is the program as one table, and [`cam`] what the axes of the array do as a cam of the arm's progress.
 
 mod blocks;
+pub mod cam;
 mod context;
 mod names;
 pub(crate) mod pose;
 mod render;
 pub mod sampling;
+mod spline;
 pub mod template;
 pub mod wide;
 

@@ -9,7 +9,7 @@ use super::blocks::Blocks;
 use super::context::contexts;
 use super::render::{self, ZONES};
 use super::sampling::Track;
-use super::{Program, Tolerance, names, wide};
+use super::{Program, Tolerance, cam, names, wide};
 use crate::store::folder::Files;
 use minijinja::value::{Serde, Value};
 
@@ -47,8 +47,11 @@ pub(super) struct Limits {
     pub outputs: Option<usize>,
     /// Radii of zones (m), the smallest first.
     pub radii: &'static [f64],
-    /// Whether points are passed in zones.
+    /// Whether points are passed in zones, and whether on splines.
     pub zones: bool,
+    pub splines: bool,
+    /// Where its controller has the progress of a motion for that of the array.
+    pub progress: &'static str,
     /// What the frames are called in the program, whose name is NAME, and that of its part PART.
     pub mold: &'static str,
     pub tool: &'static str,
@@ -95,17 +98,37 @@ impl Robot {
         }
     }
 
-    /// The shipped templates: ending of what they make, and text.
+    /// The shipped templates: ending of what they make, and text. That of the program comes first; that with the measured values of a cell
+    /// makes a file that is written once.
     #[must_use]
     pub fn shipped(self) -> &'static [(&'static str, &'static str)] {
         match self {
-            Robot::Rapid => &[("mod", include_str!("templates/rapid.mod.j2"))],
+            Robot::Rapid => &[
+                ("mod", include_str!("templates/rapid.mod.j2")),
+                ("cell.mod", include_str!("templates/rapid.cell.mod.j2")),
+            ],
             Robot::Krl => &[
                 ("src", include_str!("templates/krl.src.j2")),
                 ("dat", include_str!("templates/krl.dat.j2")),
             ],
-            Robot::Urscript => &[("script", include_str!("templates/urscript.script.j2"))],
+            Robot::Urscript => &[
+                ("script", include_str!("templates/urscript.script.j2")),
+                ("cell.script", include_str!("templates/urscript.cell.script.j2")),
+            ],
         }
+    }
+
+    /// Whether a file of the program holds what is measured in a cell, so that an export leaves it as it is where it exists.
+    #[must_use]
+    pub fn is_of_cell(self, file: &str, templates: &[Template]) -> bool {
+        let endings = match self {
+            Robot::Rapid => "_cell.mod",
+            Robot::Krl => ".dat",
+            Robot::Urscript => "_cell.script",
+        };
+        let own =
+            templates.iter().any(|template| template.name.ends_with(&format!("{endings}.j2")));
+        file.ends_with(endings) && !own
     }
 
     /// What its controller takes. For a number of points none of the makers states a limit, so 5000 to a file is a number
@@ -122,6 +145,8 @@ impl Robot {
                 outputs: None,
                 radii: &ZONES,
                 zones: true,
+                splines: false,
+                progress: "eax_a, a virtual axis in mm",
                 mold: "work object mold_NAME",
                 tool: "tool_NAME",
                 units: "Units: mm, degrees per second, seconds; quaternions begin with w",
@@ -136,6 +161,8 @@ impl Robot {
                 outputs: Some(4096),
                 radii: &[],
                 zones: false,
+                splines: true,
+                progress: "E1, a virtual axis in mm",
                 mold: "$BASE = mold_NAME",
                 tool: "$TOOL = tool_NAME",
                 units: "Units: mm, degrees (A about Z, B about Y, C about X), seconds",
@@ -149,7 +176,9 @@ impl Robot {
                 outputs: Some(18),
                 radii: &[],
                 zones: false,
-                mold: "mold_PART, in the base of the robot",
+                splines: false,
+                progress: "float output register 0 (output_double_register_0 of RTDE)",
+                mold: "mold_NAME, in the base of the robot",
                 tool: "the TCP",
                 units: "Units: m, rad (rotation vectors), seconds",
             },
@@ -157,12 +186,12 @@ impl Robot {
     }
 }
 
-/// The files of a program for a controller: each in one part, or in several where it has too many points; and the table of
+/// The files of a program for a controller: each in one part, or in several where it has too many points; and the tables of
 /// the axes, where the controller cannot move all of them. Same program, same bytes.
 ///
 /// # Errors
 /// [`crate::Error::NotPossible`] if there is no flange, a tolerance is none, there are more signals than outputs, or a template cannot be
-/// used, or the arm would stop on the way without the axes of another controller.
+/// used.
 pub fn files(
     program: &Program,
     robot: Robot,
@@ -196,35 +225,27 @@ pub fn files(
     }
 
     let track = Track::new(program, !separate);
-    let blocks = Blocks::new(&track, tolerance, limits.radii);
-    let parts = blocks.parts(limits.points).len();
-    if separate && templates.is_empty() && (parts > 1 || blocks.stops_on_the_way()) {
-        let why = match parts {
-            1 => "where the vacuum switches".to_owned(),
-            _ => format!("between the {parts} parts of its program"),
-        };
-        let axes = program.axes.len();
-        let message = format!(
-            "the arm stops on the way, {why}, and the {axes} axes of the array, which another controller moves, would go on without it"
-        );
-        let help = format!(
-            "let all pads let go at the end (order = \"end\" in [release]), let one controller move arm and axes (--to ros2), or hold the two together in a copy of the template, with --template ({} prints it)",
-            robot.printed()
-        );
-        return Err(crate::Error::not_possible(message, help));
-    }
+    let blocks = Blocks::new(&track, tolerance, limits.radii, limits.splines);
     let mut files = Vec::new();
     for context in contexts(&track, &blocks, robot) {
         let part = context.part.clone();
         let value = Value::from(Serde(&context));
         for (ending, Template { name, text }) in &used {
+            // what is measured in a cell is the same for all parts
+            let file = match ending.starts_with("cell.") {
+                true if context.first => format!("{}_{ending}", context.name),
+                true => continue,
+                false => format!("{part}.{ending}"),
+            };
             let made = render::rendered(robot, name, text, &value, render::PATIENCE)?;
-            files.push((format!("{part}.{ending}"), made.into_bytes()));
+            files.push((file, made.into_bytes()));
         }
     }
     if separate {
         let name = names::name(&program.name, program.book_ply.as_ref());
         files.push((wide::beside(&name), wide::text(program)?.into_bytes()));
+        let table = cam::text(program)?;
+        files.extend(table.map(|table| (cam::beside(&name), table.into_bytes())));
     }
     Ok(files)
 }

@@ -12,10 +12,10 @@
 //! |---|---|---|
 //! | [`TRAJECTORY`] | the same trajectory | once, at the start |
 //! | [`PATH`] | the same path | once, at the start, if there is a flange |
-//! | [`POSE`] | `geometry_msgs/msg/PoseStamped`, the flange | over time, if there is one |
+//! | [`POSE`] | `geometry_msgs/msg/PoseStamped`, the flange | at every sample, if there is one |
 //! | [`VACUUM`] | the same commands | each at its time |
-//! | `/tf_static` | `tf2_msgs/msg/TFMessage`: the mold in the world, the tool at the flange | once, at the start |
-//! | `/tf` | `tf2_msgs/msg/TFMessage`: the flange and every pad, by its gripper's name, at the mold | over time |
+//! | `/tf_static` | `tf2_msgs/msg/TFMessage`: the mold in the world; with `/tf` the tool at the flange | once, at the start |
+//! | `/tf` | `tf2_msgs/msg/TFMessage`: the flange and every pad, by its gripper's name, at the mold | at every sample, on request alone |
 //! | [`LOADS`] | the same loads | once, at the start |
 //! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
 //! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time; of a sheet in the steps that were kept |
@@ -38,21 +38,25 @@ mod vacuum;
 use crate::Error;
 use crate::result::ResultFile;
 use crate::result::sheet::{SheetKept, SheetStates};
-use crate::robot::program::{Program, Tolerance, wide};
+use crate::robot::program::{Program, wide};
 use crate::store::folder::Files;
 use crate::store::json::finite;
 use crate::write::loads::Loads;
 use bag::Bag;
 use plydrape::layup::Model;
 
+/// How the names of all frames but [`WORLD`] begin, because robots have frames of the names `flange` and `tool` (REP 199).
+pub const PREFIX: &str = "ply_";
 /// The frame of all positions: the scene's own.
-pub const FRAME: &str = "mold";
+pub const FRAME: &str = "ply_mold";
 /// The frame in which the mold stands.
 pub const WORLD: &str = "world";
 /// The frame of the flange.
-pub const FLANGE: &str = "flange";
+pub const FLANGE: &str = "ply_flange";
 /// The frame of the tool's center.
-pub const TOOL: &str = "tool";
+pub const TOOL: &str = "ply_tool";
+/// What is said above the trajectory of axes that an arm carries.
+const ALONE: &str = "# Nothing here holds these axes together with the arm: never run them while it moves at reduced speed\n";
 /// Topic of the trajectory of the axes.
 pub const TRAJECTORY: &str = "/plydrape/trajectory";
 /// Topic of the path of the flange.
@@ -63,7 +67,7 @@ pub const POSE: &str = "/plydrape/flange_pose";
 pub const VACUUM: &str = "/plydrape/vacuum";
 /// Topic of the expected loads.
 pub const LOADS: &str = "/plydrape/loads";
-/// Name of the bag's record of the verdict and of the errors of what it holds.
+/// Name of the bag's record of the verdict.
 pub const PROGRAM: &str = "plydrape_program";
 /// Name of the bag's record of the mounts' stiffness.
 pub const MOUNTS: &str = "plydrape_mounts";
@@ -72,13 +76,13 @@ pub const MOLD: &str = "/plydrape/mold";
 /// Topic of the ply's markers.
 pub const PLY: &str = "/plydrape/ply";
 
-/// The files of a result: names and contents. Same result, same bytes.
+/// The files of a result: names and contents; with `tf`, the bag has the frames over time. Same result, same bytes.
 ///
 /// # Errors
 /// [`Error`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
-pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Error> {
+pub fn files(result: &ResultFile, tf: bool) -> Result<Files, Error> {
     let program = Program::of(result)?;
-    let (mut bag, mut files) = motion(&program, tolerance)?;
+    let (mut bag, mut files) = motion(&program, tf)?;
 
     if let Some(known) = &Loads::of(result) {
         let loads = loads::loads(&program, known)?;
@@ -118,16 +122,15 @@ pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, Error>
 ///
 /// # Errors
 /// As [`files`].
-pub fn program_files(program: &Program, tolerance: &Tolerance) -> Result<Files, Error> {
-    let (bag, mut files) = motion(program, tolerance)?;
+pub fn program_files(program: &Program, tf: bool) -> Result<Files, Error> {
+    let (bag, mut files) = motion(program, tf)?;
     files.push(("trajectory.mcap".into(), bag.finish()?));
     Ok(files)
 }
 
 /// The bag of a program under way, and its other files.
-fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), Error> {
+fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
     program.check()?;
-    tolerance.check()?;
     let mut bag = Bag::new()?;
     let mut files: Files = Vec::new();
     let head = wide::verdict(program);
@@ -136,32 +139,31 @@ fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), Erro
         let trajectory = trajectory::trajectory(program)?;
         finite::check(&trajectory)?;
         bag.latched(TRAJECTORY, schema::JOINTS, &trajectory)?;
-        let text = head.clone() + &yaml(&trajectory)?;
+        let alone = match program.flange {
+            Some(_) => ALONE,
+            None => "",
+        };
+        let text = head.clone() + alone + &yaml(&trajectory)?;
         files.push(("trajectory.yaml".into(), text.into_bytes()));
     }
 
-    let sampling = poses::sampling(program, tolerance);
-    let millimetres = format!("{:.4}", sampling.error.position * 1e3);
-    let degrees = format!("{:.4}", sampling.error.angle.to_degrees());
-    if let Some(path) = poses::flange(program, &sampling.kept)? {
+    if let Some(path) = poses::flange(program)? {
         finite::check(&path)?;
         bag.latched(PATH, schema::PATH, &path)?;
         bag.channel(POSE, schema::POSE, bag::VOLATILE)?;
-        for (pose, k) in path.poses.iter().zip(&sampling.kept) {
-            bag.write(POSE, time::nanoseconds(k + 1, program.times[*k])?, pose)?;
+        for (k, pose) in path.poses.iter().enumerate() {
+            bag.write(POSE, time::nanoseconds(k + 1, program.times[k])?, pose)?;
         }
-        let error = format!(
-            "# Straight lines between the poses stay within {millimetres} mm and {degrees} deg of the motion\n"
-        );
-        let text = head.clone() + &error + &yaml(&path)?;
-        files.push(("flange.yaml".into(), text.into_bytes()));
+        files.push(("flange.yaml".into(), (head.clone() + &yaml(&path)?).into_bytes()));
     }
-    bag.latched("/tf_static", schema::FRAMES, &poses::fixed(program)?)?;
-    bag.channel("/tf", schema::FRAMES, bag::VOLATILE)?;
-    for k in &sampling.kept {
-        let frames = poses::moving(program, *k)?;
-        finite::check(&frames)?;
-        bag.write("/tf", time::nanoseconds(k + 1, program.times[*k])?, &frames)?;
+    bag.latched("/tf_static", schema::FRAMES, &poses::fixed(program, tf)?)?;
+    if tf {
+        bag.channel("/tf", schema::FRAMES, bag::VOLATILE)?;
+        for (k, time) in program.times.iter().enumerate() {
+            let frames = poses::moving(program, k)?;
+            finite::check(&frames)?;
+            bag.write("/tf", time::nanoseconds(k + 1, *time)?, &frames)?;
+        }
     }
 
     let commands = vacuum::commands(program)?;
@@ -176,12 +178,7 @@ fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), Erro
     }
     bag.note(
         PROGRAM,
-        [
-            ("accepted", program.accepted.to_string()),
-            ("verdict", program.verdict.clone()),
-            ("position_error_mm", millimetres),
-            ("angle_error_deg", degrees),
-        ],
+        [("accepted", program.accepted.to_string()), ("verdict", program.verdict.clone())],
     )?;
     Ok((bag, files))
 }
@@ -209,11 +206,10 @@ mod tests {
     #[test]
     fn the_same_result_gives_the_same_bytes() {
         let result = sample::draped(3, 2, 4);
-        let tolerance = Tolerance::default();
-        let first = files(&result, &tolerance).unwrap();
+        let first = files(&result, false).unwrap();
         let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["trajectory.yaml", "vacuum.yaml", "loads.yaml", "trajectory.mcap"]);
-        assert!(first == files(&result, &tolerance).unwrap());
+        assert!(first == files(&result, false).unwrap());
     }
 
     /// A step that is not later than the one before has no place in a trajectory.
@@ -221,10 +217,10 @@ mod tests {
     fn times_that_do_not_grow_are_refused() {
         let mut result = sample::draped(2, 2, 3);
         result.steps[2].time = result.steps[1].time + 1e-10;
-        let fault = files(&result, &Tolerance::default()).unwrap_err().to_string();
+        let fault = files(&result, false).unwrap_err().to_string();
         assert!(fault.contains("nanosecond"), "{fault}");
         result.steps[0].time = -1.0;
-        let fault = files(&result, &Tolerance::default()).unwrap_err().to_string();
+        let fault = files(&result, false).unwrap_err().to_string();
         assert!(fault.contains("no point at 0 s"), "{fault}");
     }
 
@@ -233,7 +229,7 @@ mod tests {
     fn numbers_are_numbers_for_readers_of_either_version() {
         let mut result = sample::draped(2, 2, 2);
         result.steps[0].grippers[0].commanded = [1e-7, -1e22, 3.0];
-        let files = files(&result, &Tolerance::default()).unwrap();
+        let files = files(&result, false).unwrap();
         let text = String::from_utf8(files[0].1.clone()).unwrap();
         for wanted in ["- 1.0e-7\n", "- -1.0e+22\n", "- 3.0\n"] {
             assert!(text.contains(wanted), "{wanted} is not in\n{text}");

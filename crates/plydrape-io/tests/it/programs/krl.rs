@@ -11,13 +11,13 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Default)]
 struct Data {
     frames: BTreeMap<String, Pose>,
-    points: BTreeMap<String, (Pose, Vec<f64>)>,
+    loads: BTreeSet<String>,
     signals: BTreeMap<String, String>,
     external: BTreeSet<String>,
 }
 
 /// A spline block: its points with their shares of its time, and its time (s) once that is known.
-type Spline = (Vec<(String, f64)>, Option<f64>);
+type Spline = (Vec<((Pose, Vec<f64>), f64)>, Option<f64>);
 
 /// Reads all programs, and plays the first, which calls the others.
 pub fn play(files: &Files) -> Played {
@@ -98,13 +98,26 @@ fn data(name: &str, text: &str) -> Data {
                 let kind = word(&mut line);
                 let name = word(&mut line);
                 line.expect(&["=", "{"]);
-                let (pose, axes) = aggregate(&mut line);
-                line.expect(&["}"]);
                 match kind.as_str() {
                     "FRAME" => {
+                        let (pose, axes) = aggregate(&mut line);
+                        line.expect(&["}"]);
                         assert!(axes.is_empty() && data.frames.insert(name, pose).is_none());
                     }
-                    "E6POS" => assert!(data.points.insert(name, (pose, axes)).is_none()),
+                    "LOAD" => {
+                        line.expect(&["M"]);
+                        assert!(line.number() > 0.0);
+                        line.expect(&[",", "CM", "{"]);
+                        aggregate(&mut line);
+                        line.expect(&["}", ",", "J", "{"]);
+                        for (n, axis) in ["X", "Y", "Z"].into_iter().enumerate() {
+                            assert_eq!(line.takes(","), n > 0);
+                            line.expect(&[axis]);
+                            assert!(line.number() >= 0.0);
+                        }
+                        line.expect(&["}", "}"]);
+                        assert!(data.loads.insert(name));
+                    }
                     other => panic!("{other}"),
                 }
             }
@@ -114,6 +127,14 @@ fn data(name: &str, text: &str) -> Data {
     }
     assert!(ended);
     data
+}
+
+/// `{E6POS: X 1.0,Y 2.0, …}`
+fn point(line: &mut Reader) -> (Pose, Vec<f64>) {
+    line.expect(&["{", "E6POS", ":"]);
+    let found = aggregate(line);
+    line.expect(&["}"]);
+    found
 }
 
 /// `X 1.0,Y 2.0, …` in millimeters and degrees.
@@ -158,7 +179,7 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
     first.expect(&["(", ")"]);
     first.end();
 
-    let mut used: BTreeSet<String> = BTreeSet::new();
+    let mut triggered = false;
     let mut set: BTreeSet<String> = BTreeSet::new();
     let mut percents: BTreeMap<String, f64> = BTreeMap::new();
     let (mut loops, mut ended) = (0, false);
@@ -179,6 +200,8 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
                 "IPO_MODE" => line.expect(&["#", "BASE"]),
                 "BASE" => line.expect(&[mold]),
                 "TOOL" => line.expect(&[tool]),
+                "LOAD" => assert!(data.loads.contains(&word(&mut line))),
+                "ACC.CP" | "ACC.ORI1" | "ACC.ORI2" => assert!(line.number() > 0.0),
                 // slow up to the start, and as fast as they go behind it
                 "VEL_AXIS" | "ACC_AXIS" | "VEL_EXTAX" | "ACC_EXTAX" => {
                     let percent = line.number();
@@ -224,9 +247,8 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
                     ["BASE", "TOOL", "IPO_MODE", "VEL_AXIS"].iter().all(|name| set.contains(*name)),
                     "{set:?}"
                 );
-                let point = word(&mut line);
-                let (pose, axes) = data.points[&point].clone();
-                assert!(played.points.is_empty() && used.insert(point));
+                let (pose, axes) = point(&mut line);
+                assert!(played.points.is_empty());
                 assert_eq!(
                     axes.is_empty(),
                     !set.contains("VEL_EXTAX"),
@@ -256,20 +278,33 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
                     *total = Some(line.number());
                 }
             }
+            "TRIGGER" => {
+                line.expect(&["WHEN", "PATH", "="]);
+                assert_eq!(line.number(), 0.0);
+                line.expect(&["ONSTART", "DELAY", "="]);
+                assert_eq!(line.number(), 0.0);
+                line.expect(&["DO"]);
+                let signal = word(&mut line);
+                line.expect(&["=", "TRUE"]);
+                assert!(data.signals[&signal].starts_with("OUT") && signal == "ARRAY_START");
+                assert!(block.is_some());
+                triggered = true;
+                played.start_signal(true);
+            }
             "SPL" => {
+                triggered = false;
                 let (points, total) = block.as_mut().unwrap();
-                let point = word(&mut line);
-                assert!(total.is_none() && used.insert(point.clone()));
-                points.push((point, 0.0));
+                assert!(total.is_none());
+                points.push((point(&mut line), 0.0));
             }
             "ENDSPLINE" => {
+                assert!(!triggered, "a trigger is before a segment");
                 let (points, total) = block.take().unwrap();
                 let total = total.unwrap();
                 let whole: f64 = points.iter().map(|(_, share)| share).sum();
                 assert!((whole - 100.0).abs() < 1e-6 * points.len() as f64, "{whole}");
-                for (point, share) in points {
+                for ((pose, axes), share) in points {
                     *time += total * share / whole;
-                    let (pose, axes) = data.points[&point].clone();
                     played.points.push(Point { time: *time, pose, axes });
                 }
             }
@@ -307,7 +342,4 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
         line.end();
     }
     assert!(ended && loops == 0 && block.is_none());
-    // what is declared is used; in later parts the start is where the part before has ended
-    let idle: Vec<&String> = data.points.keys().filter(|point| !used.contains(*point)).collect();
-    assert!(idle.is_empty() || idle == ["XP1"], "{idle:?}");
 }

@@ -21,6 +21,7 @@ enum Statement {
         axes: Vec<f64>,
         duration: Option<f64>,
         fine: bool,
+        triggers: bool,
     },
     Output(String, bool),
     Wait(f64),
@@ -28,14 +29,23 @@ enum Statement {
     Call(String),
     /// Whether configurations of the arm are watched.
     Monitor(bool),
+    /// A limit of the acceleration (m/s²), or none.
+    Accelerate(Option<f64>),
+    /// An output that is set at the start of the next movement that has it.
+    Trigger(String),
 }
 
 /// The names of the tool and of the work object in a module with this name, or in one of its parts.
 fn of_program(module: &str) -> [String; 2] {
     // the name ends with its check sum, and a part's number may follow
-    let parts: Vec<&str> = module.split('_').collect();
+    let parts: Vec<&str> = module.trim_end_matches("_cell").split('_').collect();
     let end = parts.iter().rposition(|part| part.len() == 4).unwrap();
     ["tool", "mold"].map(|kind| format!("{kind}_{}", parts[..=end].join("_")))
+}
+
+/// The name of the trigger of a program, by the names of its data.
+fn trigger([tool, _]: &[String; 2]) -> String {
+    tool.replacen("tool", "start", 1)
 }
 
 /// Reads all modules and plays the procedure that calls the others, or the only one.
@@ -49,9 +59,15 @@ pub fn play(files: &Files) -> Played {
         reader.expect(&["MODULE"]);
         let module = identifier(&mut reader);
         assert_eq!(format!("{module}.mod"), *name);
-        if matches!(reader.peek(), Token::Word(word) if word == "PERS") {
+        if module.ends_with("_cell") {
             assert!(frames.is_none());
             frames = Some(data(&mut reader, &of_program(&module)));
+            reader.expect(&["ENDMODULE"]);
+            reader.end();
+            continue;
+        }
+        if reader.takes("VAR") {
+            reader.expect(&["triggdata", &trigger(&of_program(&module)), ";"]);
         }
         reader.expect(&["PROC"]);
         let procedure = identifier(&mut reader);
@@ -76,9 +92,17 @@ pub fn play(files: &Files) -> Played {
 fn run(name: &str, all: &BTreeMap<String, Vec<Statement>>, played: &mut Played, time: &mut f64) {
     // outputs are switched where the arm stands
     let (mut stands, mut monitored) = (true, true);
+    let mut armed = None;
     for statement in &all[name] {
         match statement {
-            Statement::Move { linear, pose, axes, duration, fine } => {
+            Statement::Accelerate(limit) => played.acceleration = *limit,
+            Statement::Trigger(signal) => armed = Some(signal.clone()),
+            Statement::Move { linear, pose, axes, duration, fine, triggers } => {
+                assert!(!linear || played.acceleration.is_some());
+                if *triggers {
+                    assert_eq!(armed.take().unwrap(), "array_start");
+                    played.start_signal(true);
+                }
                 assert_eq!(*linear, duration.is_some(), "the way to the start alone has no time");
                 *time += duration.unwrap_or_default();
                 played.points.push(Point { time: *time, pose: *pose, axes: axes.clone() });
@@ -181,7 +205,29 @@ fn statement(reader: &mut Reader, names: &[String; 2]) -> Option<Statement> {
             }
             Statement::Monitor(on)
         }
-        "MoveJ" | "MoveL" => return Some(movement(reader, word == "MoveL", names)),
+        "MoveJ" | "MoveL" | "TriggL" => return Some(movement(reader, &word, names)),
+        "PathAccLim" => {
+            let limit = reader.takes("TRUE").then(|| {
+                reader.expect(&["\\", "AccMax", ":="]);
+                let most = reader.number();
+                reader.expect(&[",", "TRUE", "\\", "DecelMax", ":="]);
+                assert_eq!(reader.number(), most);
+                most
+            });
+            if limit.is_none() {
+                reader.expect(&["FALSE", ",", "FALSE"]);
+            }
+            Statement::Accelerate(limit)
+        }
+        "TriggIO" => {
+            reader.expect(&[&trigger(names), ","]);
+            assert_eq!(reader.number(), 0.0);
+            reader.expect(&["\\", "Start", "\\", "DOp", ":="]);
+            let signal = identifier(reader);
+            reader.expect(&[","]);
+            assert_eq!(reader.number(), 1.0);
+            Statement::Trigger(signal)
+        }
         "SetDO" => {
             let signal = identifier(reader);
             reader.expect(&[","]);
@@ -202,7 +248,9 @@ fn statement(reader: &mut Reader, names: &[String; 2]) -> Option<Statement> {
     Some(statement)
 }
 
-fn movement(reader: &mut Reader, linear: bool, [tool, mold]: &[String; 2]) -> Statement {
+fn movement(reader: &mut Reader, kind: &str, names: &[String; 2]) -> Statement {
+    let (linear, triggers) = (kind != "MoveJ", kind == "TriggL");
+    let [tool, mold] = names;
     // robtarget: place, orientation, configuration, external axes
     reader.expect(&["["]);
     let pose = parts(reader);
@@ -228,8 +276,11 @@ fn movement(reader: &mut Reader, linear: bool, [tool, mold]: &[String; 2]) -> St
         assert_eq!(reader.list::<4>(), [50.0, 30.0, 50.0, 30.0]);
     }
     reader.expect(&[","]);
+    if triggers {
+        reader.expect(&[&trigger(names), ","]);
+    }
     let zone = identifier(reader);
     assert!(ZONES.contains(&zone.as_str()), "{zone}");
     reader.expect(&[",", tool, "\\", "WObj", ":=", mold, ";"]);
-    Statement::Move { linear, pose, axes, duration, fine: zone == "fine" }
+    Statement::Move { linear, pose, axes, duration, fine: zone == "fine", triggers }
 }

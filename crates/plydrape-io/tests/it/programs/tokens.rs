@@ -17,9 +17,9 @@ pub struct Line {
     pub tokens: Vec<Token>,
 }
 
-const SIGNS: [&str; 22] = [
-    ":=", "==", "<=", ".", "#", "[", "]", "{", "}", "(", ")", ",", ";", "\\", ":", "=", "$", "<",
-    "+", "/", "*", "-",
+const SIGNS: [&str; 23] = [
+    ":=", "==", "<=", ">", ".", "#", "[", "]", "{", "}", "(", ")", ",", ";", "\\", ":", "=", "$",
+    "<", "+", "/", "*", "-",
 ];
 
 /// The lines of a text of printable ASCII, without comments and empty lines.
@@ -97,6 +97,21 @@ impl Reader {
 
     pub fn of_line(line: Line) -> Self {
         Reader::new(vec![line])
+    }
+
+    /// Where it is, for [`Self::back`].
+    pub fn mark(&self) -> usize {
+        self.at
+    }
+
+    pub fn back(&mut self, mark: usize) {
+        self.at = mark;
+    }
+
+    /// The line that it was made of.
+    pub fn into_line(self) -> Line {
+        let number = self.tokens.first().map_or(0, |(_, number)| *number);
+        Line { number, tokens: self.tokens.into_iter().map(|(token, _)| token).collect() }
     }
 
     pub fn peek(&self) -> &Token {

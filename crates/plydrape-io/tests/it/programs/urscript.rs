@@ -9,7 +9,7 @@ use plydrape_io::robot::program::Frames;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The functions of the language that may be called.
-const FUNCTIONS: [&str; 15] = [
+const FUNCTIONS: [&str; 25] = [
     "set_tcp",
     "get_steptime",
     "floor",
@@ -25,16 +25,100 @@ const FUNCTIONS: [&str; 15] = [
     "set_configurable_digital_out",
     "set_tool_digital_out",
     "sleep",
+    "set_target_payload",
+    "sqrt",
+    "pow",
+    "norm",
+    "pose_inv",
+    "get_actual_tcp_pose",
+    "get_actual_tcp_speed",
+    "write_output_float_register",
+    "popup",
+    "and",
 ];
 
-/// Plays the scripts one after the other.
+/// Plays the scripts one after the other, by what the script of the cell says.
 pub fn play(files: &Files) -> Played {
     let mut played = Played::default();
-    for (name, bytes) in files.iter().filter(|(name, _)| name.ends_with(".script")) {
-        let text = std::str::from_utf8(bytes).unwrap();
-        script(name.trim_end_matches(".script"), text, &mut played);
+    let texts: Vec<(&str, &str)> = files
+        .iter()
+        .filter_map(|(name, bytes)| {
+            Some((name.strip_suffix(".script")?, std::str::from_utf8(bytes).unwrap()))
+        })
+        .collect();
+    let (name, text) = texts.iter().find(|(name, _)| name.ends_with("_cell")).unwrap();
+    let cell = Cell::read(name.trim_end_matches("_cell"), text);
+    played.frames = Some(cell.frames);
+    for (name, text) in texts.iter().filter(|(name, _)| !name.ends_with("_cell")) {
+        script(name, text, &cell, &mut played);
     }
     played
+}
+
+/// What a script says that is measured in a cell.
+struct Cell {
+    /// Name of the program.
+    name: String,
+    frames: Frames,
+    /// Functions that switch the vacuum of a gripper.
+    vacuum: BTreeMap<String, String>,
+}
+
+impl Cell {
+    fn read(name: &str, text: &str) -> Self {
+        let (mut tool, mut mold, mut outputs) = (None, None, BTreeSet::new());
+        let mut vacuum = BTreeMap::new();
+        for line in lines(text, "#", 255) {
+            let mut reader = Reader::of_line(line);
+            match reader.word().as_str() {
+                "def" => {
+                    let called = reader.word();
+                    if called == format!("cell_{name}") {
+                        reader.expect(&["(", ")", ":"]);
+                    } else {
+                        let gripper = called.strip_prefix("vac_").unwrap();
+                        let gripper = gripper.strip_suffix(&format!("_{name}")).unwrap();
+                        vacuum.insert(called.clone(), gripper.to_owned());
+                        reader.expect(&["(", "on", ")", ":"]);
+                    }
+                }
+                "set_tcp" => {
+                    reader.expect(&["("]);
+                    tool = Some(pose(&mut reader));
+                    reader.expect(&[")"]);
+                }
+                "set_target_payload" => {
+                    reader.expect(&["("]);
+                    assert!(reader.number() > 0.0);
+                    reader.expect(&[","]);
+                    reader.list::<3>();
+                    reader.expect(&[")"]);
+                }
+                "global" => {
+                    reader.expect(&[&format!("mold_{name}"), "="]);
+                    mold = Some(pose(&mut reader));
+                }
+                "end" => {}
+                call => {
+                    let kind = call.strip_prefix("set_").unwrap();
+                    let kind = kind.strip_suffix("_digital_out").unwrap();
+                    reader.expect(&["("]);
+                    let output = reader.number();
+                    let most = match kind {
+                        "standard" | "configurable" => 8.0,
+                        "tool" => 2.0,
+                        other => panic!("{other}"),
+                    };
+                    assert!((0.0..most).contains(&output) && output.fract() == 0.0);
+                    assert!(outputs.insert((kind.to_owned(), output as usize)), "{call} twice");
+                    reader.expect(&[",", "on", ")"]);
+                }
+            }
+            reader.end();
+        }
+        let frames = Frames { mold: mold.unwrap(), tool: tool.unwrap() };
+        Cell { name: name.to_owned(), frames, vacuum }
+    }
 }
 
 /// `p[x, y, z, rx, ry, rz]`
@@ -47,23 +131,13 @@ fn pose(reader: &mut Reader) -> Pose {
     Pose { position: [x, y, z], axes: unit.map(|e| turned(vector, e)) }
 }
 
-/// The outputs of the vacuum, by the comments that name them: the kind, the number among its kind, the gripper.
-fn outputs(text: &str) -> BTreeMap<(String, usize), String> {
-    let named = text.lines().filter_map(|line| {
-        let (output, gripper) = line.trim().strip_prefix("# ")?.split_once(": vacuum of ")?;
-        let (kind, number) = output.split_once(" output ")?;
-        Some(((kind.to_owned(), number.parse().unwrap()), gripper.to_owned()))
-    });
-    named.collect()
-}
-
-fn script(name: &str, text: &str, played: &mut Played) {
-    let outputs = outputs(text);
-    let [mold_name, at_name, go, stop] =
-        ["mold", "at", "go", "stop"].map(|kind| format!("{kind}_{name}"));
-    let mut own: BTreeSet<String> = BTreeSet::new();
-    let mut tool = None;
-    let mut mold = None;
+fn script(name: &str, text: &str, cell: &Cell, played: &mut Played) {
+    let mold_name = format!("mold_{}", cell.name);
+    let [at_name, go, stop, time_name, done_name] =
+        ["at", "go", "stop", "time", "done"].map(|kind| format!("{kind}_{name}"));
+    let mut own: BTreeSet<String> = cell.vacuum.keys().cloned().collect();
+    own.insert(format!("cell_{}", cell.name));
+    let mut done = 0.0;
     // blocks that are open: the program, a function, a loop
     let mut open: Vec<&str> = Vec::new();
     let mut time = played.points.last().map_or(0.0, |point| point.time);
@@ -97,10 +171,11 @@ fn script(name: &str, text: &str, played: &mut Played) {
                 open.push("def");
                 continue;
             }
-            "while" => {
+            "while" | "if" => {
                 open.push("while");
                 continue;
             }
+            "else" => continue,
             "end" => {
                 open.pop().unwrap();
                 reader.end();
@@ -114,14 +189,34 @@ fn script(name: &str, text: &str, played: &mut Played) {
             continue;
         }
         match first.as_str() {
-            "set_tcp" => {
-                reader.expect(&["("]);
-                tool = Some(pose(&mut reader));
-                reader.expect(&[")"]);
-            }
-            "global" if reader.takes(&mold_name) => {
+            called if called == format!("cell_{}", cell.name) => reader.expect(&["(", ")"]),
+            "global" if reader.takes(&time_name) => {
                 reader.expect(&["="]);
-                mold = Some(pose(&mut reader));
+                assert_eq!(reader.number(), 0.0);
+            }
+            "global" if reader.takes(&done_name) => {
+                reader.expect(&["="]);
+                done = reader.number();
+            }
+            set if set == time_name => {
+                reader.expect(&["="]);
+                assert!((reader.number() - time).abs() < 2e-6);
+            }
+            "write_output_float_register" => {
+                reader.expect(&["("]);
+                assert_eq!(reader.number(), 0.0);
+                reader.expect(&[","]);
+                assert_eq!(reader.number(), 1000.0);
+                reader.expect(&["*", &done_name, ")"]);
+            }
+            called if cell.vacuum.contains_key(called) => {
+                reader.expect(&["("]);
+                let on = reader.takes("True");
+                if !on {
+                    reader.expect(&["False"]);
+                }
+                reader.expect(&[")"]);
+                played.vacuum.push((time, cell.vacuum[called].clone(), on));
             }
             "global" => {
                 reader.expect(&[&at_name, "="]);
@@ -134,7 +229,6 @@ fn script(name: &str, text: &str, played: &mut Played) {
                 reader.expect(&[",", "v", "="]);
                 assert!(reader.number() <= 0.25, "the way to the start is slow");
                 reader.expect(&[")"]);
-                assert!(tool.is_some() && mold.is_some());
                 let pose = start.expect("a start");
                 match played.points.last() {
                     None => played.points.push(Point { time, pose, axes: Vec::new() }),
@@ -147,8 +241,10 @@ fn script(name: &str, text: &str, played: &mut Played) {
                 reader.expect(&["("]);
                 let pose = pose(&mut reader);
                 reader.expect(&[","]);
-                let [begins, ends] = reader.numbers::<2>();
+                let [begins, ends, progress] = reader.numbers::<3>();
                 reader.expect(&[")"]);
+                assert!(progress > done && progress <= 1.0);
+                done = progress;
                 assert!((begins - time).abs() < 2e-6 && ends > begins, "{begins} {time}");
                 time = ends;
                 played.points.push(Point { time, pose, axes: Vec::new() });
@@ -175,15 +271,12 @@ fn script(name: &str, text: &str, played: &mut Played) {
                     reader.expect(&["False"]);
                 }
                 reader.expect(&[")"]);
-                match outputs.get(&(kind.to_owned(), output as usize)) {
-                    Some(gripper) => played.vacuum.push((time, gripper.clone(), on)),
-                    None => played.start_signal(on),
-                }
+                played.start_signal(on);
             }
             other => panic!("line {number}: {other}"),
         }
         reader.end();
     }
     assert!(open.is_empty());
-    played.frames = Some(Frames { mold: mold.unwrap(), tool: tool.unwrap() });
+    assert!((done - 1.0).abs() < 1e-9 || name != cell.name, "{done}");
 }
