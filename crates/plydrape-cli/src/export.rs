@@ -42,6 +42,14 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTH")]
     position_error: Option<String>,
 
+    /// Largest side of the quads of ngsolve; a quarter of the distance of neighboring grippers unless given.
+    #[arg(long, value_name = "LENGTH")]
+    mesh: Option<String>,
+
+    /// Tension stiffness per width of inp and ngsolve, far below that of a yarn, because shells of a ply's thickness converge then; 2e4 N/m unless given.
+    #[arg(long, value_name = "STIFFNESS")]
+    tension: Option<String>,
+
     /// A template of your own for rapid, krl or urscript, such as a changed copy of what `plydrape template` prints; its name ends
     /// as in cell.mod.j2. May be given several times.
     #[arg(long, value_name = "FILE")]
@@ -55,6 +63,8 @@ enum Format {
     Csv,
     /// Abaqus and CalculiX: ply.inp, shells, gripper motion and a rigid mold.
     Inp,
+    /// NGSolve: drape.py, a script that drapes the motion in this finite element code, and its data ply.json.
+    Ngsolve,
     /// The ply in the flat with its cups and its warp: pattern.dxf, and pattern.pdf at full size.
     Pattern,
     /// The boundary of the ply at the end, for a laser projector: boundary.csv and boundary.dxf.
@@ -76,6 +86,7 @@ impl Format {
         match self {
             Format::Csv => export::Format::Csv,
             Format::Inp => export::Format::Inp,
+            Format::Ngsolve => export::Format::Ngsolve,
             Format::Pattern => export::Format::Pattern,
             Format::Boundary => export::Format::Boundary,
             Format::Ros2 => export::Format::Ros2,
@@ -90,6 +101,7 @@ impl Format {
         match self {
             Format::Csv => "csv",
             Format::Inp => "inp",
+            Format::Ngsolve => "ngsolve",
             Format::Pattern => "pattern",
             Format::Boundary => "boundary",
             Format::Ros2 => "ros2",
@@ -103,6 +115,11 @@ impl Format {
 
 /// Range of the position error (m): below it doubles and controllers cannot tell, above it no motion is left.
 const POSITION_ERRORS: [f64; 2] = [1e-7, 1.0];
+
+/// Range of the tension stiffness (N/m).
+const TENSIONS: [f64; 2] = [1.0, 1e9];
+/// Range of the quads' sides (m).
+const MESHES: [f64; 2] = [1e-4, 10.0];
 
 /// Reads the result and writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
@@ -147,6 +164,39 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             help,
         )?;
     }
+    let given = |option: &str, text: &Option<String>, formats: &[Format], what, usual, range| {
+        let Some(text) = text else { return Ok(None) };
+        let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
+        if !formats.contains(&arguments.to) {
+            let fault = format!("has no meaning for {}", arguments.to.folder());
+            return Err(crate::argument::refused(
+                option,
+                text,
+                &fault,
+                &format!("it is for {names}"),
+            ));
+        }
+        let help =
+            "give a positive value with its unit, as in --mesh \"10 mm\" or --tension \"2e4 N/m\"";
+        value(option, text, what, usual, range, help).map(Some)
+    };
+    let mesh = given(
+        "--mesh",
+        &arguments.mesh,
+        &[Format::Ngsolve],
+        Measured::Length,
+        &usual::MESH,
+        MESHES,
+    )?;
+    let shells = [Format::Inp, Format::Ngsolve];
+    let tension = given(
+        "--tension",
+        &arguments.tension,
+        &shells,
+        Measured::ForcePerLength,
+        &usual::TENSION,
+        TENSIONS,
+    )?;
     let read = |path: &PathBuf| {
         let text = input::text(path, LONGEST_TEMPLATE).map_err(|error| Failure::Refused {
             message: format!("the template `{}` cannot be read: {error}", path.display()),
@@ -156,5 +206,11 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         Ok(Template { name, text })
     };
     let templates = arguments.template.iter().map(read).collect::<Result<_, Failure>>()?;
-    Ok(export::Options { even_if_rejected: arguments.even_if_rejected, tolerance, templates })
+    Ok(export::Options {
+        even_if_rejected: arguments.even_if_rejected,
+        tolerance,
+        mesh,
+        tension,
+        templates,
+    })
 }

@@ -21,16 +21,15 @@ mod contact;
 mod header;
 mod mesh;
 mod motion;
-mod pose;
 mod section;
 mod text;
 
 use crate::Error;
 use crate::result::ResultFile;
+use crate::write::pose::Pose;
 use contact::RigidMold;
 use mesh::Mesh;
 use motion::{HANG, Tracks, fabric};
-use pose::Pose;
 use section::{ShellSection, axes};
 use text::{Deck, number};
 
