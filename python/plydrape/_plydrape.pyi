@@ -1246,12 +1246,14 @@ class Result:
         self,
         /,
         to: typing.Literal[
-            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"
+            "vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"
         ],
         folder: str | PathLike[str],
         *,
         even_if_rejected: bool = False,
         position_error: float | str | None = None,
+        mesh: float | str | None = None,
+        tension: float | str | None = None,
         templates: typing.Sequence[str | PathLike[str]] = ...,
     ) -> list[Path]:
         """
@@ -1259,8 +1261,8 @@ class Result:
 
         Parameters
         ----------
-        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
-            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
+        to : {"vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+            One of "vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
         folder : str or path
             Where they go; other files there stay.
         even_if_rejected : bool, default False
@@ -1268,6 +1270,11 @@ class Result:
             result is not accepted; the files say so in their heads.
         position_error : float or str, optional
             How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+        mesh : float or str, optional
+            Largest side of the quads of "ngsolve" (m); a quarter of the distance of neighboring
+            grippers unless given.
+        tension : float or str, optional
+            Tension stiffness per width of "inp" and "ngsolve" (N/m); 2e4 N/m unless given.
         templates : sequence of str or path, optional
             Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
 

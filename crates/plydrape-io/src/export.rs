@@ -92,7 +92,9 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
             template::files(&program, robot, &options.templates, &options.tolerance)?
         }
         Format::Vtk => vtk::files(result)?,
-        Format::Inp => vec![text("ply.inp", inp::text(result)?)],
+        Format::Inp => {
+            vec![text("ply.inp", inp::text(result, options.tension.unwrap_or(TENSION))?)]
+        }
         Format::Ngsolve => ngsolve::files(result, options.mesh, options.tension)?,
     })
 }

@@ -695,8 +695,8 @@ impl Result {
     ///
     /// Parameters
     /// ----------
-    /// to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
-    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
+    /// to : {"vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+    ///     One of "vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary".
     /// folder : str or path
     ///     Where they go; other files there stay.
     /// even_if_rejected : bool, default False
@@ -704,6 +704,11 @@ impl Result {
     ///     result is not accepted; the files say so in their heads.
     /// position_error : float or str, optional
     ///     How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+    /// mesh : float or str, optional
+    ///     Largest side of the quads of "ngsolve" (m); a quarter of the distance of neighboring
+    ///     grippers unless given.
+    /// tension : float or str, optional
+    ///     Tension stiffness per width of "inp" and "ngsolve" (N/m); 2e4 N/m unless given.
     /// templates : sequence of str or path, optional
     ///     Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
     ///
@@ -728,8 +733,9 @@ impl Result {
     /// ...     sorted(path.name for path in result.export("csv", folder))
     /// ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
     #[pyo3(signature = (
-        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'pattern', 'boundary']",
+        to: "typing.Literal['vtk', 'inp', 'ngsolve', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'pattern', 'boundary']",
         folder, *, even_if_rejected = false, position_error: "float | str | None" = None,
+        mesh: "float | str | None" = None, tension: "float | str | None" = None,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
     fn export(
@@ -739,11 +745,14 @@ impl Result {
         folder: PathBuf,
         even_if_rejected: bool,
         position_error: Option<Amount>,
+        mesh: Option<Amount>,
+        tension: Option<Amount>,
         templates: Vec<PathBuf>,
     ) -> PyResult<Vec<PathBuf>> {
         let format = match to {
             "vtk" => export::Format::Vtk,
             "inp" => export::Format::Inp,
+            "ngsolve" => export::Format::Ngsolve,
             "ros2" => export::Format::Ros2,
             "rapid" => export::Format::Robot(Robot::Rapid),
             "krl" => export::Format::Robot(Robot::Krl),
@@ -753,7 +762,7 @@ impl Result {
             "boundary" => export::Format::Boundary,
             other => {
                 let text = format!(
-                    "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
+                    "there is no export to {other:?}: vtk, inp, ngsolve, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
                 );
                 return Err(PyValueError::new_err(text));
             }
@@ -765,6 +774,11 @@ impl Result {
             }
             None => default.position,
         };
+        let mesh =
+            mesh.map(|length| length.si("mesh", Measured::Length, &usual::MESH)).transpose()?;
+        let tension = tension
+            .map(|value| value.si("tension", Measured::ForcePerLength, &usual::TENSION))
+            .transpose()?;
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let text =
@@ -774,6 +788,8 @@ impl Result {
         let options = export::Options {
             even_if_rejected,
             tolerance: Tolerance { position, ..default },
+            mesh,
+            tension,
             templates: templates.iter().map(read).collect::<PyResult<_>>()?,
         };
         parallel(py, || export::write(&self.0, format, &options, &folder))

@@ -57,9 +57,10 @@ pub fn table(comparison: &Comparison, peer: &str) -> String {
         ]);
     }
     format!(
-        "{}\n{}\nA pair is plydrape, then {peer}, whose last state is that at rest. Apart is the distance of the same\n\
-         fabric points: root of the mean square over the area, and largest.\n\
-         {peer} took {:.0} s of processor time: {} time steps, {} linear systems, {} time steps refused.\n",
+        "{}\n{}\nA pair is plydrape, then {peer}, whose last state is that at rest. Apart is the distance of\n\
+         the same fabric points: root of the mean square over the area, and largest.\n\
+         {peer} took {:.0} s of processor time: {} time steps, {} linear systems, {} time steps\n\
+         refused.\n",
         aligned(&cells, &[0]),
         aligned(&steps, &[]),
         comparison.cpu_s,

@@ -33,12 +33,12 @@ use motion::{HANG, Tracks, fabric};
 use section::{ShellSection, axes};
 use text::{Deck, number};
 
-/// The deck of a result. Same result, same bytes.
+/// The deck of a result, with the membrane stiffness per width `membrane` (N/m). Same result, same bytes.
 ///
 /// # Errors
 /// [`Error::NotPossible`] if the result has no steps or its grippers start on one line; a number that is not
 /// finite is refused as in [`crate::store::json`].
-pub fn text(result: &ResultFile) -> Result<String, Error> {
+pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     result.check_finite()?;
     let scene = &result.scene;
     if scene.ply.cut.is_some() {
@@ -56,7 +56,7 @@ pub fn text(result: &ResultFile) -> Result<String, Error> {
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
     let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
-    let section = ShellSection::new(scene);
+    let section = ShellSection::new(scene, membrane);
     let tracks = Tracks::new(result, &pose);
     let weight = section.areal_mass * scene.settings.gravity;
     let mold = RigidMold::new(result, weight, section.thickness);

@@ -1,25 +1,28 @@
-"""Drapes the motion of a result of plydrape in the finite element code NGSolve, as a second opinion.
+"""Drapes the motion of a result of plydrape in the finite element code NGSolve.
 
     pip install ngsolve==6.2.2608 scipy
     python drape.py                        # reads ply.json, writes drape.json
 
-The ply is a nonlinear Koiter shell after Neunteufel and Schöberl (arXiv 2304.13806): a displacement
-of second order in quads along the fibers, and moments as unknowns of their own (elements of Hellan,
-Herrmann and Johnson), so that the kinks between elements bend too. The energy per area is
+The ply is a nonlinear Koiter shell after Neunteufel and Schöberl (arXiv 2304.13806): a
+displacement of second order in quads along the fibers, and moments as unknowns of their own
+(elements of Hellan, Herrmann and Johnson), so that the kinks between elements bend too. The
+energy per area is
 
     T (|a1| - 1)^2 / 2 + T (|a2| - 1)^2 / 2 + (integral of tau over gamma) + bending,
 
-with the fiber vectors a1 and a2, the shear sin(gamma) = a1 . a2 / (|a1| |a2|), the tension stiffness
-T, the shear curve tau and two flexural rigidities. The stretch of a fiber is taken at two points of
-Gauss along it, which keeps thin shells from locking. T is far below that of a yarn: 2e4 N/m, unless
-the export was told otherwise. Newton's method converges then, and fibers strain by less than 0.1 %
-under the weight of a ply; with 1e6 N/m every turn within an iteration makes false tension.
+with the fiber vectors a1 and a2, the shear sin(gamma) = a1 . a2 / (|a1| |a2|), the tension
+stiffness T, the shear curve tau and two flexural rigidities. The stretch of a fiber is taken at
+two points of Gauss along it, which keeps thin shells from locking. T is far below that of a
+yarn: 2e4 N/m, unless the export was told otherwise. Newton's method converges then, and fibers
+strain by less than 0.1 % under the weight of a ply; with 1e6 N/m every turn within an iteration
+makes false tension.
 
-Gravity acts from the start, and time steps are implicit (Euler's), because the ply snaps from fold to
-fold and a static solver finds no way through. Cups are springs to where the robot holds them. The mold is
-a signed distance on a grid. Contact is that of plydrape's sheet: a node below the mold is pushed
-back, and held along the mold where it touched until it is clear again. Friction and tack bound
-that hold if the scene has them. All units are SI. There is no slip under cups, and no tilt limit.
+Gravity acts from the start, and time steps are implicit (Euler's), because the ply snaps from
+fold to fold and a static solver finds no way through. Cups are springs to where the robot holds
+them. The mold is a signed distance on a grid. Contact is that of plydrape's sheet: a node below
+the mold is pushed back, and held along the mold where it touched until it is clear again.
+Friction and tack bound that hold if the scene has them. All units are SI. There is no slip
+under cups, and no tilt limit.
 """
 
 from __future__ import annotations
@@ -34,9 +37,27 @@ import scipy.sparse as sp
 from netgen.meshing import Element1D, Element2D, FaceDescriptor, MeshPoint, Pnt
 from netgen.meshing import Mesh as Netgen
 from ngsolve import (
-    ET, H1, VOL, BilinearForm, BSpline, CoefficientFunction, Cross, ElementId, GridFunction, HDivDiv,
-    InnerProduct, IntegrationRule, Mesh, Norm, Normalize, SymbolicBFI, SymbolicEnergy, asin, grad,
-    specialcf, sqrt,
+    ET,
+    H1,
+    VOL,
+    BilinearForm,
+    BSpline,
+    CoefficientFunction,
+    Cross,
+    ElementId,
+    GridFunction,
+    HDivDiv,
+    InnerProduct,
+    IntegrationRule,
+    Mesh,
+    Norm,
+    Normalize,
+    SymbolicBFI,
+    SymbolicEnergy,
+    asin,
+    grad,
+    specialcf,
+    sqrt,
 )  # fmt: skip
 from scipy.interpolate import RegularGridInterpolator
 from scipy.sparse.linalg import splu
@@ -105,8 +126,9 @@ for energy, rule in [
     term.SetIntegrationRule(ET.QUAD, rule)
     membrane += term
 
-# Bending: moments times the second derivatives along the normal, with the jumps of slope at the sides
-# of elements, less the moments' own energy. The normal is that of the time step before.
+# Bending: moments times the second derivatives along the normal, with the jumps of slope at the
+# sides of elements, less the moments' own energy. The normal is that of the time step before, as a
+# continuous field; the published form has that of the unknown displacement.
 normal = GridFunction(linear * linear * linear)
 out = specialcf.normal(2)
 twist = args.twist * np.sqrt(ply["rigidity"][0] * ply["rigidity"][1])
@@ -166,7 +188,9 @@ def shapes(points: np.ndarray) -> sp.csr_matrix:
 at_nodes, at_points = shapes(place), shapes(np.array(ply["points"]))
 known = np.diff(at_points.indptr) > 0
 free = np.flatnonzero([bool(bit) for bit in space.FreeDofs()])
-to_nodes = sp.hstack([sp.block_diag([at_nodes] * 3), sp.csr_matrix((3 * nodes, space.ndof - 3 * size))])
+to_nodes = sp.hstack(
+    [sp.block_diag([at_nodes] * 3), sp.csr_matrix((3 * nodes, space.ndof - 3 * size))]
+)
 to_nodes = to_nodes.tocsc()
 moving = to_nodes[:, free].tocsr()
 rest = np.concatenate([place.T.ravel(), np.zeros(nodes)])
@@ -184,19 +208,33 @@ upright = Rotation.from_matrix(np.column_stack([*axes, np.cross(*axes)]))
 cups = []
 for gripper in grippers:
     middle = np.array(gripper["place"])
-    within = np.linalg.norm(place - middle, axis=1) <= gripper["radius"] + 1e-6 * np.sqrt(areas.sum())
+    within = np.linalg.norm(place - middle, axis=1) <= gripper["radius"] + 1e-6 * np.sqrt(
+        areas.sum()
+    )
     arms = np.column_stack([place[within] - middle, np.zeros(within.sum())])
     path = np.array(gripper["positions"])
     path = np.vstack([origin + middle @ axes, path[:1], path])
     turns = Rotation.from_quat(gripper["quaternions"])
     turns = Rotation.concatenate([upright, turns[:1], turns])
     until = np.inf if gripper["release"] is None else args.hang + pace * gripper["release"]
-    cups.append((np.flatnonzero(within), arms, path, Slerp(times, turns), until, np.array(gripper["stiffness"])))
+    cups.append(
+        (
+            np.flatnonzero(within),
+            arms,
+            path,
+            Slerp(times, turns),
+            until,
+            np.array(gripper["stiffness"]),
+        )
+    )
 
 # The mold.
 mold, contact = ply["mold"], ply["contact"]
 if mold:
-    grid = [lo + mold["pitch"] * np.arange(count) for lo, count in zip(mold["low"], mold["shape"], strict=True)]
+    grid = [
+        lo + mold["pitch"] * np.arange(count)
+        for lo, count in zip(mold["low"], mold["shape"], strict=True)
+    ]
     field = RegularGridInterpolator(grid, np.reshape(mold["distance"], mold["shape"]))
     box = np.array([(line[0], line[-1]) for line in grid]).T
 press = ply["mass"] * ply["gravity"] / contact["depth"] * areas
@@ -210,13 +248,19 @@ def distance(x: np.ndarray) -> np.ndarray:
 def normals(x: np.ndarray) -> np.ndarray:
     """Unit normals of the mold at places (n, 3)."""
     by = 0.1 * mold["pitch"]
-    slope = np.stack([distance(x + by * axis) - distance(x - by * axis) for axis in np.eye(3)], axis=1)
+    slope = np.stack(
+        [distance(x + by * axis) - distance(x - by * axis) for axis in np.eye(3)], axis=1
+    )
     return slope / np.linalg.norm(slope, axis=1, keepdims=True)
 
 
 def springs(x: np.ndarray, now: float) -> tuple[np.ndarray, sp.csr_matrix, np.ndarray]:
     """Forces of cups and mold on nodes (n, 3), their stiffness, and the loads on the cups."""
-    force, stiffness, loads = np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), np.zeros((len(cups), 3))
+    force, stiffness, loads = (
+        np.zeros((nodes, 3)),
+        np.zeros((nodes, 3, 3)),
+        np.zeros((len(cups), 3)),
+    )
     for k, (held, arms, path, turn, until, spring) in enumerate(cups):
         if now <= until:
             goal = [np.interp(now, times, path[:, axis]) for axis in range(3)]
@@ -237,12 +281,14 @@ def springs(x: np.ndarray, now: float) -> tuple[np.ndarray, sp.csr_matrix, np.nd
         stiffness[near] += (k * np.isfinite(anchor[near, :1]))[..., None] * (np.eye(3) - across)
     i, j = np.divmod(np.arange(9), 3)
     rows, columns = (np.arange(nodes)[:, None] + nodes * axis for axis in (i, j))
-    matrix = sp.csr_matrix((stiffness.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * nodes,) * 2)
+    matrix = sp.csr_matrix(
+        (stiffness.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * nodes,) * 2
+    )
     return force.T.ravel(), matrix, loads
 
 
 def hold(x: np.ndarray) -> None:
-    """Lets go of nodes that are clear, anchors those that touch, and lets those slip that are pulled too much."""
+    """Lets go of nodes that are clear, anchors those that touch, and lets nodes slip."""
     gap = distance(x)
     anchor[gap > contact["clear"]] = np.nan
     fresh = (gap < 0.0) & ~np.isfinite(anchor[:, 0])
@@ -261,13 +307,17 @@ q, residual = state.vec.FV().NumPy(), state.vec.CreateVector()
 solve_nodes = splu(at_nodes.tocsc())
 for axis in range(3):
     start = origin + place @ axes
-    q[axis * size : (axis + 1) * size] = solve_nodes.solve(start[:, axis] - rest.reshape(3, -1)[axis])
+    q[axis * size : (axis + 1) * size] = solve_nodes.solve(
+        start[:, axis] - rest.reshape(3, -1)[axis]
+    )
 
 
 def csr(form: BilinearForm) -> sp.csr_matrix:
     """The matrix of a form."""
     values, columns, pointer = form.mat.CSR()
-    return sp.csr_matrix((np.array(values), np.array(columns), np.array(pointer)), shape=(space.ndof,) * 2)
+    return sp.csr_matrix(
+        (np.array(values), np.array(columns), np.array(pointer)), shape=(space.ndof,) * 2
+    )
 
 
 anchor = np.full((nodes, 3), np.nan)
@@ -284,7 +334,7 @@ while len(states) < len(moments):
     bending.Assemble()
     bent = csr(bending)
     before, last = q.copy(), np.inf
-    for solve in range(20):
+    for _ in range(20):
         membrane.AssembleLinearization(state.vec)
         membrane.Apply(state.vec, residual)
         y = rest + to_nodes @ q
@@ -293,8 +343,7 @@ while len(states) < len(moments):
         stiffness = stiffness + sp.diags(mass * (1.0 / h**2 + args.drag / h))
         matrix = (csr(membrane) + bent)[free][:, free] + moving.T @ stiffness @ moving
         right = moving.T @ force - (residual.FV().NumPy() + bent @ q)[free]
-        change = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=1e-3,
-                      options={"SymmetricMode": True}).solve(right)  # fmt: skip
+        change = splu(matrix.tocsc(), diag_pivot_thresh=1e-3).solve(right)
         last = np.abs(moving @ change).max()
         q[free] += change * min(1.0, 5e-3 / last)
         counts["solves"] += 1
@@ -321,14 +370,22 @@ while len(states) < len(moments):
             "forces": loads.tolist(), "lies": lies,
         })  # fmt: skip
         low, fast = rows_of(x)[:, 2].min(), np.abs(speed).max()
-        print(f"state {len(states)} of {len(moments)}: lowest {1e3 * low:.2f} mm, {100 * lies:.0f} % lie,"
-              f" {1e3 * fast:.1f} mm/s, {counts}, {time.process_time() - began:.0f} s of CPU", flush=True)  # fmt: skip
+        print(f"state {len(states)} of {len(moments)}: lowest {1e3 * low:.2f} mm,", end=" ")
+        print(f"{100 * lies:.0f} % lie, {1e3 * fast:.1f} mm/s, {counts},", end=" ")
+        print(f"{time.process_time() - began:.0f} s of CPU", flush=True)
 
-first = int(np.nanargmin(landed)) if np.isfinite(landed).any() else None
+touch = None
+if np.isfinite(landed).any():
+    first = int(np.nanargmin(landed))
+    touch = {"time": landed[first], "place": place[first].tolist()}
 report = {
-    "format": "plydrape-ngsolve-drape", "version": 1, "result": ply["result"], "settings": vars(args),
-    "cpu_s": round(time.process_time() - began, 1), **counts,
-    "first_touch": first if first is None else {"time": landed[first], "place": place[first].tolist()},
+    "format": "plydrape-ngsolve-drape",
+    "version": 1,
+    "result": ply["result"],
+    "settings": vars(args),
+    "cpu_s": round(time.process_time() - began, 1),
+    **counts,
+    "first_touch": touch,
     "states": states,
-}  # fmt: skip
+}
 (home / "drape.json").write_text(json.dumps(report))
