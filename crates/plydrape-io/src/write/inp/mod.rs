@@ -43,7 +43,10 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     let scene = &result.scene;
     if scene.ply.cut.is_some() {
         let message = "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline";
-        return Err(Error::not_possible(message, "take `vtk` for its sheet"));
+        return Err(Error::not_possible(
+            message,
+            "take `ngsolve`, which drapes it with its holes and corners, or `vtk` for its sheet",
+        ));
     }
     let first = result.steps.first().ok_or_else(|| {
         let message = "the result has no steps, so there is no motion to write";

@@ -13,6 +13,7 @@ use crate::store::json;
 use crate::write::pose::Pose;
 use mold::DistanceGrid;
 use plydrape::layup::Friction;
+use plydrape::sheet::fabric::Cell;
 use plydrape::sheet::{Sheet, coarsest_mesh, pitch};
 use serde::Serialize;
 
@@ -40,7 +41,7 @@ struct Data<'a> {
     program: &'a str,
     /// Check sum of the states that the result was written with; none without a sheet.
     result: Option<&'a str>,
-    nodes: &'a [[f64; 2]],
+    nodes: Vec<[f64; 2]>,
     quads: Vec<[u32; 4]>,
     /// Fabric points at which the drape is compared.
     points: Vec<[f64; 2]>,
@@ -100,8 +101,7 @@ pub(crate) fn files(
     layup.settings.sheet.mesh = Some(mesh.unwrap_or(finest.min(pitch / QUADS)));
     let sheet = Sheet::new(&layup)?;
     let fabric = &sheet.fabric;
-    let quads: Vec<[u32; 4]> =
-        fabric.cells.iter().filter(|cell| cell.is_ply()).map(|cell| cell.nodes).collect();
+    let (nodes, quads) = quads(&sheet);
     if quads.is_empty() {
         let message = "the ply is a single line of grippers, and NGSolve has shells of a surface";
         return Err(Error::not_possible(message, "take `inp`, whose strip is one cell wide"));
@@ -144,7 +144,7 @@ pub(crate) fn files(
         title: &result.scene.title,
         program: &result.program,
         result: result.sheet_states.as_ref().map(|states| states.seal().checksum.as_str()),
-        nodes: &fabric.places,
+        nodes,
         quads,
         points,
         mass: sheet.areal_mass,
@@ -171,6 +171,27 @@ pub(crate) fn files(
         ("drape.py".into(), SCRIPT.as_bytes().to_vec()),
         ("ply.json".into(), json::of(&data)?.into_bytes()),
     ])
+}
+
+/// Corners of quads, and the quads by numbers of corners: the cells of which half or more is ply, and those that cups hold.
+fn quads(sheet: &Sheet) -> (Vec<[f64; 2]>, Vec<[u32; 4]>) {
+    let places = &sheet.fabric.places;
+    let mut held = vec![false; places.len()];
+    sheet.held().iter().flatten().for_each(|(node, _)| held[*node] = true);
+    let is_held = |cell: &Cell| cell.nodes.iter().any(|node| held[*node as usize]);
+    let cells = sheet.fabric.cells.iter().filter(|cell| cell.is_ply() || is_held(cell));
+    let (mut number, mut nodes) = (vec![None; places.len()], Vec::new());
+    let quads: Vec<[u32; 4]> = cells
+        .map(|cell| {
+            cell.nodes.map(|node| {
+                *number[node as usize].get_or_insert_with(|| {
+                    nodes.push(places[node as usize]);
+                    nodes.len() as u32 - 1
+                })
+            })
+        })
+        .collect();
+    (nodes, quads)
 }
 
 #[cfg(test)]

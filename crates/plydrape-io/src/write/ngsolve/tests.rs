@@ -1,7 +1,9 @@
 use super::*;
 use crate::sample;
 use plydrape::material::{Section, ShearCurve, TensionLaw};
+use plydrape::ply::{Cut, Held, Outline};
 use serde_json::Value;
+use std::collections::BTreeSet;
 
 /// A made-up result whose ply has what a sheet needs, per width.
 fn shells(mut result: ResultFile) -> ResultFile {
@@ -42,6 +44,43 @@ fn quads_cover_the_ply_once() {
         let near = |node: &Vec<f64>| (node[0] - place[0]).hypot(node[1] - place[1]) < 1e-12;
         assert!(nodes.iter().any(near), "{cup}");
     }
+}
+
+/// Of a ply with a cut corner and a hole the quads leave both out, use every corner that is written, and cover the ply to half a quad at its
+/// boundary.
+#[test]
+fn a_cut_ply_has_quads_where_it_is() {
+    let mut result = shells(sample::hanging(3, 3));
+    let outer = vec![[0.0, 0.0], [0.2, 0.0], [0.2, 0.2], [0.05, 0.2], [0.0, 0.15]];
+    let hole = vec![[0.02, 0.02], [0.02, 0.06], [0.06, 0.06], [0.06, 0.02]];
+    let outline = Outline::new(outer, vec![hole]).unwrap();
+    // the corner that is cut has no cup
+    let kept = |id: &[usize; 2]| *id != [0, 2];
+    let ids: Vec<_> = result.steps[0].grippers.iter().map(|g| g.id).filter(kept).collect();
+    let held = ids.iter().map(|id| Held { id: *id, place: id.map(|n| 0.1 * n as f64) }).collect();
+    result.scene.ply.cut = Some(Cut { outline, held, angle: 0.0, turn: 0.0, origin: [0.0; 2] });
+    result.steps[0].grippers.retain(|gripper| kept(&gripper.id));
+    let found = data(&result, Some(0.01), None);
+    let quads = found["quads"].as_array().unwrap();
+    let corners: BTreeSet<u64> = quads
+        .iter()
+        .flat_map(|quad| quad.as_array().unwrap())
+        .map(|n| n.as_u64().unwrap())
+        .collect();
+    let nodes: Vec<Vec<f64>> = found["nodes"].as_array().unwrap().iter().map(reals).collect();
+    assert!(corners.into_iter().eq(0..nodes.len() as u64));
+    let middle = |quad: &Value| {
+        let [a, c] = [0, 2].map(|n| &nodes[quad[n].as_u64().unwrap() as usize]);
+        [0, 1].map(|n| 0.5 * (a[n] + c[n]))
+    };
+    let in_hole = |[u, v]: [f64; 2]| (0.02..0.06).contains(&u) && (0.02..0.06).contains(&v);
+    assert!(quads.iter().all(|quad| !in_hole(middle(quad))));
+    assert!(quads.iter().all(|quad| middle(quad)[1] < 0.15 + middle(quad)[0] + 1e-9));
+    assert!(
+        (quads.len() as f64 * 1e-4 - (0.04 - 0.0016 - 0.00125)).abs() < 5e-4,
+        "{}",
+        quads.len()
+    );
 }
 
 /// Mass, rigidities and the shear curve are those of the material per width; the tension stiffness is not, and is the one asked for.
