@@ -1248,6 +1248,7 @@ class Result:
         to: typing.Literal[
             "vtk",
             "inp",
+            "ngsolve",
             "ros2",
             "rapid",
             "krl",
@@ -1267,6 +1268,8 @@ class Result:
         least_time: float | str | None = None,
         large: bool = False,
         tf: bool = False,
+        mesh: float | str | None = None,
+        tension: float | str | None = None,
         templates: typing.Sequence[str | PathLike[str]] = ...,
     ) -> list[Path]:
         """
@@ -1274,8 +1277,8 @@ class Result:
 
         Parameters
         ----------
-        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
-            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary"; "abb", "kuka" and "ur"
+        to : {"vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+            One of "vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary"; "abb", "kuka" and "ur"
             mean "rapid", "krl" and "urscript".
         folder : str or path
             Where they go; other files there stay.
@@ -1291,6 +1294,11 @@ class Result:
             Write what drives a machine also of a motion of more than ten minutes, or with samples of more than 50 MB.
         tf : bool, default False
             Write the frames over time (``/tf``) into the bag of "ros2".
+        mesh : float or str, optional
+            Largest side of the quads of "ngsolve" (m); a quarter of the distance of neighboring
+            grippers unless given.
+        tension : float or str, optional
+            Tension stiffness per width of "inp" and "ngsolve" (N/m); 2e4 N/m unless given.
         templates : sequence of str or path, optional
             Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
 

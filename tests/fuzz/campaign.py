@@ -166,7 +166,7 @@ class Fuzzer:
 
     def read_back(self, wrote: Path, folder: Path, rng: Random) -> list[tuple[Fault, Ended]]:
         """What the command wrote, it reads."""
-        to = rng.choice(("csv", "inp", "ros2", "vtk"))
+        to = rng.choice(("csv", "inp", "ngsolve", "ros2", "vtk"))
         found = []
         for name, options in (("report", ()), ("export", ("--to", to, "--even-if-rejected"))):
             place = folder / name

@@ -24,6 +24,7 @@ TOGETHER = {
     "test_oracle.py": "oracle",
     "test_equilibrium.py": "oracle",
     "test_inp.py": "CalculiX",
+    "test_ngsolve.py": "NGSolve",
     "test_net.py": "net",
     "test_notebook.py": "notebook",
     "test_ros2.py": "ROS 2",

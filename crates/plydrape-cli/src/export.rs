@@ -62,6 +62,14 @@ pub struct Arguments {
     #[arg(long)]
     tf: bool,
 
+    /// Largest side of the quads of ngsolve; a quarter of the distance of neighboring grippers unless given.
+    #[arg(long, value_name = "LENGTH")]
+    mesh: Option<String>,
+
+    /// Tension stiffness per width of inp and ngsolve, far below that of a yarn, because shells of a ply's thickness converge then; 2e4 N/m unless given.
+    #[arg(long, value_name = "STIFFNESS")]
+    tension: Option<String>,
+
     /// A template of your own for rapid, krl or urscript, such as a changed copy of what `plydrape template` prints; its name ends
     /// as in cell.mod.j2. May be given several times.
     #[arg(long, value_name = "FILE")]
@@ -75,6 +83,8 @@ enum Format {
     Csv,
     /// Abaqus and CalculiX: ply.inp, shells, gripper motion and a rigid mold.
     Inp,
+    /// NGSolve: drape.py, a script that drapes the motion in this finite element code, and its data ply.json.
+    Ngsolve,
     /// The ply in the flat with its cups and its warp: pattern.dxf, and pattern.pdf at full size.
     Pattern,
     /// The boundary of the ply at the end, for a laser projector: boundary.csv and boundary.dxf.
@@ -99,6 +109,7 @@ impl Format {
         match self {
             Format::Csv => export::Format::Csv,
             Format::Inp => export::Format::Inp,
+            Format::Ngsolve => export::Format::Ngsolve,
             Format::Pattern => export::Format::Pattern,
             Format::Boundary => export::Format::Boundary,
             Format::Ros2 => export::Format::Ros2,
@@ -113,6 +124,7 @@ impl Format {
         match self {
             Format::Csv => "csv",
             Format::Inp => "inp",
+            Format::Ngsolve => "ngsolve",
             Format::Pattern => "pattern",
             Format::Boundary => "boundary",
             Format::Ros2 => "ros2",
@@ -129,6 +141,10 @@ const POSITION_ERRORS: [f64; 2] = [1e-7, 1.0];
 
 /// Range of the least way (m) and of the least time (s) between two points.
 const LEAST: [f64; 2] = [0.0, 1.0];
+/// Range of the tension stiffness (N/m).
+const TENSIONS: [f64; 2] = [1.0, 1e9];
+/// Range of the quads' sides (m).
+const MESHES: [f64; 2] = [1e-4, 10.0];
 
 /// Reads the result and writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
@@ -205,6 +221,39 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         };
         *to = value(option, text, measured, usual, range, help)?;
     }
+    let given = |option: &str, text: &Option<String>, formats: &[Format], what, usual, range| {
+        let Some(text) = text else { return Ok(None) };
+        let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
+        if !formats.contains(&arguments.to) {
+            let fault = format!("has no meaning for {}", arguments.to.folder());
+            return Err(crate::argument::refused(
+                option,
+                text,
+                &fault,
+                &format!("it is for {names}"),
+            ));
+        }
+        let help =
+            "give a positive value with its unit, as in --mesh \"10 mm\" or --tension \"2e4 N/m\"";
+        value(option, text, what, usual, range, help).map(Some)
+    };
+    let mesh = given(
+        "--mesh",
+        &arguments.mesh,
+        &[Format::Ngsolve],
+        Measured::Length,
+        &usual::MESH,
+        MESHES,
+    )?;
+    let shells = [Format::Inp, Format::Ngsolve];
+    let tension = given(
+        "--tension",
+        &arguments.tension,
+        &shells,
+        Measured::ForcePerLength,
+        &usual::TENSION,
+        TENSIONS,
+    )?;
     let read = |path: &PathBuf| {
         let text = input::text(path, LONGEST_TEMPLATE).map_err(|error| Failure::Refused {
             message: format!("the template `{}` cannot be read: {error}", path.display()),
@@ -215,5 +264,5 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     };
     let templates = arguments.template.iter().map(read).collect::<Result<_, Failure>>()?;
     let Arguments { even_if_rejected, large, tf, .. } = *arguments;
-    Ok(export::Options { even_if_rejected, tolerance, large, tf, templates })
+    Ok(export::Options { even_if_rejected, tolerance, large, tf, mesh, tension, templates })
 }

@@ -9,8 +9,10 @@ use crate::robot::program::{Program, Robot, Template, Tolerance, cam, template, 
 use crate::robot::ros2;
 use crate::store::folder;
 use crate::store::folder::Files;
-use crate::write::{csv, inp, pattern, vtk};
+use crate::write::{csv, inp, ngsolve, pattern, vtk};
 use std::path::{Path, PathBuf};
+
+pub use crate::write::ngsolve::TENSION;
 
 /// What a result is made into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +21,8 @@ pub enum Format {
     Csv,
     /// Abaqus and CalculiX: `ply.inp`, shells, gripper motion and a rigid mold.
     Inp,
+    /// NGSolve: `drape.py`, which drapes the motion in this finite element code, and its data `ply.json`.
+    Ngsolve,
     /// The ply in the flat, with its cups and its warp: `pattern.dxf` for a cutter, `pattern.pdf` at full size.
     Pattern,
     /// The boundary of the ply on the mold at the end, for a laser projector: `boundary.csv` and `boundary.dxf`.
@@ -37,7 +41,9 @@ impl Format {
     pub fn drives(self) -> bool {
         match self {
             Format::Csv | Format::Ros2 | Format::Robot(_) => true,
-            Format::Inp | Format::Pattern | Format::Boundary | Format::Vtk => false,
+            Format::Inp | Format::Ngsolve | Format::Pattern | Format::Boundary | Format::Vtk => {
+                false
+            }
         }
     }
 }
@@ -53,6 +59,10 @@ pub struct Options {
     pub large: bool,
     /// Frames over time (`/tf`) in a bag for ROS 2.
     pub tf: bool,
+    /// Largest side (m) of the quads of `ngsolve`; a quarter of the distance of neighboring grippers unless given.
+    pub mesh: Option<f64>,
+    /// Tension stiffness per width (N/m) of `inp` and `ngsolve`; [`TENSION`] unless given.
+    pub tension: Option<f64>,
     /// Templates of the user's own, in place of shipped ones; for robots alone.
     pub templates: Vec<Template>,
 }
@@ -113,7 +123,10 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
             template::files(&program, robot, &options.templates, &options.tolerance)?
         }
         Format::Vtk => vtk::files(result)?,
-        Format::Inp => vec![text("ply.inp", inp::text(result)?)],
+        Format::Inp => {
+            vec![text("ply.inp", inp::text(result, options.tension.unwrap_or(TENSION))?)]
+        }
+        Format::Ngsolve => ngsolve::files(result, options.mesh, options.tension)?,
     })
 }
 

@@ -20,6 +20,7 @@ pub mod error;
 pub mod export;
 pub mod fit;
 pub mod page;
+pub mod peer;
 pub mod plan;
 pub mod read;
 pub mod replan;

@@ -695,8 +695,8 @@ impl Result {
     ///
     /// Parameters
     /// ----------
-    /// to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
-    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary"; "abb", "kuka" and "ur"
+    /// to : {"vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern", "boundary"}
+    ///     One of "vtk", "inp", "ngsolve", "ros2", "rapid", "krl", "urscript", "csv", "pattern" or "boundary"; "abb", "kuka" and "ur"
     ///     mean "rapid", "krl" and "urscript".
     /// folder : str or path
     ///     Where they go; other files there stay.
@@ -712,6 +712,11 @@ impl Result {
     ///     Write what drives a machine also of a motion of more than ten minutes, or with samples of more than 50 MB.
     /// tf : bool, default False
     ///     Write the frames over time (``/tf``) into the bag of "ros2".
+    /// mesh : float or str, optional
+    ///     Largest side of the quads of "ngsolve" (m); a quarter of the distance of neighboring
+    ///     grippers unless given.
+    /// tension : float or str, optional
+    ///     Tension stiffness per width of "inp" and "ngsolve" (N/m); 2e4 N/m unless given.
     /// templates : sequence of str or path, optional
     ///     Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
     ///
@@ -736,10 +741,11 @@ impl Result {
     /// ...     sorted(path.name for path in result.export("csv", folder))
     /// ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
     #[pyo3(signature = (
-        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'abb', 'kuka', 'ur', 'csv', 'pattern', 'boundary']",
+        to: "typing.Literal['vtk', 'inp', 'ngsolve', 'ros2', 'rapid', 'krl', 'urscript', 'abb', 'kuka', 'ur', 'csv', 'pattern', 'boundary']",
         folder, *, even_if_rejected = false, position_error: "float | str | None" = None,
         least_way: "float | str | None" = None, least_time: "float | str | None" = None,
         large = false, tf = false,
+        mesh: "float | str | None" = None, tension: "float | str | None" = None,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -754,11 +760,14 @@ impl Result {
         least_time: Option<Amount>,
         large: bool,
         tf: bool,
+        mesh: Option<Amount>,
+        tension: Option<Amount>,
         templates: Vec<PathBuf>,
     ) -> PyResult<Vec<PathBuf>> {
         let format = match to {
             "vtk" => export::Format::Vtk,
             "inp" => export::Format::Inp,
+            "ngsolve" => export::Format::Ngsolve,
             "ros2" => export::Format::Ros2,
             "csv" => export::Format::Csv,
             "pattern" => export::Format::Pattern,
@@ -767,7 +776,7 @@ impl Result {
                 let robot = Robot::named(other).map(export::Format::Robot);
                 let text = || {
                     format!(
-                        "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
+                        "there is no export to {other:?}: vtk, inp, ngsolve, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
                     )
                 };
                 robot.ok_or_else(|| PyValueError::new_err(text()))?
@@ -784,6 +793,11 @@ impl Result {
                 *to = amount.si(name, measured, usual)?;
             }
         }
+        let mesh =
+            mesh.map(|length| length.si("mesh", Measured::Length, &usual::MESH)).transpose()?;
+        let tension = tension
+            .map(|value| value.si("tension", Measured::ForcePerLength, &usual::TENSION))
+            .transpose()?;
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let text =
@@ -795,6 +809,8 @@ impl Result {
             tolerance,
             large,
             tf,
+            mesh,
+            tension,
             templates: templates.iter().map(read).collect::<PyResult<_>>()?,
         };
         parallel(py, || export::write(&self.0, format, &options, &folder))

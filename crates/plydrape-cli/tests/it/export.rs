@@ -34,7 +34,7 @@ fn every_format_is_made_from_the_result_alone() {
     let home = tempfile::tempdir().unwrap();
     let result = result(home.path(), "01_flat_sheared_mold");
     let asked = home.path().join("asked");
-    for format in ["csv", "inp", "ros2", "vtk"] {
+    for format in ["csv", "inp", "ngsolve", "ros2", "vtk"] {
         let output = plydrape(&["export", "--to", format, "--even-if-rejected"], &result);
         succeeds(&output);
         let beside = result.with_file_name(format);
@@ -156,7 +156,7 @@ fn a_rejected_motion_drives_no_machine_unless_asked() {
         assert!(message.contains("--even-if-rejected"), "{format}: {message}");
         assert!(!result.with_file_name(format).exists());
     }
-    for format in ["inp", "vtk", "pattern"] {
+    for format in ["inp", "ngsolve", "vtk", "pattern"] {
         succeeds(&plydrape(&["export", "--to", format], &result));
     }
     for (format, name) in [("csv", "motion_wide.csv"), ("ros2", "trajectory.yaml")] {

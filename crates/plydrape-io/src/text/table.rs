@@ -45,7 +45,7 @@ pub fn model_name(model: Model) -> &'static str {
 }
 
 /// A number with so many digits after the point; in exponent form if that would be too wide.
-fn fixed(value: Option<f64>, digits: usize) -> String {
+pub(crate) fn fixed(value: Option<f64>, digits: usize) -> String {
     match value {
         None => "–".into(),
         Some(v) if v.abs() < 1e6 => {

@@ -8,6 +8,8 @@ pub mod inp;
 pub(crate) mod loads;
 pub mod mold_patch;
 pub mod net;
+pub(crate) mod ngsolve;
 pub mod pattern;
+pub(crate) mod pose;
 pub mod surface;
 pub mod vtk;

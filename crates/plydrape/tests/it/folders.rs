@@ -18,11 +18,11 @@ const CRATES: [(&str, &str); 8] = [
     ("plydrape", "error fit sheet pick_up measure errors scene outcome planner"),
     (
         "plydrape-io",
-        "error store read result scene text write robot page export fit plan replan rerun sample",
+        "error store read result scene text write robot page export peer fit plan replan rerun sample",
     ),
     (
         "plydrape-cli",
-        "failure argument mesh outcome results numbers watch search compare errors model plan check complete export new fit limits net \
+        "failure argument mesh outcome results numbers watch search compare errors model plan check complete export peer new fit limits net \
          replan report schema simulate span study template",
     ),
     (

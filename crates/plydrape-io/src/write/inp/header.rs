@@ -25,6 +25,11 @@ pub(super) fn write(
     paragraph(deck, &format!("Written from the result file of {}.", result.program));
     paragraph(deck, "For CalculiX (ccx) and Abaqus/Standard. Units: m, kg, s, N, Pa. z is up.");
 
+    paragraph(
+        deck,
+        "What it is for: how the ply hangs between its grippers (step HANG), by another program. Statics cannot lay a ply, which snaps from fold to fold (step LAY); `plydrape export --to ngsolve` can.",
+    );
+
     heading(deck, "What the deck carries");
     let [n, m] = mesh.count;
     paragraph(
@@ -39,7 +44,7 @@ pub(super) fn write(
     paragraph(
         deck,
         &format!(
-            "Section: areal mass {:.6e} kg/m2, bending rigidity per width D1 = {:.6e} N m (warp), D2 = {:.6e} N m (weft), membrane stiffness per width A = {:.6e} N/m (mean of warp and weft), shear stiffness per width {:.6e} N/m per rad, Poisson's ratios 0.",
+            "Section: areal mass {:.6e} kg/m2, bending rigidity per width D1 = {:.6e} N m (warp), D2 = {:.6e} N m (weft), tension stiffness per width A = {:.6e} N/m (mean of warp and weft; --tension sets it), shear stiffness per width {:.6e} N/m per rad, Poisson's ratios 0.",
             section.areal_mass,
             section.rigidity[0],
             section.rigidity[1],
@@ -55,6 +60,10 @@ pub(super) fn write(
             section.thickness,
             section.density(),
         ),
+    );
+    paragraph(
+        deck,
+        "A is far below that of a yarn, 1e6 N/m: with that, every turn within an iteration makes false tension, and step HANG stands still. With 2e4 N/m it is complete in some 30 increments.",
     );
     for line in &section.assumed {
         paragraph(deck, line);

@@ -21,30 +21,32 @@ mod contact;
 mod header;
 mod mesh;
 mod motion;
-mod pose;
 mod section;
 mod text;
 
 use crate::Error;
 use crate::result::ResultFile;
+use crate::write::pose::Pose;
 use contact::RigidMold;
 use mesh::Mesh;
 use motion::{HANG, Tracks, fabric};
-use pose::Pose;
 use section::{ShellSection, axes};
 use text::{Deck, number};
 
-/// The deck of a result. Same result, same bytes.
+/// The deck of a result, with the membrane stiffness per width `membrane` (N/m). Same result, same bytes.
 ///
 /// # Errors
 /// [`Error::NotPossible`] if the result has no steps or its grippers start on one line; a number that is not
 /// finite is refused as in [`crate::store::json`].
-pub fn text(result: &ResultFile) -> Result<String, Error> {
+pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     result.check_finite()?;
     let scene = &result.scene;
     if scene.ply.cut.is_some() {
         let message = "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline";
-        return Err(Error::not_possible(message, "take `vtk` for its sheet"));
+        return Err(Error::not_possible(
+            message,
+            "take `ngsolve`, which drapes it with its holes and corners, or `vtk` for its sheet",
+        ));
     }
     let first = result.steps.first().ok_or_else(|| {
         let message = "the result has no steps, so there is no motion to write";
@@ -57,7 +59,7 @@ pub fn text(result: &ResultFile) -> Result<String, Error> {
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
     let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
-    let section = ShellSection::new(scene);
+    let section = ShellSection::new(scene, membrane);
     let tracks = Tracks::new(result, &pose);
     let weight = section.areal_mass * scene.settings.gravity;
     let mold = RigidMold::new(result, weight, section.thickness);

@@ -8,9 +8,9 @@
 //! node set is moved by it: `x = flat place + table`. Rotations are free, as in the ball joints of the grippers.
 
 use super::mesh::Mesh;
-use super::pose::Pose;
 use super::text::{Deck, number};
 use crate::result::ResultFile;
+use crate::write::pose::Pose;
 use plydrape::ply::{GripperId, gripper_name};
 
 /// Time in which the ply comes to hang (s).

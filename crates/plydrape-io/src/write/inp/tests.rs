@@ -15,11 +15,11 @@ fn numbers(line: &str) -> Vec<f64> {
 #[test]
 fn the_deck_repeats_itself_and_holds_what_the_result_has() {
     let (hanging, draped) = (sample::hanging(4, 2), sample::draped(4, 2, 5));
-    let deck = text(&hanging).unwrap();
-    assert_eq!(deck, text(&hanging).unwrap());
+    let deck = text(&hanging, 2e4).unwrap();
+    assert_eq!(deck, text(&hanging, 2e4).unwrap());
     assert_eq!(deck.matches("*STEP").count(), 1);
     assert!(!deck.contains("MOLD") && !deck.contains("CONTACT"));
-    let deck = text(&draped).unwrap();
+    let deck = text(&draped, 2e4).unwrap();
     assert_eq!(deck.matches("*STEP").count(), 2);
     assert!(deck.contains("MOLD_NODES, 1, 3") && deck.contains("*CONTACT PAIR"));
     assert_eq!(deck.matches("*DLOAD").count(), 1, "gravity goes on in the second step");
@@ -30,7 +30,7 @@ fn the_deck_repeats_itself_and_holds_what_the_result_has() {
 fn every_line_can_be_read() {
     let mut result = sample::draped(4, 2, 5);
     result.scene.title = "A title of many words, ".repeat(20);
-    let deck = text(&result).unwrap();
+    let deck = text(&result, 2e4).unwrap();
     let longest = deck.lines().map(str::len).max();
     assert!(longest < Some(132), "{longest:?}");
     assert!(deck.is_ascii() || deck.lines().filter(|l| !l.is_ascii()).all(|l| l.starts_with("**")));
@@ -42,7 +42,7 @@ fn fibres_follow_the_warp() {
     let mut result = sample::tilted(3, 2);
     for (warp, gripper) in [(plydrape::ply::Direction::U, 1), (plydrape::ply::Direction::V, 3)] {
         result.scene.ply.warp = warp;
-        let deck = text(&result).unwrap();
+        let deck = text(&result, 2e4).unwrap();
         let axes = numbers(block(&deck, "*ORIENTATION")[0]);
         let at = |k: usize| result.steps[0].grippers[k].position;
         let way: Vec<f64> = (0..3).map(|c| at(gripper)[c] - at(0)[c]).collect();
@@ -55,7 +55,7 @@ fn fibres_follow_the_warp() {
 /// Mass in the deck: density × thickness × the area of the mesh is the areal mass times the ply's area.
 #[test]
 fn the_deck_weighs_what_the_ply_weighs() {
-    let deck = text(&sample::hanging(4, 2)).unwrap();
+    let deck = text(&sample::hanging(4, 2), 2e4).unwrap();
     let density = numbers(block(&deck, "*DENSITY")[0])[0];
     let thickness = numbers(block(&deck, "*SHELL SECTION")[0])[0];
     assert!((density * thickness * 0.03 / (3.143 * 0.03) - 1.0).abs() < 1e-8);
@@ -68,9 +68,9 @@ fn what_cannot_be_a_deck_is_refused() {
     for gripper in &mut result.steps[0].grippers {
         gripper.position[1] = 0.0;
     }
-    let error = text(&result).unwrap_err();
+    let error = text(&result, 2e4).unwrap_err();
     assert!(error.to_string().contains("the flat ply has no place among them"), "{error}");
     result.steps.clear();
-    let error = text(&result).unwrap_err();
+    let error = text(&result, 2e4).unwrap_err();
     assert!(error.help().contains("simulate the scene again"), "{error}");
 }

@@ -14,7 +14,7 @@ use plydrape::geometry::vector::{cross, dot, unit};
 
 /// A rigid place of the flat fabric.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pose {
+pub(crate) struct Pose {
     /// Place of the fabric point (0, 0) (m).
     pub origin: [f64; 3],
     /// Unit vectors along u and v, at right angles.

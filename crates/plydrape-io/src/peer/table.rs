@@ -1,0 +1,80 @@
+//! A comparison as plain text, at most 100 columns wide.
+
+use super::{Comparison, Pair, Touch};
+use crate::text::table::{aligned, fixed};
+
+/// Most steps that are shown.
+const STEPS: usize = 12;
+
+/// The end, the first touch, and steps of both drapes side by side.
+#[must_use]
+pub fn table(comparison: &Comparison, peer: &str) -> String {
+    let rows = [
+        ("largest height at the end (mm)", comparison.height_max_mm, 2),
+        ("its root of the mean square (mm)", comparison.height_rms_mm, 2),
+        ("share above the limit (%)", percent(comparison.height_share), 1),
+    ];
+    let titles = ["", "plydrape", peer].map(str::to_owned).to_vec();
+    let mut cells = vec![titles];
+    cells.extend(rows.map(|(title, pair, digits)| {
+        vec![title.into(), fixed(pair.plydrape, digits), fixed(pair.peer, digits)]
+    }));
+    let [ours, theirs] = &comparison.first_touch;
+    for (title, value) in [
+        (
+            "first touch in step",
+            &(|touch: &Touch| format!("{:.1}", touch.step)) as &dyn Fn(&Touch) -> String,
+        ),
+        ("at fabric point u, v (mm)", &|touch| {
+            let [u, v] = touch.uv_mm;
+            format!("{u:.0}, {v:.0}")
+        }),
+    ] {
+        let both = [ours, theirs].map(|touch| touch.as_ref().map_or("–".into(), value));
+        cells.push([vec![title.to_owned()], both.to_vec()].concat());
+    }
+
+    let mut steps = vec![
+        ["step", "lowest mm", "lies %", "shear °", "cup N", "apart mm", "at most", "at u, v mm"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    let last = comparison.steps.len().saturating_sub(1);
+    let mut shown: Vec<usize> =
+        (0..STEPS).map(|n| (n * last + (STEPS - 1) / 2) / (STEPS - 1)).collect();
+    shown.dedup();
+    for step in shown.into_iter().filter_map(|n| comparison.steps.get(n)) {
+        let [u, v] = step.apart_uv_mm;
+        steps.push(vec![
+            step.step.to_string(),
+            both(step.lowest_mm, 1),
+            both(percent(step.lies), 0),
+            both(step.shear_deg, 1),
+            both(step.load_n, 2),
+            fixed(Some(step.apart_rms_mm), 2),
+            fixed(Some(step.apart_max_mm), 2),
+            format!("{u:.0}, {v:.0}"),
+        ]);
+    }
+    format!(
+        "{}\n{}\nA pair is plydrape, then {peer}, whose last state is that at rest. Apart is the distance of\n\
+         the same fabric points: root of the mean square over the area, and largest.\n\
+         {peer} took {:.0} s of processor time: {} time steps, {} linear systems, {} time steps\n\
+         refused.\n",
+        aligned(&cells, &[0]),
+        aligned(&steps, &[]),
+        comparison.cpu_s,
+        comparison.time_steps,
+        comparison.solves,
+        comparison.refused,
+    )
+}
+
+fn percent(Pair { plydrape, peer }: Pair) -> Pair {
+    let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
+    Pair { plydrape: percent(plydrape), peer: percent(peer) }
+}
+
+fn both(pair: Pair, digits: usize) -> String {
+    format!("{}  {}", fixed(pair.plydrape, digits), fixed(pair.peer, digits))
+}

@@ -1,0 +1,198 @@
+//! A drape for NGSolve: `drape.py`, a script of its own that anybody can read, and `ply.json`, which it reads.
+//!
+//! The data are those of the sheet, per width: the ply in rectangles along its fibers, mass, shear curve and flexural
+//! rigidities, cups with their mounts and their motion, the mold as signed distance on a grid. The tension stiffness alone is another one, see
+//! [`TENSION`]. What the script writes, `drape.json`, is read by [`crate::peer`].
+
+mod mold;
+
+use crate::Error;
+use crate::result::ResultFile;
+use crate::store::folder::Files;
+use crate::store::json;
+use crate::write::pose::Pose;
+use mold::DistanceGrid;
+use plydrape::layup::Friction;
+use plydrape::sheet::fabric::Cell;
+use plydrape::sheet::{Sheet, coarsest_mesh, pitch};
+use serde::Serialize;
+
+/// The script.
+const SCRIPT: &str = include_str!("drape.py");
+/// Tension stiffness per width (N/m), unless another one is asked for. A yarn has 10⁶ N/m, with which a turn within an iteration of
+/// Newton's method makes false tension that keeps shells of this thickness from converging.
+pub const TENSION: f64 = 2e4;
+/// Quads on the shortest distance of two grippers, unless a mesh is asked for.
+const QUADS: f64 = 4.0;
+/// Stiffness of a rigid mount, as a multiple of the tension stiffness: it gives a fiftieth of what a square of ply does.
+const RIGID: f64 = 50.0;
+/// How deep the ply's own weight sinks into the mold, and how high a node is clear of it, as shares of the pitch.
+const DEPTH: f64 = 1e-4;
+const CLEAR: f64 = 5e-4;
+/// Angles of the table of the shear curve (°).
+const ANGLES: std::ops::RangeInclusive<u32> = 0..=90;
+
+/// `ply.json`: lengths in meters, all in SI units.
+#[derive(Debug, Serialize)]
+struct Data<'a> {
+    format: &'static str,
+    version: u32,
+    title: &'a str,
+    program: &'a str,
+    /// Check sum of the states that the result was written with; none without a sheet.
+    result: Option<&'a str>,
+    nodes: Vec<[f64; 2]>,
+    quads: Vec<[u32; 4]>,
+    /// Fabric points at which the drape is compared.
+    points: Vec<[f64; 2]>,
+    mass: f64,
+    gravity: f64,
+    tension: f64,
+    /// Angles (rad), and shear forces per length (N/m).
+    shear: [Vec<f64>; 2],
+    /// Along u and along v.
+    rigidity: [f64; 2],
+    /// Place of the fabric point (0, 0) of the flat ply, and its directions.
+    origin: [f64; 3],
+    axes: [[f64; 3]; 2],
+    time: Vec<f64>,
+    grippers: Vec<Cup>,
+    contact: Contact,
+    mold: Option<DistanceGrid>,
+}
+
+/// A cup: where it holds the fabric, and where the robot holds it.
+#[derive(Debug, Serialize)]
+struct Cup {
+    name: String,
+    place: [f64; 2],
+    radius: f64,
+    stiffness: [f64; 3],
+    /// When it lets go (s); none if it holds to the end.
+    release: Option<f64>,
+    positions: Vec<[f64; 3]>,
+    quaternions: Vec<[f64; 4]>,
+}
+
+/// What holds a node that touches.
+#[derive(Debug, Serialize)]
+struct Contact {
+    depth: f64,
+    clear: f64,
+    /// Coulomb's coefficient; none if what touches sticks.
+    friction: Option<f64>,
+    tack: f64,
+}
+
+/// Script and data of a result. Same result, same bytes.
+///
+/// # Errors
+/// [`Error::NotPossible`] if there is no step, if the grippers start on one line, or if the ply is a single line or has nothing that
+/// the sheet needs; [`Error`] of its mesh.
+pub(crate) fn files(
+    result: &ResultFile,
+    mesh: Option<f64>,
+    tension: Option<f64>,
+) -> Result<Files, Error> {
+    result.check_finite()?;
+    let mut layup = result.layup();
+    let pitch = pitch(&layup.ply);
+    let finest = coarsest_mesh(pitch, layup.settings.pad.radius);
+    layup.settings.sheet.mesh = Some(mesh.unwrap_or(finest.min(pitch / QUADS)));
+    let sheet = Sheet::new(&layup)?;
+    let fabric = &sheet.fabric;
+    let (nodes, quads) = quads(&sheet);
+    if quads.is_empty() {
+        let message = "the ply is a single line of grippers, and NGSolve has shells of a surface";
+        return Err(Error::not_possible(message, "take `inp`, whose strip is one cell wide"));
+    }
+    let first = result.steps.first().ok_or_else(|| {
+        let message = "the result has no steps, so there is no motion to write";
+        Error::not_possible(message, "simulate the scene again")
+    })?;
+    let places: Vec<[f64; 2]> = sheet.grippers.iter().map(|gripper| gripper.place).collect();
+    let held: Vec<[f64; 3]> = first.grippers.iter().map(|gripper| gripper.commanded).collect();
+    let pose = Pose::fit(&places, &held).ok_or_else(|| {
+        let message = "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them";
+        Error::not_possible(message, "spread them in the scene and simulate it again")
+    })?;
+    let points = match &result.sheet_states {
+        Some(states) => states.open()?.mesh().places.to_vec(),
+        None => fabric.places.clone(),
+    };
+
+    let tension = tension.unwrap_or(TENSION);
+    let angles: Vec<f64> = ANGLES.map(|degrees| f64::from(degrees).to_radians()).collect();
+    let cups =
+        sheet.grippers.iter().zip(&first.grippers).enumerate().map(|(n, (held, gripper))| {
+            let track = || result.steps.iter().map(|step| &step.grippers[n]);
+            let last = track().rposition(|gripper| gripper.holds).unwrap_or_default();
+            Cup {
+                name: plydrape::ply::gripper_name(gripper.id),
+                place: held.place,
+                radius: held.radius,
+                stiffness: held.mount.unwrap_or([RIGID * tension; 3]),
+                release: (last + 1 < result.steps.len()).then(|| result.steps[last].time),
+                positions: track().map(|gripper| gripper.commanded).collect(),
+                quaternions: track().map(|gripper| gripper.quaternion).collect(),
+            }
+        });
+    let reach = layup.settings.sheet.overhang.max(0.5 * pitch);
+    let data = Data {
+        format: "plydrape-ngsolve",
+        version: 1,
+        title: &result.scene.title,
+        program: &result.program,
+        result: result.sheet_states.as_ref().map(|states| states.seal().checksum.as_str()),
+        nodes,
+        quads,
+        points,
+        mass: sheet.areal_mass,
+        gravity: sheet.gravity,
+        tension,
+        shear: [angles.clone(), angles.iter().map(|angle| sheet.shear.force(*angle).0).collect()],
+        rigidity: sheet.rigidity,
+        origin: pose.origin,
+        axes: pose.axes,
+        time: result.steps.iter().map(|step| step.time).collect(),
+        grippers: cups.collect(),
+        contact: Contact {
+            depth: DEPTH * pitch,
+            clear: CLEAR * pitch,
+            friction: match sheet.friction {
+                Friction::Coulomb(coefficient) => Some(coefficient),
+                Friction::Stick | Friction::StickForEver => None,
+            },
+            tack: sheet.tack,
+        },
+        mold: DistanceGrid::under(result, reach, pitch),
+    };
+    Ok(vec![
+        ("drape.py".into(), SCRIPT.as_bytes().to_vec()),
+        ("ply.json".into(), json::of(&data)?.into_bytes()),
+    ])
+}
+
+/// Corners of quads, and the quads by numbers of corners: the cells of which half or more is ply, and those that cups hold.
+fn quads(sheet: &Sheet) -> (Vec<[f64; 2]>, Vec<[u32; 4]>) {
+    let places = &sheet.fabric.places;
+    let mut held = vec![false; places.len()];
+    sheet.held().iter().flatten().for_each(|(node, _)| held[*node] = true);
+    let is_held = |cell: &Cell| cell.nodes.iter().any(|node| held[*node as usize]);
+    let cells = sheet.fabric.cells.iter().filter(|cell| cell.is_ply() || is_held(cell));
+    let (mut number, mut nodes) = (vec![None; places.len()], Vec::new());
+    let quads: Vec<[u32; 4]> = cells
+        .map(|cell| {
+            cell.nodes.map(|node| {
+                *number[node as usize].get_or_insert_with(|| {
+                    nodes.push(places[node as usize]);
+                    nodes.len() as u32 - 1
+                })
+            })
+        })
+        .collect();
+    (nodes, quads)
+}
+
+#[cfg(test)]
+mod tests;
