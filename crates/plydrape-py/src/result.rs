@@ -738,6 +738,7 @@ impl Result {
         mesh: "float | str | None" = None, tension: "float | str | None" = None,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn export(
         &self,
         py: Python<'_>,
