@@ -76,6 +76,12 @@ fn is_spring(row: &HashMap<String, Option<f64>>, slip: [f64; 3]) {
     }
 }
 
+/// Whether a vector is written as it is, but for components that are rounding beside the largest one, which are written as 0.
+fn is_written_as(written: [f64; 3], vector: [f64; 3]) -> bool {
+    let rounding = f64::EPSILON * vector.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    written.iter().zip(vector).all(|(a, b)| *a == b || *a == 0.0 && b.abs() <= rounding)
+}
+
 /// At every step the loads are the forces of the state, and the springs of the mounts give them, also where fabric has slid.
 #[test]
 fn loads_at_the_steps_are_the_forces_of_the_states_and_of_the_springs() {
@@ -86,9 +92,10 @@ fn loads_at_the_steps_are_the_forces_of_the_states_and_of_the_springs() {
     for (n, row) in rows.iter().enumerate() {
         let (state, gripper) = (&states[n / 9], n % 9);
         assert_eq!(row["t (s)"], Some(state.time));
-        assert_eq!(vector(row, "load", "N"), state.forces[gripper]);
+        assert!(is_written_as(vector(row, "load", "N"), state.forces[gripper]), "{row:?}");
         let pad = &state.pads[gripper];
-        assert_eq!(["x (m)", "y (m)", "z (m)"].map(|c| row[c].unwrap()), pad.target);
+        let place = ["x (m)", "y (m)", "z (m)"].map(|c| row[c].unwrap());
+        assert!(is_written_as(place, pad.target), "{row:?}");
         is_spring(row, pad.slip);
     }
     let slid = states[5].pads.iter().filter(|pad| pad.slip != [0.0; 3]).count();

@@ -139,8 +139,8 @@ fn a_scatter_of_the_shear_is_a_share_or_a_factor_in_a_result() {
 fn the_resin_of_a_ply_relaxes_at_its_temperature() {
     let ply = |temperature: &str, relaxation: &str| {
         let text = format!(
-            "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n{temperature}\nmaterial = {{ mass = 0.3, bending_rigidity_warp = 0, \
-             bending_rigidity_weft = 0, tension = 1e6, shear_curve = 5, shear_rate = {{ stiffness = \"150 N/m\", relaxation = {relaxation} }} }}\n\
+            "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n{temperature}\nmaterial = {{ mass = 0.3, bending_rigidity_warp = 1e-5, \
+             bending_rigidity_weft = 1e-5, tension = 1e6, shear_curve = 5, shear_rate = {{ stiffness = \"150 N/m\", relaxation = {relaxation} }} }}\n\
              [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
         );
         let scene = plydrape_io::scene::parse(&text, Path::new(""), "scene.toml");
