@@ -479,6 +479,12 @@ class Material:
         >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
         array([ 0.,  5., 10.])
         """
+    @property
+    def shear_rate(self, /) -> dict[str, float] | None:
+        """
+        What resin adds to the shear force while the ply is sheared in real time, where it is known: `stiffness` against fast shear
+        (N/m per rad), `relaxation` (s) at the `temperature` of the ply (K).
+        """
     @staticmethod
     def shipped(name: str) -> Material:
         """
@@ -3013,8 +3019,8 @@ def fit(
 
     Parameters
     ----------
-    test : {"bias", "frame", "overhang", "hang", "moments"}
-        What was tested.
+    test : {"bias", "rate", "frame", "overhang", "hang", "moments"}
+        What was tested; "rate" is bias extension with a column of the time.
     warp : sequence of str or path
         CSV files, one a specimen: of a shear test, or of strips along the warp.
     weft : sequence of str or path

@@ -180,7 +180,7 @@ def test_rosbags_decodes_the_numbers_of_the_table(either: Exported) -> None:
 
 
 def test_frames_are_the_poses_of_the_table(either: Exported) -> None:
-    """A frame for every pad at every time of the table, to the last bit but of the turn's length."""
+    """A frame for every pad at every time of the table, to the last bit but the turn's length."""
     times, poses = table(either)
     frames = either.decoded("/tf")
     with either.bag.open("rb") as file:
