@@ -1,7 +1,7 @@
 //! The tables `steps.csv`, `trajectory.csv` and `motion.csv`, units in their headers.
 //!
 //! Numbers are in the shortest form that reads back to the same double; what is rounding beside the other components of its vector is zero,
-//! see [`without_rounding`]. All of them are of the model that decides: a measure that it does
+//! see `without_rounding`. All of them are of the model that decides: a measure that it does
 //! not evaluate has no column, and one without a meaning in a step leaves its cells empty. How the solver ended is there where catenaries
 //! decide.
 //!
