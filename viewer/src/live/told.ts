@@ -36,7 +36,7 @@ export function showVerdict(hanging: Hanging): void {
   badge.className = ok ? "verdict pass" : "verdict fail";
   const model = make(
     "span",
-    { class: "reason" },
+    { class: "reason model" },
     " by the catenaries: lines of ply, not the sheet that decides on motions",
   );
   renew(badge, [sign(ok), text, model]);
