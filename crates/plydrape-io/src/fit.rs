@@ -409,14 +409,14 @@ fn short(value: f64) -> String {
     }
 }
 
-/// What an estimate's error is, in words.
-fn sure(estimate: &Estimate, unit: &str) -> String {
+/// What an estimate's error is, in words; `of` are the specimens whose residuals say it.
+fn sure(estimate: &Estimate, unit: &str, of: &str) -> String {
     let Some([low, high]) = estimate.interval() else {
         return "one specimen: how sure it is, is not known".into();
     };
     let from = match estimate.sure {
         Sure::Specimens(count) => format!("from {count} specimens"),
-        _ => "from the residuals of one specimen".into(),
+        _ => format!("from the residuals of {of}"),
     };
     format!("95 % interval {} to {} {unit}, {from}", short(low), short(high))
 }
@@ -469,7 +469,7 @@ impl Fitted {
                     let _ = writeln!(
                         text,
                         "# {}\nbending_rigidity_{along} = \"{} N m\"",
-                        sure(estimate, "N m"),
+                        sure(estimate, "N m", "one specimen"),
                         short(estimate.value)
                     );
                     for (file, [_, angle]) in each {
@@ -531,8 +531,8 @@ impl Fitted {
             let _ = writeln!(
                 text,
                 "# stiffness: {}\n# relaxation: {}\nshear_rate = {{ stiffness = \"{} N/m\", relaxation = \"{} s\" }}",
-                sure(&rate.stiffness, "N/m"),
-                sure(&rate.relaxation, "s"),
+                sure(&rate.stiffness, "N/m", "all specimens"),
+                sure(&rate.relaxation, "s", "all specimens"),
                 short(rate.stiffness.value),
                 short(rate.relaxation.value)
             );
