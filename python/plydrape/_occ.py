@@ -3,17 +3,21 @@
 OpenCASCADE divides each edge once for both of its faces. Nodes on a shared edge are therefore
 joined by their number along the edge, not by their distance, and the surface has no cracks.
 
-Of ten damaged files it crashes on one or so. It therefore runs in a process of its own.
+Of twenty damaged files it crashes on one or so, and some keep it busy without end. It therefore
+runs in a process of its own, whose time has a bound.
 """
 
 from __future__ import annotations
 
+import math
 import os
+import signal
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -46,6 +50,9 @@ STEP_UNITS = {
 REFUSED, MISSING = 3, 4
 """Exit codes of the process that reads: its `CadError` is in a file; there is no OpenCASCADE."""
 
+TOO_LONG = int(getattr(signal, "SIGXCPU", 0))
+"""The signal that ends the process after its processor time."""
+
 PROGRAM = """\
 import sys
 sys.path = [path for path in sys.path if path]
@@ -53,6 +60,9 @@ from plydrape._occ import child
 sys.exit(child())
 """
 """What the process runs, by a way that takes no folder `plydrape` of the current one for it."""
+
+BUSY = (15.0, 60.0)
+"""Processor time (s) that reading may take where the system bounds it, and more for 10⁶ bytes."""
 
 REPAIR = "repair the part in the program that made it, or export the faces as an STL or OBJ file"
 
@@ -88,7 +98,8 @@ def read(
     """
     with tempfile.TemporaryDirectory(prefix="plydrape-cad-") as folder:
         surroundings = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
-        given = [str(path), folder, repr(chord), repr(angle), repr(unit)]
+        seconds = BUSY[0] + BUSY[1] * path.stat().st_size / 1e6
+        given = [str(path), folder, repr(chord), repr(angle), repr(unit), repr(seconds)]
         done = subprocess.run(
             [sys.executable, "-c", PROGRAM, *given],
             env=surroundings,
@@ -100,6 +111,11 @@ def read(
             raise ExtraError("OpenCASCADE", "cadquery-ocp-novtk")
         if done.returncode == REFUSED:
             raise CadError((Path(folder) / "refused").read_text(encoding="utf-8"))
+        if done.returncode == -TOO_LONG:
+            raise CadError(
+                f"{path}: OpenCASCADE is busy for more than {seconds:.0f} s of processor time; "
+                f"{REPAIR}, or give a larger tolerance"
+            )
         if done.returncode != 0:
             said = done.stderr.decode(errors="replace").strip().splitlines()
             why = f"fails: {said[-1][:200]}" if said and done.returncode > 0 else "crashes on it"
@@ -108,11 +124,25 @@ def read(
             return arrays["points"], arrays["triangles"]
 
 
+def bound(seconds: float) -> None:
+    """Ends this process by a signal after so much processor time, where the system can do so."""
+    if find_spec("resource") is None:
+        return
+    import resource
+
+    most = math.ceil(seconds)
+    _, hard = resource.getrlimit(resource.RLIMIT_CPU)
+    if hard == resource.RLIM_INFINITY or most < hard:
+        resource.setrlimit(resource.RLIMIT_CPU, (most, hard))
+
+
 def child() -> int:
     """Reads the file of the arguments, and writes what is in it, or why not; the exit code."""
     path, folder, *numbers = sys.argv[1:]
-    chord, angle, unit = (None if text == "None" else float(text) for text in numbers)
+    chord, angle, unit, seconds = (None if text == "None" else float(text) for text in numbers)
     assert angle is not None
+    assert seconds is not None
+    bound(seconds)
     try:
         points, triangles = read_here(Path(path), chord, angle, unit)
     except ExtraError:

@@ -370,10 +370,24 @@ def test_a_package_is_named_where_it_is_missing(
 def test_a_crash_of_opencascade_is_an_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, end: str, words: str
 ) -> None:
-    """It crashes on one damaged file of ten or so; here the process that reads ends so."""
+    """It crashes on one damaged file of twenty or so; here the process that reads ends so."""
     path = step(tmp_path / "cap.step", cap())
     monkeypatch.setattr(_occ, "PROGRAM", end)
     with pytest.raises(cad.CadError, match=rf"cap\.step: OpenCASCADE {words}; repair the part"):
+        cad.read(path)
+
+
+def test_a_file_that_keeps_opencascade_busy_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Here the process that reads is busy for ever, and the bound is that of an empty file."""
+    path = step(tmp_path / "cap.step", cap())
+    busy = (
+        "import sys; from plydrape import _occ; _occ.bound(float(sys.argv[-1]))\nwhile True: pass"
+    )
+    monkeypatch.setattr(_occ, "PROGRAM", busy)
+    monkeypatch.setattr(_occ, "BUSY", (1.0, 0.0))
+    with pytest.raises(cad.CadError, match=r"cap\.step: OpenCASCADE is busy for more than 1 s"):
         cad.read(path)
 
 
