@@ -32,6 +32,12 @@ LINES = (
 TABLES = {
     "bias.csv": "displacement (mm),force (N)\n"
     + "".join(f"{2 * k},{0.02 * k * k + 0.1 * k}\n" for k in range(25)),
+    # pulled for 1.5 s, and held
+    "timed.csv": "time (s),displacement (mm),force (N)\n"
+    + "".join(
+        f"{k / 10},{2 * min(k, 15)},{0.1 * min(k, 15) + 0.5 * 0.9 ** abs(k - 15) - 0.5 * 0.9**15}\n"
+        for k in range(40)
+    ),
     "overhang.csv": "overhang (mm)\n62\n64.5\n63\n",
     "hang.csv": "x (mm),z (mm)\n0,0\n10,-1.2\n20,-4.1\n30,-9.5\n40,-17.2\n",
     "moments.csv": "curvature (1/m),moment (N)\n"
@@ -71,7 +77,18 @@ title = "second"
 WITHOUT_INPUT = ("schema", "limits", "man", "completions bash", "completions zsh", "new mine")
 # Scenes of the examples that are also planned.
 PLANNED = ("01_flat_sheared_mold", "04_dome", "12_real_cell", "17_robot")
-FORMATS = ("csv", "inp", "pattern", "boundary", "ros2", "rapid", "krl", "urscript", "vtk")
+FORMATS = (
+    "csv",
+    "inp",
+    "ngsolve",
+    "pattern",
+    "boundary",
+    "ros2",
+    "rapid",
+    "krl",
+    "urscript",
+    "vtk",
+)
 
 
 # How long something took: in a sentence, in JSON, and how far a search was.
@@ -125,10 +142,12 @@ def write(folder: Path) -> list[str]:
         "replan out/plan --json < lines",
         "span --run 98mm --length 100mm --material krogh2018 --theory exact",
         "fit bias bias.csv --width 50mm --length 150mm",
+        "fit rate timed.csv --width 100mm --length 250mm --json",
         "fit frame bias.csv --json",
         "fit overhang --warp overhang.csv --weft overhang.csv --mass 300g/m^2",
         "fit hang --warp hang.csv --mass 300g/m^2 --length 50mm",
         "fit moments --warp moments.csv -o out/moments.toml",
+        "compare out/plan out/nothing",
         "template rapid",
         "template krl-src",
         "study flat.study.toml -o out/study --workers THREADS",
