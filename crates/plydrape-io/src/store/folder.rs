@@ -248,7 +248,8 @@ impl Folder {
         let new = Manifest::of(self.by, stamps.clone());
         let both = earlier.with(&new);
         // files that went were ours, and files that came are: what stays is listed as it was
-        let sealed = all || earlier.is_sealed();
+        let rest = earlier.without_those_of(&new);
+        let sealed = all || earlier.is_sealed() || rest.is_whole(&dir);
         let own = earlier.without(&stale).replaced_by(&new, sealed);
         stage_file(stage, &dir, "both", &both.text()?.as_bytes())?;
         stage_file(stage, &dir, "sealed", &own.text()?.as_bytes())?;

@@ -352,6 +352,20 @@ fn the_seal_comes_last() {
     assert!(is_sealed(dir.path()));
 }
 
+/// An addition that was killed between two renames is sealed by the same addition, because nothing else is mixed then.
+#[test]
+fn an_addition_that_was_killed_is_sealed_by_its_next_run() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap();
+    let both = Manifest::read(dir.path()).unwrap().with(&of_two());
+    // of a and b, b alone is new: it is not there yet
+    fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
+    add(dir.path(), "report", &[("c", b"3")], &[]).unwrap();
+    assert!(!is_sealed(dir.path()));
+    add(dir.path(), "export", &[("a", b"2"), ("b", b"2")], &[]).unwrap();
+    assert!(is_sealed(dir.path()));
+}
+
 /// A command removes old files of its own only, and nothing that the run has read.
 #[test]
 fn old_files_of_other_commands_and_inputs_stay() {

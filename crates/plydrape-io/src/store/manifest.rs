@@ -129,6 +129,19 @@ impl Manifest {
         self
     }
 
+    /// The list without the names of another one.
+    pub(crate) fn without_those_of(&self, other: &Manifest) -> Manifest {
+        let names: Vec<String> = other.names().map(str::to_owned).collect();
+        self.clone().without(&names)
+    }
+
+    /// Whether every file of the list is in the folder with the one content that the list has of it, whatever a run that was killed has left
+    /// of others.
+    pub(crate) fn is_whole(&self, dir: &Path) -> bool {
+        let single = self.files.values().all(|entry| entry.contents.len() == 1);
+        single && self.names().all(|name| self.holds(dir, name))
+    }
+
     /// The list once files of another one have come in their places, with or without a seal.
     pub(crate) fn replaced_by(mut self, other: &Manifest, sealed: bool) -> Manifest {
         self.files.extend(other.files.clone());
