@@ -34,41 +34,9 @@ pub struct Arguments {
 #[derive(Debug, clap::Subcommand)]
 enum Kind {
     /// A shear curve from bias extension: displacement and force, one file a specimen.
-    Bias {
-        /// The tables, one a specimen.
-        #[arg(required = true)]
-        files: Vec<PathBuf>,
-        /// Width of the specimens.
-        #[arg(long, value_name = "LENGTH")]
-        width: Option<String>,
-        /// Length between the clamps, two widths or more.
-        #[arg(long, value_name = "LENGTH")]
-        length: Option<String>,
-        /// Title of the column of displacements, where it has another name than usual.
-        #[arg(long, value_name = "TITLE")]
-        displacement: Option<String>,
-        /// Title of the column of forces.
-        #[arg(long, value_name = "TITLE")]
-        force: Option<String>,
-    },
+    Bias(Pulled),
     /// What resin adds to shear, from bias extension in time: displacement, force and time, strips at two speeds or more, or held.
-    Rate {
-        /// The tables, one a specimen.
-        #[arg(required = true)]
-        files: Vec<PathBuf>,
-        /// Width of the specimens.
-        #[arg(long, value_name = "LENGTH")]
-        width: Option<String>,
-        /// Length between the clamps, two widths or more.
-        #[arg(long, value_name = "LENGTH")]
-        length: Option<String>,
-        /// Title of the column of displacements, where it has another name than usual.
-        #[arg(long, value_name = "TITLE")]
-        displacement: Option<String>,
-        /// Title of the column of forces.
-        #[arg(long, value_name = "TITLE")]
-        force: Option<String>,
-    },
+    Rate(Pulled),
     /// A shear curve from a picture frame: displacement and force, one file a specimen.
     Frame {
         /// The tables, one a specimen.
@@ -129,6 +97,26 @@ enum Kind {
         #[arg(long, value_name = "TITLE")]
         moment: Option<String>,
     },
+}
+
+/// Tables of bias strips.
+#[derive(Debug, clap::Args)]
+struct Pulled {
+    /// The tables, one a specimen.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Width of the specimens.
+    #[arg(long, value_name = "LENGTH")]
+    width: Option<String>,
+    /// Length between the clamps, two widths or more.
+    #[arg(long, value_name = "LENGTH")]
+    length: Option<String>,
+    /// Title of the column of displacements, where it has another name than usual.
+    #[arg(long, value_name = "TITLE")]
+    displacement: Option<String>,
+    /// Title of the column of forces.
+    #[arg(long, value_name = "TITLE")]
+    force: Option<String>,
 }
 
 /// Tables of strips of both directions.
@@ -193,24 +181,14 @@ impl Kind {
                 .transpose()
         };
         Ok(match self {
-            Kind::Bias { files, width, length: l, displacement, force } => Request {
-                test: Test::Bias {
-                    width: length("--width", width)?,
-                    length: length("--length", l)?,
-                },
-                warp: files.clone(),
-                weft: Vec::new(),
-                titles: [displacement.clone(), force.clone()],
-            },
-            Kind::Rate { files, width, length: l, displacement, force } => Request {
-                test: Test::Rate {
-                    width: length("--width", width)?,
-                    length: length("--length", l)?,
-                },
-                warp: files.clone(),
-                weft: Vec::new(),
-                titles: [displacement.clone(), force.clone()],
-            },
+            Kind::Bias(strips) => {
+                let [width, length] = strips.sizes(length)?;
+                strips.request(Test::Bias { width, length })
+            }
+            Kind::Rate(strips) => {
+                let [width, length] = strips.sizes(length)?;
+                strips.request(Test::Rate { width, length })
+            }
             Kind::Frame { files, side, fabric, displacement, force } => Request {
                 test: Test::Frame {
                     side: length("--side", side)?,
@@ -235,6 +213,21 @@ impl Kind {
                 strips.request(Test::Moments, [curvature.clone(), moment.clone()])
             }
         })
+    }
+}
+
+impl Pulled {
+    /// Width and length (m) where they are given; `read` reads the length of an option.
+    fn sizes(
+        &self,
+        read: impl Fn(&str, &Option<String>) -> Result<Option<f64>, Failure>,
+    ) -> Result<[Option<f64>; 2], Failure> {
+        Ok([read("--width", &self.width)?, read("--length", &self.length)?])
+    }
+
+    fn request(&self, test: Test) -> Request {
+        let titles = [self.displacement.clone(), self.force.clone()];
+        Request { test, warp: self.files.clone(), weft: Vec::new(), titles }
     }
 }
 
