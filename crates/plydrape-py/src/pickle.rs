@@ -317,10 +317,20 @@ impl SceneState {
             errors,
             tool,
             release,
+            pick_up,
         } = self.scene;
         let motion = Motion { times: self.times, positions: self.positions };
-        let layup =
-            Layup { ply, mold: self.mold.mold(), motion, target, settings, bodies, tool, release };
+        let layup = Layup {
+            ply,
+            mold: self.mold.mold(),
+            motion,
+            target,
+            settings,
+            bodies,
+            tool,
+            release,
+            pick_up,
+        };
         let (plan, also) = (self.plan, self.also);
         let scene = scenes::Scene { title, layup, limits, plan, errors, also, book_ply };
         let file = SceneFile {

@@ -36,12 +36,12 @@ use tuning::TUNING;
 
 /// Plans the gripper positions of a task, step by step.
 ///
-/// The first step is the start, `task.layup.motion.positions[0]`; the last are `task.layup.target.grippers` where the
+/// The first step is the start, `task.layup.start()`; the last are `task.layup.target.grippers` where the
 /// grippers get there. Each takes at most [`Task::steps`] steps of [`Task::move_limit`]. `progress`
 /// receives the number of steps after each step; when it breaks, the plan ends there. How it ended is data:
 /// [`Stepwise::outcome`].
 pub fn stepwise(task: &Task, progress: &mut dyn FnMut(usize) -> ControlFlow<()>) -> Stepwise {
-    let start = task.layup.motion.positions.first().cloned().unwrap_or_default();
+    let start = task.layup.start().to_vec();
     let count = task.layup.ply.grid.grippers();
     let target = task.layup.target.as_ref().filter(|target| target.grippers.len() == count);
     let Some(target) = target.filter(|_| start.len() == count) else {

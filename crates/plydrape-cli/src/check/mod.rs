@@ -134,8 +134,7 @@ fn page(
     let folder = Folder::claim(&dir, "check", &scene.files)?;
     folder.refuse_taken(&[PAGE])?;
     let mut held = scene.clone();
-    held.scene.layup.motion.positions.truncate(1);
-    held.scene.layup.motion.times.truncate(1);
+    held.scene.layup = held.scene.layup.held_at_start();
     held.scene.layup.release = None;
     let model = held.layup.settings.model;
     let drape = model::drape(&held, model, folder.stage(), &Interrupt::never(), true)?;
@@ -158,6 +157,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(way::way(scene));
     lines.extend(rules::tool(scene));
     lines.extend(bodies::bodies(scene));
+    lines.extend(rules::pick_up(scene));
     lines.extend(rules::release(scene));
     lines.extend(rules::rules(scene));
     lines.extend(sheet::sheet(scene));

@@ -3,7 +3,7 @@
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
 use plydrape::geometry::Pose;
-use plydrape::layup::{ContactEnd, Model, Release, ReleaseOrder, SlopeRule, Stepping};
+use plydrape::layup::{ContactEnd, Model, PickUp, Release, ReleaseOrder, SlopeRule, Stepping};
 use plydrape::scene::{PlanMethod, Scene};
 
 /// Rules of the models, and of contact.
@@ -66,6 +66,24 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
         short(plan.rate)
     );
     Some(("plan", text))
+}
+
+/// How the ply is picked up, if the scene says so.
+pub(super) fn pick_up(scene: &Scene) -> Option<Line> {
+    let PickUp { height, clearance, grip, retreat, vacuum_timeout, .. } = scene.layup.pick_up?;
+    let looks = match vacuum_timeout {
+        Some(time) => format!(", programs wait {} s at most for each vacuum", short(time)),
+        None => String::new(),
+    };
+    let text = format!(
+        "from a table at {} mm: pads come from {} mm above, stand for {} s{looks}, lift the ply as they close; at the end they go back by {} mm and up by {} mm",
+        millimetres(height),
+        millimetres(clearance),
+        short(grip),
+        millimetres(retreat),
+        millimetres(clearance),
+    );
+    Some(("pick-up", text))
 }
 
 /// When pads let go, if they do not hold the ply to the end.

@@ -116,7 +116,7 @@ fn standing_in_mold(scene: &SceneFile) -> Vec<String> {
 
 /// Obstacles in which grippers start.
 fn around_start(scene: &SceneFile) -> Vec<String> {
-    let start = scene.layup.motion.positions.first().map_or(&[][..], Vec::as_slice);
+    let start = scene.layup.start();
     let sentence = |obstacle: &Obstacle| {
         let [low, high] = obstacle.shape.bounds();
         let inside = |place: &[f64; 3]| {

@@ -39,7 +39,7 @@ fn motion(scene: &Scene) -> String {
 
 /// Where the grippers start (m).
 fn start(scene: &Scene) -> &[[f64; 3]] {
-    scene.layup.motion.positions.first().map_or(&[], Vec::as_slice)
+    scene.layup.start()
 }
 
 /// Where they shall end (m): at the target, or else where the motion ends.

@@ -48,8 +48,8 @@ pub(super) struct Look {
 
 /// The look at a scene.
 pub(super) fn look(scene: &SceneFile) -> Look {
-    let Layup { ply, mold, target, motion, .. } = &scene.layup;
-    let start = motion.positions.first().map_or(&[][..], Vec::as_slice);
+    let Layup { ply, mold, target, .. } = &scene.layup;
+    let start = scene.layup.start();
     let net = target.as_ref().and_then(|target| target.drape.as_deref());
     let on_table = OnTable::through(ply, start);
     let on_mold = net.zip(mold.as_ref());

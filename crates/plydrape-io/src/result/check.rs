@@ -5,10 +5,10 @@ use crate::Error;
 use crate::store::shown;
 use plydrape::bodies::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
-use plydrape::layup::{Friction, Model, Settings};
+use plydrape::layup::{Friction, Model, PickUp, Settings};
 use plydrape::material::{MomentCurve, Section, TensionLaw};
 use plydrape::measure::Verdict;
-use plydrape::motion::is_too_short;
+use plydrape::motion::{MOST_STEPS, is_too_short};
 use plydrape::outcome::{Step, Summary};
 use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, gripper_name, is_near};
 use plydrape::sheet::Event;
@@ -100,6 +100,19 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     }
     if scene.release.as_ref().is_some_and(|release| release.dwell.is_nan() || release.dwell < 0.0) {
         return Some("its pads must not press for less than no time".into());
+    }
+    if let Some(PickUp { height, clearance, grip, vacuum_timeout, retreat, table, lift_steps }) =
+        scene.pick_up
+    {
+        let lengths = [clearance, grip, vacuum_timeout.unwrap_or(0.0), retreat]
+            .iter()
+            .all(|value| (0.0..=FARTHEST).contains(value));
+        if !(lengths && height.abs() <= FARTHEST && lift_steps < MOST_STEPS) {
+            return Some("its pick-up has a number that none has".into());
+        }
+        if table.is_some_and(|n| n >= scene.bodies.obstacles().len()) {
+            return Some("the table of its pick-up is none of its obstacles".into());
+        }
     }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));

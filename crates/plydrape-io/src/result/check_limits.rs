@@ -77,5 +77,6 @@ fn layup(result: &ResultFile) -> Layup {
         bodies: scene.bodies.clone(),
         tool: scene.tool.clone(),
         release: scene.release.clone(),
+        pick_up: scene.pick_up,
     }
 }

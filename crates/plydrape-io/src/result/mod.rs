@@ -22,7 +22,7 @@ use plydrape::bodies::Bodies;
 use plydrape::draping::curves;
 use plydrape::draping::record::CatenaryState;
 use plydrape::errors::Errors;
-use plydrape::layup::{Layup, Model, Release, Settings, Target};
+use plydrape::layup::{Layup, Model, PickUp, Release, Settings, Target};
 use plydrape::measure::Limits;
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, Motion, TimedMotion};
@@ -113,6 +113,9 @@ pub struct SceneEcho {
     /// When the pads let go of the ply; none where they hold it to the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Release>,
+    /// How the ply is picked up from a table; none of a motion that begins with a ply in the air.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pick_up: Option<PickUp>,
 }
 
 impl SceneEcho {
@@ -133,6 +136,7 @@ impl SceneEcho {
             errors: scene.errors,
             tool: layup.tool.clone(),
             release: layup.release.clone(),
+            pick_up: layup.pick_up,
         }
     }
 
@@ -217,7 +221,8 @@ impl ResultFile {
     /// What was draped, along the steps of the result.
     #[must_use]
     pub fn layup(&self) -> Layup {
-        let SceneEcho { ply, mold, target, settings, bodies, tool, release, .. } = &self.scene;
+        let SceneEcho { ply, mold, target, settings, bodies, tool, release, pick_up, .. } =
+            &self.scene;
         let places = |step: &Step| step.grippers.iter().map(|gripper| gripper.commanded).collect();
         let motion = Motion {
             times: self.steps.iter().map(|step| step.time).collect(),
@@ -232,6 +237,7 @@ impl ResultFile {
             bodies: bodies.clone(),
             tool: tool.clone(),
             release: release.clone(),
+            pick_up: *pick_up,
         }
     }
 
@@ -258,11 +264,18 @@ impl ResultFile {
         }
     }
 
-    /// What follows the word accepted: the world of the verdict, and what the model that decides does not see of the scene.
+    /// What follows the word accepted: the world of the verdict, whether a plan begins with a ply in the air, and what the model that decides does not see of the scene.
     #[must_use]
     pub fn world(&self) -> String {
         let unseen = self.unseen().map(|unseen| format!("; {unseen}")).unwrap_or_default();
-        format!("{}{unseen}", self.summary.world.words())
+        let begins = if self.begins_in_the_air() { "; the ply begins in the air" } else { "" };
+        format!("{}{begins}{unseen}", self.summary.world.words())
+    }
+
+    /// Whether this is a plan that does not say how the ply comes to its grippers: its scene has no pick-up.
+    #[must_use]
+    pub fn begins_in_the_air(&self) -> bool {
+        self.plan.is_some() && self.scene.pick_up.is_none()
     }
 
     /// What the scene has and the model that decides does not see between and beyond its lines, in a sentence without its end; `None` of a sheet, and where there is

@@ -11,6 +11,7 @@ use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
 use super::model::Models;
 use super::motion::{motion, unplanned};
+use super::pick_up::pick_up;
 use super::plan::plan;
 use super::release::release;
 use super::settings::{self, settings};
@@ -21,7 +22,7 @@ use crate::Error;
 use crate::read::outline::Drawn;
 use crate::store::shown;
 use crate::store::size;
-use plydrape::layup::{Layup, Target};
+use plydrape::layup::{Layup, Release, ReleaseOrder, Target};
 use plydrape::mold::{MeshReport, Mold};
 use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
@@ -87,6 +88,10 @@ pub(super) fn scene(
     };
     let release = match &file.release {
         Some(table) => Some(release(table, settings.model, mold.is_some(), document)?),
+        // pads that pick a ply up let go of it at the end
+        None if file.pick_up.is_some() && mold.is_some() => {
+            Some(Release::new(ReleaseOrder::End, 0.0))
+        }
         None => None,
     };
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
@@ -94,12 +99,16 @@ pub(super) fn scene(
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
 
     // limits and tool are those of the rest of the layup
-    let mut layup = Layup { ply, mold, motion, target, settings, bodies, tool: None, release };
+    let mut layup =
+        Layup { ply, mold, motion, target, settings, bodies, tool: None, release, pick_up: None };
     let limits = limits(&file.limits, &layup, document)?;
     if let (Some(table), Some(start)) = (&file.tool, layup.motion.positions.first()) {
         layup.tool = Some(tool::tool(table, &layup, start, &limits, document)?);
     }
     models.check_built(&layup)?;
+    if let Some(table) = &file.pick_up {
+        pick_up(table, file, &mut layup, document)?;
+    }
     let title = title(file.title.as_ref(), document, base)?;
     let thickness = file.ply.value.thickness.as_ref();
     let thickness =

@@ -6,7 +6,7 @@
 //! 1. `read`, `tree`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
 //! 3. `check` with `bodies`, `cell`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
-//!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
+//!    `sheet`, `plan`, `errors`, `tool`, `release`, `pick_up`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `table` reads every CSV file, `fit` those of tests. `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
 
@@ -36,6 +36,7 @@ mod model;
 mod mold;
 mod motion;
 mod offset;
+mod pick_up;
 mod places;
 mod plan;
 mod quantity;

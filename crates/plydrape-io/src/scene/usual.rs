@@ -100,6 +100,8 @@ usual! {
     CURVATURE: "a curvature of", "1/m", [0.0, 1e3], "plies are bent with up to 1000 1/m", &["1/m"];
     /// What a bending test measures.
     MOMENT: "a moment of", "N", [0.0, 10.0], "plies are bent with up to 10 N", &["mN"];
+    /// From the stroke of a cup to a step aside.
+    CLEAR: "a way of", "m", [0.001, 1.0], "pads come from 1 mm to 1 m above the ply", LENGTHS;
     /// How long pads press.
     DWELL: "a dwell of", "s", [0.0, 60.0], "pads press for up to 60 s", &["ms"];
     /// Points of a motion that a machine follows.

@@ -7,7 +7,7 @@
 //! 4. `nearest`: the nearest pair along a motion, found with a bound that no sampling misses.
 //!
 //! Judged are: every body against every obstacle, bodies of different grippers against each other, and all but pads against the
-//! mold. Pads press the ply on the mold, so they are not judged there. Bodies of one gripper are not judged against each other, and
+//! mold. Pads press the ply on the mold, so they are not judged there, and neither against the table from which they pick it up. Bodies of one gripper are not judged against each other, and
 //! bodies of the flange are not judged against those of the grippers that it carries.
 
 mod moves;

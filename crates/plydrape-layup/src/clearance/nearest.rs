@@ -258,6 +258,8 @@ struct Search<'a> {
     judged: Vec<Judged>,
     /// Where each obstacle stands.
     obstacles: Vec<Pose>,
+    /// The obstacle on which the ply lies, which pads stand on.
+    table: Option<usize>,
     /// The mold, if a body could meet it.
     mold: Option<OverMold<'a>>,
     /// The limit (m).
@@ -318,6 +320,7 @@ impl<'a> Search<'a> {
             solids,
             judged,
             obstacles: layup.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
+            table: layup.pick_up.and_then(|pick_up| pick_up.table),
             mold,
             limit,
             below: f64::INFINITY,
@@ -362,7 +365,9 @@ impl<'a> Search<'a> {
                     pairs.push((a, Other::Body(b)));
                 }
             }
-            pairs.extend((0..self.obstacles.len()).map(|n| (a, Other::Obstacle(n))));
+            let stands_on = |n: &usize| one.mount == Mount::Pad && self.table == Some(*n);
+            let obstacles = (0..self.obstacles.len()).filter(|n| !stands_on(n));
+            pairs.extend(obstacles.map(|n| (a, Other::Obstacle(n))));
             if self.mold.is_some() && one.mount != Mount::Pad {
                 pairs.push((a, Other::Mold));
             }

@@ -5,12 +5,15 @@
 //!
 //! 1. `settings`: rules of the models of the ply;
 //! 2. `release`: when the pads let go;
-//! 3. `carried`: the motion as the tool makes it.
+//! 3. `pick_up`: how the ply is picked up from a table, and how grippers come and go;
+//! 4. `carried`: the motion as the tool makes it.
 
 mod carried;
+mod pick_up;
 mod release;
 mod settings;
 
+pub use pick_up::PickUp;
 pub use release::{Release, ReleaseOrder};
 pub use settings::{
     ContactEnd, ContactSettings, Friction, Model, PadSettings, Settings, SheetSettings, SheetTime,
@@ -44,6 +47,8 @@ pub struct Layup {
     pub tool: Option<Tool>,
     /// When the pads let go of the ply; `None` if they hold it to the end.
     pub release: Option<Release>,
+    /// How the ply is picked up from a table; `None` of a motion that begins with a ply in the air.
+    pub pick_up: Option<PickUp>,
 }
 
 impl Layup {
@@ -59,7 +64,24 @@ impl Layup {
             bodies: Bodies::default(),
             tool: None,
             release: None,
+            pick_up: None,
         }
+    }
+
+    /// Where the grippers are as the ply hangs from them before it is carried to the mold (m): in the first step, or after the lift
+    /// from a table. Empty without a motion.
+    #[must_use]
+    pub fn start(&self) -> &[[f64; 3]] {
+        let lifted = self.pick_up.map_or(0, |pick_up| pick_up.lift_steps);
+        let positions = &self.motion.positions;
+        positions.get(lifted).or(positions.first()).map_or(&[], Vec::as_slice)
+    }
+
+    /// This layup with its ply held at the start, in the air.
+    #[must_use]
+    pub fn held_at_start(&self) -> Layup {
+        let motion = Motion { times: vec![0.0], positions: vec![self.start().to_vec()] };
+        Layup { motion, pick_up: None, ..self.clone() }
     }
 }
 

@@ -127,6 +127,35 @@ impl TimedMotion {
         TimedMotion { times, positions, law, peaks, path: Some(path) }
     }
 
+    /// This motion and another of the same grippers after it, which begins where this one ends, with a rest (s) between them. Steps are still
+    /// those of this motion.
+    ///
+    /// # Errors
+    /// [`Error::MotionGrippers`] if they are not of the same number of grippers.
+    pub fn then(&self, rest: f64, next: &TimedMotion) -> Result<Self, Error> {
+        let (found, expected) = (next.grippers(), self.grippers());
+        if found != expected {
+            return Err(Error::MotionGrippers { found, expected });
+        }
+        let law = self.law.clone().then(rest, &next.law);
+        let peaks = self.peaks.and(&next.peaks, self.law.duration + rest);
+        let path = match (&self.path, &next.path) {
+            (Some(own), Some(next)) => Some(own.clone().then(next)),
+            (own, next) => own.clone().or(next.clone()),
+        };
+        Ok(TimedMotion { path, law, peaks, ..self.clone() })
+    }
+
+    /// This motion after another of the same grippers, as [`Self::then`]; steps are those of this motion, at later times.
+    ///
+    /// # Errors
+    /// As [`Self::then`].
+    pub fn after(&self, before: &TimedMotion, rest: f64) -> Result<Self, Error> {
+        let later = before.law.duration + rest;
+        let times = self.times.iter().map(|time| later + time).collect();
+        Ok(TimedMotion { times, positions: self.positions.clone(), ..before.then(rest, self)? })
+    }
+
     /// Distances of the knots of the path (m), one less than steps that move; empty where nothing moves.
     #[must_use]
     pub fn spacing(&self) -> Vec<f64> {
@@ -360,4 +389,48 @@ impl TimedMotion {
 fn rates([_, d, e, f]: &[Vector; 4], [_, v, a, j]: &State) -> [Vector; 3] {
     let sum = |x: f64, y: f64, z: f64| [0, 1, 2].map(|k| x * d[k] + y * e[k] + z * f[k]);
     [sum(*v, 0.0, 0.0), sum(*a, v * v, 0.0), sum(*j, 3.0 * v * a, v.powi(3))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: Bounds = Bounds { speed: 0.25, acceleration: 1.0, jerk: 10.0 };
+
+    fn motion(heights: &[f64]) -> TimedMotion {
+        let planned: Vec<_> =
+            heights.iter().map(|z| vec![[0.0, 0.1, *z], [0.2, 0.1, *z]]).collect();
+        TimedMotion::new(&planned, &BOUNDS).unwrap()
+    }
+
+    /// A motion between two others is each of them in its time and stands in between; its steps are its own, and its peaks the largest of all.
+    #[test]
+    fn a_motion_between_two_others_goes_through_all_three() {
+        let [down, own, up] = [vec![0.3, 0.1], vec![0.1, 0.4, 0.5], vec![0.5, 0.52, 0.9]];
+        let [down, own, up] = [down, own, up].map(|heights| motion(&heights));
+        let (grip, press) = (0.5, 1.5);
+        let whole = own.then(press, &up).unwrap().after(&down, grip).unwrap();
+        let begins = down.duration() + grip;
+        let ends = begins + own.duration();
+        assert!((whole.duration() - (ends + press + up.duration())).abs() < 1e-12);
+        assert_eq!(whole.positions(), own.positions());
+        assert_eq!(whole.times()[0], begins);
+
+        let near = |a: Vec<[f64; 3]>, b: Vec<[f64; 3]>| {
+            a.iter().zip(&b).all(|(a, b)| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-12))
+        };
+        for k in 0..=1000 {
+            let t = whole.duration() * f64::from(k) / 1000.0;
+            let expected = match t {
+                _ if t < begins => down.at(t),
+                _ if t < ends => own.at(t - begins),
+                _ => up.at(t - ends - press),
+            };
+            assert!(near(whole.at(t), expected), "{t}");
+        }
+        let largest = [&down, &own, &up].map(|motion| motion.peaks().speed.value);
+        let speed = whole.peaks().speed;
+        assert_eq!(speed.value, largest.into_iter().fold(0.0, f64::max));
+        assert!((norm(whole.velocity(speed.time)[0]) - speed.value).abs() < 1e-3 * speed.value);
+    }
 }

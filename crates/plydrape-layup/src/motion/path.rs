@@ -68,6 +68,15 @@ impl Path {
         (0..=last).map(places).collect()
     }
 
+    /// This path and then another of the same grippers, which begins where it ends.
+    pub fn then(mut self, next: &Path) -> Self {
+        let end = self.length();
+        self.knots.extend(next.knots[1..].iter().map(|u| end + u));
+        self.spacing.extend(&next.spacing);
+        self.pieces.extend(&next.pieces);
+        Path { target: next.target.clone(), ..self }
+    }
+
     /// Length of the parameter (m).
     pub fn length(&self) -> f64 {
         self.knots.last().copied().unwrap_or(0.0)

@@ -36,6 +36,19 @@ pub struct Peaks {
 }
 
 impl Peaks {
+    /// The larger ones of these and of others that come a time (s) later.
+    pub(super) fn and(self, others: &Peaks, later: f64) -> Peaks {
+        let larger = |own: Peak, other: Peak| match other.value > own.value {
+            true => Peak { time: other.time + later, ..other },
+            false => own,
+        };
+        Peaks {
+            speed: larger(self.speed, others.speed),
+            acceleration: larger(self.acceleration, others.acceleration),
+            jerk: larger(self.jerk, others.jerk),
+        }
+    }
+
     /// How many times longer the motion must take for these peaks to keep to the bounds.
     pub(super) fn stretch(&self, bounds: &Bounds) -> f64 {
         let speed = self.speed.value / bounds.speed;

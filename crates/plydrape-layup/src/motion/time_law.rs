@@ -114,6 +114,18 @@ impl TimeLaw {
         Some(TimeLaw { length, duration: last[0], phases })
     }
 
+    /// This law, a rest for a time (s), and then another law.
+    pub fn then(mut self, rest: f64, next: &TimeLaw) -> Self {
+        let (end, length) = (self.duration, self.length);
+        if rest > 0.0 {
+            self.phases.push((end, [length, 0.0, 0.0, 0.0]));
+        }
+        let begin = end + rest;
+        let later = |(time, [s, v, a, j]): &(f64, State)| (begin + time, [length + s, *v, *a, *j]);
+        self.phases.extend(next.phases.iter().map(later));
+        TimeLaw { length: length + next.length, duration: begin + next.duration, ..self }
+    }
+
     /// Its rows, see [`Self::of_rows`].
     pub fn rows(&self) -> Vec<[f64; 5]> {
         let row = |(begin, [s, v, a, j]): &(f64, State)| [*begin, *s, *v, *a, *j];

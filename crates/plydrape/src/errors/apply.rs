@@ -14,7 +14,7 @@
 //! small as the tilt. Limits stay as they are, those of the workspace too.
 
 use super::draw::{Draw, MaterialError, PickUpError, RelativeError, RigidError};
-use crate::geometry::vector::{along, sub, turned};
+use crate::geometry::vector::{along, between, sub, turned};
 use crate::layup::Layup;
 use crate::material::{Material, Section, ShearCurve, ShearRate};
 use crate::mold::{Mold, Raised};
@@ -65,21 +65,25 @@ impl Draw {
             None => positions.last(),
         };
         let middle = landed.map_or([0.0; 3], |grippers| mean(grippers));
-        let start = positions.first();
-        let real = |step: &Vec<[f64; 3]>| {
+        let start = layup.start();
+        // pads grip the flat ply where they are: errors begin to act while they lift it
+        let lift_steps = layup.pick_up.map_or(0, |pick_up| pick_up.lift_steps);
+        let acting =
+            |step: usize| if step < lift_steps { step as f64 / lift_steps as f64 } else { 1.0 };
+        let real = |(k, step): (usize, &Vec<[f64; 3]>)| {
             let mut at = step.clone();
             for (n, (p, error)) in at.iter_mut().zip(&self.grippers).enumerate() {
                 for axis in 0..3 {
-                    let way = start.map_or(0.0, |start| step[n][axis] - start[n][axis]);
+                    let way = step[n][axis] - start[n][axis];
                     p[axis] += error.position[axis] + error.stroke[axis] * way;
                 }
             }
             self.frame.apply(&mut at);
             self.mold.motion.inverse(&mut at, middle);
             self.pick_up.apply(&layup.ply, &mut at);
-            at
+            step.iter().zip(at).map(|(nominal, at)| between(*nominal, at, acting(k))).collect()
         };
-        Motion { times: times.clone(), positions: positions.iter().map(real).collect() }
+        Motion { times: times.clone(), positions: positions.iter().enumerate().map(real).collect() }
     }
 }
 

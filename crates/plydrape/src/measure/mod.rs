@@ -63,6 +63,7 @@ mod slope;
 mod speed;
 mod steps;
 mod strain;
+mod table_gap;
 mod tilt;
 mod tilt_rate;
 mod tool_residual;
@@ -346,6 +347,7 @@ measures! {
     contact_share: ContactShare,
     gripper_distance: GripperDistance,
     clearance: Clearance,
+    table_gap: TableGap,
     equilibrium: Equilibrium,
     duration: Duration,
     speed: Speed,

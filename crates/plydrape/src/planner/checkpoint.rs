@@ -43,7 +43,7 @@ struct Unfinished {
 
 /// Where the grippers of a scene start (m).
 fn start(scene: &Scene) -> Vec<[f64; 3]> {
-    scene.layup.motion.positions.first().cloned().unwrap_or_default()
+    scene.layup.start().to_vec()
 }
 
 /// Fabric coordinates of a scene's grippers (m).
@@ -101,9 +101,10 @@ impl Checkpoint {
 
     /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
     pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Positions>)> {
-        let (strategy, start) = (self.strategy?, scene.layup.motion.positions.first()?);
+        let strategy = self.strategy?;
         let last = preload::ends(scene, &strategy);
-        let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(&last)];
+        let ends = self.positions.first().map(Vec::as_slice) == Some(scene.layup.start())
+            && self.positions.last() == Some(&last);
         let steps = self.positions.len() == scene.plan.steps;
         Some((strategy, (ends && steps).then(|| self.positions.clone())))
     }

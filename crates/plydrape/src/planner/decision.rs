@@ -1,6 +1,7 @@
 //! The decision about a plan: its motion in time, and the drape along it by the model that decides, with the mesh of the
 //! scene.
 
+use super::cycle::Cycle;
 use super::evaluation::{self, ENDS};
 use super::infeasible_limits::infeasible_limits;
 use super::journal::Known;
@@ -33,6 +34,9 @@ pub struct Decision {
     pub asked: Option<ToolRecord>,
     /// The motion in time.
     pub motion: TimedMotion,
+    /// What the grippers do before it and after it, if the ply is picked up; known once the motion has its least time, and then the drape
+    /// is in the time of the cycle.
+    pub cycle: Option<Cycle>,
     /// What follows from the motion by the model that decides.
     pub decided: Decided,
     /// What limits the time of the motion, once that is its least one and all is judged that belongs to it.
@@ -143,7 +147,16 @@ impl Decision {
             }
             limited_by = found.limited_by;
         }
-        let Decision { asked, motion, decided, .. } = self;
+        self.cycle = Cycle::around(scene, &self.motion)?;
+        let whole = self.whole_motion()?;
+        if let Some(cycle) = &self.cycle {
+            cycle.delay(scene, &mut self.decided.drape, &whole);
+            self.decided.attitudes = outcome::attitudes(&self.decided.drape.steps)?;
+            let clearance = clearance(scene, &whole, &self.decided.attitudes);
+            self.decided.drape.summary.judge_also(clearance);
+        }
+        let Decision { asked, decided, .. } = self;
+        let motion = &whole;
         let summary = &mut decided.drape.summary;
         if let (Some(asked), Some(made)) = (&asked, summary.tool.take()) {
             summary.follow_tool(scene, made.with_residual_of(asked));
@@ -174,6 +187,17 @@ impl Decision {
         }
         self.limited_by = Some(limited_by);
         Ok(())
+    }
+
+    /// The motion with all that grippers do before it and after it.
+    ///
+    /// # Errors
+    /// As [`Cycle::whole`].
+    pub fn whole_motion(&self) -> Result<TimedMotion, Error> {
+        Ok(match &self.cycle {
+            Some(cycle) => cycle.whole(&self.motion)?,
+            None => self.motion.clone(),
+        })
     }
 
     /// Drapes along planned positions (m) without counting that among the decisions of a search.
@@ -280,6 +304,12 @@ impl Planned {
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
     ) -> Result<Self, Error> {
+        // the ply is lifted first
+        let mut positions = positions;
+        if let Some(pick_up) = &scene.layup.pick_up {
+            let lift = scene.layup.motion.positions.iter().take(pick_up.lift_steps).cloned();
+            positions.splice(0..0, lift);
+        }
         let (positions, asked) = match &scene.layup.tool {
             Some(tool) => {
                 let Carried { positions, record, .. } = tool.carry(&positions);
@@ -294,8 +324,18 @@ impl Planned {
     fn decide(self, scene: &Scene, state: &SearchState) -> Result<Decision, Error> {
         let decided = decide(scene, &self.motion, state)?;
         let Planned { strategy, positions, asked, motion } = self;
-        let (limited_by, slowed, redraped) = (None, 1.0, false);
-        Ok(Decision { strategy, positions, asked, motion, decided, limited_by, slowed, redraped })
+        let (cycle, limited_by, slowed, redraped) = (None, None, 1.0, false);
+        Ok(Decision {
+            strategy,
+            positions,
+            asked,
+            motion,
+            cycle,
+            decided,
+            limited_by,
+            slowed,
+            redraped,
+        })
     }
 }
 

@@ -26,7 +26,7 @@ type Found = (f64, String);
 /// targets that the scene gives by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
 #[must_use]
 pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
-    let start = scene.layup.motion.positions.first().map(Vec::as_slice).unwrap_or_default();
+    let start = scene.layup.start();
     let mut out = Vec::new();
     out.extend(places(scene, start, "at the start", Some(1)));
     out.extend(clearance_at_start(scene, start));

@@ -11,11 +11,13 @@
 //! 7. [`tuning`]: the constants of the evaluation;
 //! 8. `plan`: from a scene to a motion in time and the drape along it;
 //! 9. `quickest`: the time-optimal law of a plan under the limits of grippers, joints and tool;
-//! 10. [`comparison`]: the strategies that have a name, side by side;
-//! 11. [`replan`]: a plan for a ply that lies elsewhere than planned.
+//! 10. `cycle`: what the grippers do before the drape and after it;
+//! 11. [`comparison`]: the strategies that have a name, side by side;
+//! 12. [`replan`]: a plan for a ply that lies elsewhere than planned.
 
 mod checkpoint;
 pub mod comparison;
+mod cycle;
 mod decision;
 #[cfg(test)]
 mod decision_tests;
@@ -37,6 +39,7 @@ pub mod stepwise;
 pub mod tuning;
 
 pub use checkpoint::Checkpoint;
+pub use cycle::{Cycle, RecordedMotion};
 pub use plan::{Planned, along, plan, plan_without_errors};
 pub use record::{LimitedBy, PickedUp, PlanRecord};
 pub use search_state::{Progress, Watcher};

@@ -104,19 +104,24 @@ pub fn plan_without_errors(
 
     decision.finish(scene, own_limits, &state, true)?;
     decision.decided.drape.summary.judge_rest(&scene.layup, &scene.limits);
-    let Decision { strategy, positions, motion, decided, limited_by, slowed, .. } = decision;
+    let whole = decision.whole_motion()?;
+    let Decision { strategy, mut positions, motion, cycle, decided, limited_by, slowed, .. } =
+        decision;
     let Decided { drape, attitudes, .. } = decided;
     let evaluations = match scene.plan.method {
         PlanMethod::Path => state.candidates() + state.decisions(),
         PlanMethod::Stepwise => state.candidates(),
     };
     let (interrupted, decisions) = (state.is_interrupted(), state.decisions());
-    let (method, rate) = (scene.plan.method, motion.fitting_rate(scene.plan.rate));
+    let (method, rate) = (scene.plan.method, whole.fitting_rate(scene.plan.rate));
     let limited_by = limited_by.unwrap_or_default();
     let record = PlanRecord {
         slowed: Some(slowed).filter(|slowed| *slowed != 1.0),
+        cycle,
         ..PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by)
     };
+    // a search begins where the ply hangs
+    positions.drain(..scene.layup.pick_up.map_or(0, |pick_up| pick_up.lift_steps));
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
     let own = Checkpoint::new(scene, before + evaluations, strategy, positions);
     let checkpoint = match scene.plan.method {
@@ -124,7 +129,7 @@ pub fn plan_without_errors(
         PlanMethod::Path | PlanMethod::Stepwise => own,
     };
     let outcome = Outcome { drape, also: None };
-    Ok(Planned { outcome, record, motion, attitudes, decisions, interrupted, checkpoint })
+    Ok(Planned { outcome, record, motion: whole, attitudes, decisions, interrupted, checkpoint })
 }
 
 /// The scene along a planned motion, as plans are draped.

@@ -58,7 +58,7 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
 }
 
 /// How many times longer a motion must take for its tool to keep its limits; at most 1 if it does.
-fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
+pub(super) fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
     let peaks = scene.layup.tool.as_ref().and_then(|tool| {
         Some((tool, tool.peaks(motion, motion.fitting_rate(scene.plan.rate)).ok()?))
     });

@@ -1,5 +1,6 @@
 //! What a result keeps of a plan: the motion is made from it again.
 
+use super::cycle::Cycle;
 use crate::LayupError;
 use crate::measure::Name;
 use crate::motion::TimedMotion;
@@ -29,6 +30,9 @@ pub struct PlanRecord {
     pub spacing: Vec<f64>,
     /// The time law: a row for each phase, see [`TimedMotion::law`](crate::motion::TimedMotion::law).
     pub law: Vec<[f64; 5]>,
+    /// What the grippers do before the motion of the drape and after it; `None` of a scene whose ply is not picked up.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub cycle: Option<Cycle>,
     /// Where the ply was picked up, if the plan was corrected for that.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub picked_up: Option<PickedUp>,
@@ -73,15 +77,35 @@ impl PlanRecord {
         limited_by: Vec<LimitedBy>,
     ) -> Self {
         let (spacing, law) = (motion.spacing(), motion.law());
-        let (slowed, picked_up) = (None, None);
-        PlanRecord { method, evaluations, rate, limited_by, slowed, path, spacing, law, picked_up }
+        let (slowed, cycle, picked_up) = (None, None, None);
+        PlanRecord {
+            method,
+            evaluations,
+            rate,
+            limited_by,
+            slowed,
+            path,
+            spacing,
+            law,
+            cycle,
+            picked_up,
+        }
     }
 
-    /// The motion at any time.
+    /// The motion at any time, with all that the grippers do before the drape and after it.
     ///
     /// # Errors
     /// Those of [`TimedMotion::recorded`] if the plan is none that a planner has made.
     pub fn motion(&self) -> Result<TimedMotion, LayupError> {
+        let drape = self.drape_motion()?;
+        self.cycle.as_ref().map_or(Ok(drape.clone()), |cycle| cycle.whole(&drape))
+    }
+
+    /// The motion of the drape alone.
+    ///
+    /// # Errors
+    /// As [`Self::motion`].
+    pub fn drape_motion(&self) -> Result<TimedMotion, LayupError> {
         TimedMotion::recorded(&self.path, &self.spacing, &self.law)
     }
 }

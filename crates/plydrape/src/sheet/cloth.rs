@@ -68,6 +68,9 @@ impl<'a> Cloth<'a> {
         let energies = Energies::new(self.sheet, &self.tuning, &self.pads, &self.system);
         let before = std::mem::replace(&mut self.energies, energies);
         self.energies.shear.take_over(before.shear);
+        if before.table.is_none() {
+            self.energies.table = None;
+        }
         if let (Some(contact), Some(before)) = (&mut self.energies.contact, before.contact) {
             contact.take_over(before, &self.now.x);
         }

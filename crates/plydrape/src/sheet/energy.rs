@@ -9,6 +9,7 @@ use super::pads::Pads;
 use super::shear::Shear;
 use super::stretch::Stretch;
 use super::system::System;
+use super::table::Table;
 use super::weight::Weight;
 use super::{Sheet, Tuning};
 
@@ -86,6 +87,8 @@ pub struct Energies<'a> {
     pub contact: Option<Contact<'a>>,
     /// Mounts and tilt limits of the pads.
     pub mounts: Mounts<'a>,
+    /// The table on which the ply lies; `None` once the ply has left it.
+    pub table: Option<Table>,
 }
 
 impl<'a> Energies<'a> {
@@ -104,6 +107,7 @@ impl<'a> Energies<'a> {
                 .as_ref()
                 .map(|mold| Contact::new(sheet, mold, tuning, pads, system)),
             mounts: Mounts::new(sheet, tuning, pads, system),
+            table: Table::new(sheet, tuning, system),
         }
     }
 
@@ -113,7 +117,8 @@ impl<'a> Energies<'a> {
         let elastic: [&dyn Energy; 4] = [weight, stretch, shear, bending];
         let contact = self.contact.as_ref().filter(|_| phase != Phase::Hang);
         let contact = contact.map(|contact| contact as &dyn Energy);
-        elastic.into_iter().chain(contact).chain([mounts as &dyn Energy])
+        let table = self.table.as_ref().map(|table| table as &dyn Energy);
+        elastic.into_iter().chain(contact).chain([mounts as &dyn Energy]).chain(table)
     }
 
     /// The terms of the incremental potential that act in a phase, eq. (19g).

@@ -12,6 +12,8 @@ use crate::tool::Tool;
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
 /// with a mesh of 10 mm the boundary is half a millimeter off at most where slivers are left out.
 const LEAST_SHARE: f64 = 0.05;
+/// Height of pads over a table, as a share of the pitch, at which they are on the ply that lies there.
+const ON_TABLE: f64 = 0.01;
 /// Distance of two lines, as a share of the mesh, below which the less important one is not met.
 const CLOSE: f64 = 0.3;
 
@@ -48,6 +50,8 @@ pub struct Sheet {
     pub mesh: f64,
     /// What carries the grippers, if they do not move by themselves.
     pub tool: Option<Tool>,
+    /// Height of the table on which the ply lies as the motion begins z (m); `None` of a ply that begins in the air.
+    pub table: Option<f64>,
 }
 
 impl Sheet {
@@ -161,6 +165,7 @@ impl Sheet {
             pitch,
             mesh,
             tool: layup.tool.clone(),
+            table: table(layup, pitch),
         };
         let fixed = sheet.tool.as_ref().is_some_and(|tool| tool.fixed_pads.is_some());
         for (n, held) in sheet.held().iter().enumerate() {
@@ -271,6 +276,15 @@ fn lines_of_cut(ply: &Ply, outline: &Outline, radius: f64, mesh: f64) -> [Vec<f6
         }
         lines(meet, mesh)
     })
+}
+
+/// Height of the table on which the ply of a layup lies as the motion begins (m); not above the lowest pad, which errors may put below it.
+fn table(layup: &Layup, pitch: f64) -> Option<f64> {
+    let height = layup.pick_up?.height;
+    let pads = layup.motion.positions.first()?.iter().map(|p| p[2]);
+    let [low, high] =
+        pads.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)]);
+    (high - height <= ON_TABLE * pitch).then_some(low.min(height))
 }
 
 /// Whether nodes, by their distances from one point (m), are not all on one line.

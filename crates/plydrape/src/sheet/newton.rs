@@ -68,7 +68,11 @@ impl Cloth<'_> {
             contact.anchor(&self.now.x);
         }
 
-        // 14. nodes that did not move while the grippers did come to rest
+        // 14. a table that the ply has left is gone
+        let Cloth { energies, now, phase, .. } = self;
+        energies.table.take_if(|table| *phase == Phase::Follow && table.is_left(&now.x));
+
+        // 15. nodes that did not move while the grippers did come to rest
         if self.phase == Phase::Follow {
             self.resting.count(&self.now, &self.before);
         }
@@ -162,6 +166,9 @@ impl Cloth<'_> {
         if let Some(contact) = energies.acting_contact_mut(*phase) {
             contact.find(&now.x, |node| system.skips(&[node]));
         }
+        if let Some(table) = &mut energies.table {
+            table.find(&now.x);
+        }
     }
 
     /// Gradient and stiffness of the incremental potential (19g), in the linear system.
@@ -225,7 +232,9 @@ impl Cloth<'_> {
 
     /// Whether other nodes touch or slip than in the iteration before.
     fn has_switched(&self) -> bool {
-        self.energies.acting_contact(self.phase).is_some_and(|contact| contact.switched)
+        let of_mold =
+            self.energies.acting_contact(self.phase).is_some_and(|contact| contact.switched);
+        of_mold || self.energies.table.as_ref().is_some_and(|table| table.switched)
     }
 
     /// Takes a share of the linear step; returns the largest movement of a node in a whole one (m).

@@ -44,6 +44,8 @@ pub(super) struct Context {
     pub start_output: usize,
     /// The vacuum of each gripper.
     pub grippers: Vec<Signal>,
+    /// How long the program waits for each vacuum at the grip (s); 0 if it does not.
+    pub vacuum_timeout: f64,
     /// Largest speed of the tool's center (m/s).
     pub speed: f64,
     /// Largest rate of turning (rad/s).
@@ -93,6 +95,8 @@ pub(super) struct Signal {
     pub gripper: String,
     /// Number of its output.
     pub output: usize,
+    /// Number of the input that says that its vacuum is there.
+    pub input: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -149,7 +153,12 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
         .grippers()
         .into_iter()
         .enumerate()
-        .map(|(n, gripper)| Signal { gripper, output: n + limits.first_output })
+        .map(|(n, gripper)| Signal {
+            gripper,
+            output: n + limits.first_output,
+            // the first one is array_ready
+            input: n + limits.first_output + 1,
+        })
         .collect();
     let maker = Maker { track, grippers: &grippers, interpolates: limits.axes > 0 };
     let [acceleration, turn_acceleration] = accelerations(track);
@@ -191,6 +200,7 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
             separate_axes: separate,
             start_output: limits.first_output + grippers.len(),
             grippers: grippers.clone(),
+            vacuum_timeout: program.vacuum_timeout.unwrap_or(0.0),
             speed: 0.0,
             turn_rate: 0.0,
             acceleration,

@@ -63,6 +63,8 @@ pub struct Program {
     pub pads: Vec<Pad>,
     /// What the vacuum does, in the order of time.
     pub events: Vec<Event>,
+    /// How long the vacuum of each pad is waited for at the grip (s); `None` if it is not.
+    pub vacuum_timeout: Option<f64>,
     /// Where the frames are.
     pub frames: Frames,
 }
@@ -157,6 +159,7 @@ impl Program {
             axes,
             pads,
             events,
+            vacuum_timeout: result.scene.pick_up.and_then(|pick_up| pick_up.vacuum_timeout),
             frames,
         };
         program.check()?;

@@ -211,7 +211,7 @@ pub fn files(
     let used = used(robot, templates);
     let limits = robot.limits();
     let separate = program.axes.len() > limits.axes;
-    let needed = program.pads.len() + usize::from(separate);
+    let needed = program.pads.len() + usize::from(separate || program.vacuum_timeout.is_some());
     if let Some(most) = limits.outputs.filter(|most| needed > *most && templates.is_empty()) {
         let format = robot.name();
         let message = format!(

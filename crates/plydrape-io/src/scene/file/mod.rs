@@ -8,6 +8,7 @@ mod cell;
 mod errors;
 mod limits;
 mod mold;
+mod pick_up;
 mod plan;
 mod release;
 mod sheet;
@@ -19,6 +20,7 @@ pub(super) use cell::{CellFile, CellTable};
 pub(super) use errors::{ErrorsTable, MoldErrorsTable, ShareTable, Term};
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
+pub(super) use pick_up::PickUpTable;
 pub(super) use plan::{MethodKey, PlanTable};
 pub(super) use release::{OrderKey, ReleaseTable};
 pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
@@ -83,6 +85,8 @@ pub(super) struct SceneKeys {
     pub errors: Option<ErrorsTable>,
     /// How a robot carries the grippers; each moves by itself unless given.
     pub tool: Option<ToolTable>,
+    /// How the ply is picked up from a table, and how grippers come and leave. Without it a motion begins with a ply in the air.
+    pub pick_up: Option<Located<PickUpTable>>,
     /// When the pads let go of the ply. Without it they hold it to the end.
     pub release: Option<Located<ReleaseTable>>,
 }

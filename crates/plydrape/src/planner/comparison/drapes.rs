@@ -39,8 +39,8 @@ pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Err
 
 /// From the start of the scene straight to its target, in the steps and times of its motion.
 fn straight_motion(scene: &Scene) -> Motion {
-    let (Some(start), Some(target)) = (scene.layup.motion.positions.first(), &scene.layup.target)
-    else {
+    let start = scene.layup.start();
+    let Some(target) = scene.layup.target.as_ref().filter(|_| !start.is_empty()) else {
         return scene.layup.motion.clone();
     };
     let times = match scene.layup.motion.times.len() {

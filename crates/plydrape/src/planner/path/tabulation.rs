@@ -20,10 +20,7 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
     };
     let domain = graph.domain.unwrap_or_else(|| {
         // the grippers also pass over it on their way from the start
-        let places = target
-            .grippers
-            .iter()
-            .chain(scene.layup.motion.positions.first().into_iter().flatten());
+        let places = target.grippers.iter().chain(scene.layup.start());
         let local: Vec<Point> = places.map(|p| graph.pose.local(*p)).collect();
         around(&local, TUNING.front.table_margin)
     });

@@ -34,6 +34,7 @@ use crate::measure::Name;
 use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{Step, Summary, attitudes};
 use crate::pick_up::{Moved, Offset};
+use crate::planner::cycle::Cycle;
 use crate::planner::record::{PickedUp, PlanRecord};
 use crate::planner::tuning::TUNING;
 use crate::scene::Scene;
@@ -56,8 +57,14 @@ pub struct Plan<'a> {
 /// Answers where a ply lies with a motion.
 #[derive(Debug)]
 pub struct Replanner<'a> {
-    plan: Plan<'a>,
+    scene: &'a Scene,
+    record: &'a PlanRecord,
+    /// The steps and the outcome of the plan, in the time of the drape alone.
+    steps: Vec<Step>,
+    summary: Summary,
+    /// The motion of the drape alone, and with all that comes before it and after it.
     motion: TimedMotion,
+    whole: TimedMotion,
     /// The positions that stand for the steps of the motion, one list a step.
     path: Vec<Vec<[f64; 3]>>,
     /// The middle of the grippers in each step (m).
@@ -88,6 +95,10 @@ pub struct Replanned {
     pub summary: Summary,
     /// How the ply of each step was moved.
     moved: Vec<Moved>,
+    /// When the drape begins in the planned motion and in this one (s).
+    begins: [f64; 2],
+    /// When it ends in this one (s).
+    ends: f64,
 }
 
 impl Replanned {
@@ -115,12 +126,13 @@ impl Replanned {
         self.moved.get(step).is_some_and(|moved| !moved.is_nothing())
     }
 
-    /// The time (s) in the corrected motion of one of the planned motion, after whose end pads may press for some more time.
+    /// The time (s) in the corrected motion of one of the planned motion, after whose last step at `planned_duration` (s) pads may press for
+    /// some more time.
     #[must_use]
     pub fn time(&self, planned: f64, planned_duration: f64) -> f64 {
         match planned < planned_duration {
-            true => planned * self.longer,
-            false => self.motion.duration() + (planned - planned_duration),
+            true => self.begins[1] + (planned - self.begins[0]) * self.longer,
+            false => self.ends + (planned - planned_duration),
         }
     }
 }
@@ -140,19 +152,29 @@ impl<'a> Replanner<'a> {
         if scene.layup.settings.sheet.time == SheetTime::Real && summary.sheet.is_some() {
             return Err(Error::ReplanRealTime);
         }
-        let motion = record.motion().map_err(Error::ReplanMotion)?;
+        let motion = record.drape_motion().map_err(Error::ReplanMotion)?;
+        let whole = record.motion().map_err(Error::ReplanMotion)?;
         let count = motion.times().len();
         if summary.steps != summary.steps_planned || steps.len() != count || count < 2 {
             return Err(Error::ReplanUnfinished { steps: steps.len(), planned: count });
         }
         let first = summary.first_contact_step();
+        let (mut steps, mut summary) = (steps.to_vec(), summary.clone());
+        record::times(&mut steps, &motion);
+        if let Some(cycle) = &record.cycle {
+            for event in &mut summary.events {
+                event.time = cycle.before_delay(event);
+            }
+        }
         // where nothing ever touches, the end is kept
         let last_free = first.map_or(count - 1, |first| first.saturating_sub(2));
-        let mut shapes = Shapes::new(scene, steps, sheet, last_free);
+        let mut shapes = Shapes::new(scene, &steps, sheet, last_free);
         if shapes.is_empty() {
             return Err(Error::ReplanNoShapes);
         }
-        let clear = shapes.clear_of_obstacles(scene);
+        // a ply that lies on a table is off as a whole until it is lifted
+        let lifted = scene.layup.pick_up.map_or(0, |pick_up| pick_up.lift_steps);
+        let clear = shapes.clear_of_obstacles(scene).max(lifted);
         let weights = fade::weights(motion.parameter(), clear, last_free)
             .ok_or(Error::ReplanNoTransport { clear: clear + 1, first })?;
         shapes.measure(scene);
@@ -165,7 +187,7 @@ impl<'a> Replanner<'a> {
             true => None,
             false => {
                 let times = [motion.times()[last_free], motion.duration()];
-                let attitudes = attitudes(steps).map_err(Error::ReplanMotion)?;
+                let attitudes = attitudes(&steps).map_err(Error::ReplanMotion)?;
                 let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
                 Nearest::of_motion_within(
                     &scene.layup,
@@ -179,13 +201,32 @@ impl<'a> Replanner<'a> {
             }
         };
         let path = TimedMotion::moving(&record.path);
-        Ok(Replanner { plan, path, middles, weights, last_free, shapes, landing, motion })
+        Ok(Replanner {
+            scene,
+            record,
+            steps,
+            summary,
+            motion,
+            whole,
+            path,
+            middles,
+            weights,
+            last_free,
+            shapes,
+            landing,
+        })
     }
 
     /// The planned motion.
     #[must_use]
     pub fn planned(&self) -> &TimedMotion {
-        &self.motion
+        &self.whole
+    }
+
+    /// The plan in the time of the drape alone.
+    fn plan(&self) -> Plan<'_> {
+        let Replanner { scene, record, steps, summary, .. } = self;
+        Plan { scene, record, steps, summary }
     }
 
     /// Share of the offset in each step of the motion.
@@ -200,7 +241,7 @@ impl<'a> Replanner<'a> {
     /// [`Error::ReplanOffset`] if the offset is no number; [`Error::ReplanTouches`] if the ply would touch the mold before the planned landing;
     /// [`Error::ReplanNotRigid`], [`Error::ReplanDwells`] or [`Error::ReplanMotion`] if it could not be carried there as one body.
     pub fn replan(&self, offset: &Offset, residual: Option<f64>) -> Result<Replanned, Error> {
-        let Plan { scene, record, .. } = self.plan;
+        let Replanner { scene, record, .. } = *self;
         if !offset.is_near() {
             return Err(Error::ReplanOffset);
         }
@@ -224,18 +265,17 @@ impl<'a> Replanner<'a> {
         }
 
         // slower, where grippers or the tool would turn too fast
-        let mut steps = record::steps(self.plan, &motion, &moved, self.last_free);
+        let mut steps = record::steps(self.plan(), &motion, &moved, self.last_free);
         record::times(&mut steps, &motion);
         let fastest = record::fastest_tilt(scene, &motion, &steps);
         let limit = scene.limits.most(Name::TiltRate).to_degrees();
-        let planned = self.plan.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
+        let planned = self.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
         // the time over which a rate is taken grows with the motion, so a rate is as much smaller as the motion is longer
         let turned = (fastest / limit.max(planned)).max(1.0);
         let peaks = |motion: &TimedMotion| -> Option<ToolPeaks> {
             scene.layup.tool.as_ref()?.peaks(motion, motion.fitting_rate(scene.plan.rate)).ok()
         };
-        let mut tool = peaks(&motion);
-        let carried = match (&tool, &scene.layup.tool) {
+        let carried = match (&peaks(&motion), &scene.layup.tool) {
             (Some(peaks), Some(tool)) if peaks.stretch(tool) > 1.0 => {
                 TUNING.tool_margin * peaks.stretch(tool)
             }
@@ -244,7 +284,6 @@ impl<'a> Replanner<'a> {
         let slowed = turned.max(carried);
         if slowed > 1.0 {
             motion = motion.slowed(slowed);
-            tool = peaks(&motion);
         }
         let longer = match self.motion.duration() > 0.0 {
             true => motion.duration() / self.motion.duration(),
@@ -258,6 +297,15 @@ impl<'a> Replanner<'a> {
             return Err(Error::ReplanDwells { longer });
         }
 
+        // with what the grippers do before it and after it
+        let cycle = Cycle::around(scene, &motion)?;
+        let begins = [&record.cycle, &cycle].map(|cycle| cycle.as_ref().map_or(0.0, Cycle::begins));
+        let drape = motion;
+        let motion = match &cycle {
+            Some(cycle) => cycle.whole(&drape).map_err(Error::ReplanMotion)?,
+            None => drape.clone(),
+        };
+        let ends = begins[1] + drape.duration();
         record::times(&mut steps, &motion);
         let attitudes = attitudes(&steps).map_err(Error::ReplanMotion)?;
         record::places(&mut steps, &moved, self.last_free);
@@ -265,11 +313,14 @@ impl<'a> Replanner<'a> {
             motion: &motion,
             attitudes: &attitudes,
             longer,
-            tool,
+            begins: begins[1],
+            grip: cycle.as_ref().map_or(0.0, |cycle| cycle.grip),
+            ends,
+            tool: peaks(&motion),
             landing: self.landing,
             last_free: self.last_free,
         };
-        let summary = outcome.summary(self.plan, &mut steps, &moved);
+        let summary = outcome.summary(self.plan(), &mut steps, &moved);
         let picked_up = PickedUp { offset, residual, weights: self.weights.clone() };
         // what limited the plan need not limit this motion
         let limited_by = Vec::new();
@@ -277,8 +328,9 @@ impl<'a> Replanner<'a> {
         let rate = motion.fitting_rate(record.rate);
         let record = PlanRecord {
             picked_up: Some(picked_up),
-            ..PlanRecord::of(method, evaluations, rate, path, &motion, limited_by)
+            cycle,
+            ..PlanRecord::of(method, evaluations, rate, path, &drape, limited_by)
         };
-        Ok(Replanned { record, motion, attitudes, longer, steps, summary, moved })
+        Ok(Replanned { record, motion, attitudes, longer, steps, summary, moved, begins, ends })
     }
 }

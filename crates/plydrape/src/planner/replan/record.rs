@@ -13,6 +13,7 @@ use crate::outcome::{Step, Summary};
 use crate::pick_up::Moved;
 use crate::planner::evaluation::{self, clearance_verdict};
 use crate::scene::Scene;
+use crate::sheet::EventKind;
 use crate::tool::ToolPeaks;
 
 /// What depends on where the grippers are and when.
@@ -90,6 +91,12 @@ pub struct Outcome<'a> {
     pub attitudes: &'a Attitudes,
     /// How many times as long it takes.
     pub longer: f64,
+    /// When the drape begins in it (s), for how long the pads stand on the ply before that (s), and when the drape ends (s).
+    pub begins: f64,
+    /// See [`Self::begins`].
+    pub grip: f64,
+    /// See [`Self::begins`].
+    pub ends: f64,
     /// The rates of the tool along it.
     pub tool: Option<ToolPeaks>,
     /// The nearest bodies of the planned motion from the last free step on.
@@ -113,9 +120,10 @@ impl Outcome<'_> {
         let planned = plan.steps.last().map_or(0.0, |step| step.time);
         for event in &mut summary.events {
             event.time = match event.time < planned {
-                true => event.time * self.longer,
+                true if event.kind == EventKind::Grip => self.begins - self.grip,
+                true => self.begins + event.time * self.longer,
                 // how long pads press after the motion is the scene's
-                false => self.motion.duration() + (event.time - planned),
+                false => self.ends + (event.time - planned),
             };
         }
 
@@ -151,8 +159,9 @@ impl Outcome<'_> {
     /// The verdict on the nearest bodies along the whole motion.
     fn clearance(&self, scene: &Scene) -> Option<Verdict> {
         let until = self.motion.times()[self.last_free];
-        let landing =
-            self.landing.map(|nearest| Nearest { time: nearest.time * self.longer, ..nearest });
+        let landing = self
+            .landing
+            .map(|nearest| Nearest { time: self.begins + nearest.time * self.longer, ..nearest });
         // only what is nearer than the landing is looked for on the way
         let below = landing.map_or(f64::INFINITY, |nearest| nearest.distance);
         let times = [0.0, until];

@@ -5,6 +5,7 @@ mod fixed_pads;
 pub(crate) mod hanging;
 mod mounts;
 mod on_mold;
+mod pick_up;
 mod random;
 mod rate;
 mod release;
@@ -50,6 +51,7 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
         pitch,
         mesh: 0.01,
         tool: None,
+        table: None,
     }
 }
 

@@ -25,7 +25,7 @@ use forming::formed;
 /// is the next step. None without a mold or a start.
 #[must_use]
 pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec<Vec<Point>>> {
-    let start = scene.layup.motion.positions.first()?;
+    let start = scene.layup.start();
     let mold = scene.layup.mold.as_ref()?;
     let height = TUNING.transport.formed_height * scene.layup.ply.shorter_side();
     let above: Vec<Point> = formation.iter().map(|p| [p[0], p[1], p[2] + height]).collect();

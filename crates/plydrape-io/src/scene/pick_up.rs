@@ -1,0 +1,149 @@
+//! How the ply is picked up from a table.
+
+use super::file::{MotionKind, PickUpTable, SceneKeys};
+use super::located::Located;
+use super::quantity::{Length, Quantity, Time, rounded};
+use super::source::Document;
+use super::usual;
+use crate::Error;
+use plydrape::layup::{Layup, Model, PickUp};
+use plydrape::motion::Motion;
+
+/// How far above the ply the pads come from unless given (m).
+const CLEARANCE: f64 = 0.05;
+/// How long they stand on it (s).
+const GRIP: f64 = 0.5;
+/// How far they go back along the normals of the mold (m).
+const RETREAT: f64 = 0.02;
+/// Height of a start over the table (of the shorter side of a cell) below which nothing could hang free.
+const LEAST_LIFT: f64 = 0.05;
+
+/// Checks the table `[pick_up]` of a scene, and lets the motion of its layup begin on the table.
+pub(super) fn pick_up(
+    table: &Located<PickUpTable>,
+    file: &SceneKeys,
+    layup: &mut Layup,
+    document: &Document,
+) -> Result<(), Error> {
+    let Located { value: keys, span } = table;
+    if layup.settings.model == Model::Catenaries {
+        return Err(document.error(
+            span.clone(),
+            "catenaries know no table from which a ply could be lifted",
+            "drape it with the sheet, as kind = \"sheet\" in [model] does, or leave out [pick_up]",
+        ));
+    }
+    let (height, obstacle) = on(keys, span, layup, document)?;
+    let time = |key: &Option<Quantity<Time>>| match key {
+        Some(time) => time.not_negative(document, &usual::DWELL),
+        None => Ok(GRIP),
+    };
+    let length = |key: &Option<Quantity<Length>>, default| match key {
+        Some(length) => length.size(document, &usual::CLEAR),
+        None => Ok(default),
+    };
+    let mut pick_up = PickUp {
+        height,
+        clearance: length(&keys.clearance, CLEARANCE)?,
+        grip: time(&keys.grip)?,
+        vacuum_timeout: keys
+            .vacuum_timeout
+            .as_ref()
+            .map(|time| time.positive(document, &usual::DWELL))
+            .transpose()?,
+        retreat: length(&keys.retreat, RETREAT)?,
+        table: obstacle,
+        lift_steps: 0,
+    };
+    let start = layup.start().to_vec();
+    let low = start.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
+    if file.motion.as_ref().is_some_and(|motion| motion.value.kind == MotionKind::File) {
+        let least = LEAST_LIFT * layup.ply.shorter_side();
+        if start.iter().any(|p| (p[2] - height).abs() > least) {
+            return Err(document.error(
+                span.clone(),
+                format!(
+                    "the motion's file begins up to {} mm above the table, with a ply in the air",
+                    shown(low - height)
+                ),
+                "let it begin with the pads on the flat ply, or leave out [pick_up]",
+            ));
+        }
+        layup.pick_up = Some(pick_up);
+        return Ok(());
+    }
+    if low - height < LEAST_LIFT * layup.ply.shorter_side() {
+        return Err(document.error(
+            span.clone(),
+            format!("the grippers would hang the ply {} mm above the table, too low for it to hang free", shown(low - height)),
+            "raise `height` in [grippers], or lower the table",
+        ));
+    }
+    let lift = pick_up.lift(&layup.ply, &start);
+    pick_up.lift_steps = lift.len();
+    layup.motion = lifted(&layup.motion, lift);
+    layup.pick_up = Some(pick_up);
+    Ok(())
+}
+
+/// The height of the table (m), and which obstacle it is.
+fn on(
+    keys: &PickUpTable,
+    span: &std::ops::Range<usize>,
+    layup: &Layup,
+    document: &Document,
+) -> Result<(f64, Option<usize>), Error> {
+    let obstacles = layup.bodies.obstacles();
+    let obstacle = match &keys.table {
+        Some(name) => {
+            let found = obstacles.iter().position(|obstacle| obstacle.name == name.value);
+            Some(found.ok_or_else(|| {
+                let names: Vec<String> =
+                    obstacles.iter().map(|obstacle| format!("\"{}\"", obstacle.name)).collect();
+                let help = match names.is_empty() {
+                    true => {
+                        "give the table as one of [[obstacles]], or its `height` in place of it"
+                            .to_owned()
+                    }
+                    false => format!("name one of {}", names.join(", ")),
+                };
+                document.error(
+                    name.span.clone(),
+                    format!("no obstacle has the name {}", document.quoted(&name.span)),
+                    help,
+                )
+            })?)
+        }
+        None => None,
+    };
+    let height = match (&keys.height, obstacle) {
+        (Some(height), _) => height.coordinate(document, &usual::PLACE)?,
+        (None, Some(n)) => obstacles[n].bounds()[1][2],
+        (None, None) => {
+            return Err(document.error(
+                span.clone(),
+                "the scene does not say how high the ply lies",
+                "add height = \"20 mm\", or the name of an obstacle, as in table = \"table\"",
+            ));
+        }
+    };
+    Ok((height, obstacle))
+}
+
+/// A motion with steps of a lift before it, each as long as its own first one, or a second.
+fn lifted(motion: &Motion, lift: Vec<Vec<[f64; 3]>>) -> Motion {
+    let step = match motion.times.as_slice() {
+        [first, second, ..] => second - first,
+        _ => 1.0,
+    };
+    let later = step * lift.len() as f64;
+    let mut times: Vec<f64> = (0..lift.len()).map(|k| step * k as f64).collect();
+    times.extend(motion.times.iter().map(|time| later + time));
+    let positions = lift.into_iter().chain(motion.positions.iter().cloned()).collect();
+    Motion { times, positions }
+}
+
+/// A length in millimeters for a message.
+fn shown(length: f64) -> String {
+    rounded(1e3 * length).to_string()
+}
