@@ -84,6 +84,7 @@ pub fn cell(axes: usize, samples: usize) -> Program {
             event(7.0, EventKind::Release, &IDS[1..2]),
             event(DURATION, EventKind::Release, &IDS[2..]),
         ],
+        vacuum_timeout: None,
         frames: Frames {
             mold: Pose::new([1.2, -0.3, 0.4], [0.1, -0.2, 2.5]),
             tool: Pose::new([0.01, -0.02, 0.15], [0.3, 0.2, -0.4]),
