@@ -1,7 +1,7 @@
 //! `plydrape replan`: the motion of a plan for a ply that does not lie where it was planned.
 
 use crate::failure::{Done, Failure};
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, millimeters, short};
 use crate::outcome::{code, is_unsolved};
 use crate::results;
 use crate::watch::whole;
@@ -308,10 +308,10 @@ impl<'a> Answer<'a> {
 /// What is said of the correction.
 fn said(seen: &SeenOffset, replanned: &Replanned) -> String {
     let offset = replanned.record.picked_up.as_ref().map_or(seen.offset, |picked| picked.offset);
-    let [x, y] = offset.shift.map(millimetres);
+    let [x, y] = offset.shift.map(millimeters);
     let mut text = format!("the ply lies off by x {x} mm, y {y} mm, yaw {}°", degrees(offset.yaw));
     if let Some(residual) = seen.residual {
-        text += &format!("; points fit to {} mm", millimetres(residual));
+        text += &format!("; points fit to {} mm", millimeters(residual));
     }
     let duration = replanned.motion.duration();
     text += &match replanned.longer > 1.0 {

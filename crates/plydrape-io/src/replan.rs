@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 
 /// How far a ply lies from where it was planned at most (m), unless somebody says that it does lie there.
 const FAR_SHIFT: f64 = 0.05;
-/// The same as an angle (°).
+/// How far a ply is turned from where it was planned at most (°), unless somebody says that it is.
 const FAR_YAW_DEG: f64 = 10.0;
 
 /// A planned result and what its correction needs.
@@ -59,7 +59,7 @@ impl PlannedResult {
         &self.result
     }
 
-    /// Its scene, as it was understood, with the motion of the plan.
+    /// Scene, as it was understood, with the motion of the plan.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -174,7 +174,7 @@ impl PlannedResult {
 /// A result that was simulated.
 fn not_planned() -> Error {
     Error::not_possible(
-        "the result is none of a plan: its motion is the scene's",
+        "the result is not that of a plan: its motion is the scene's",
         "give the result.json of `plydrape plan`; of a scene's own motion, change the scene",
     )
 }

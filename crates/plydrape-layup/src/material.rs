@@ -66,7 +66,7 @@ fn are_none(curves: &[Option<MomentCurve>; 2]) -> bool {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
 pub enum Section {
-    /// The same for every catenary, as in the paper.
+    /// Mass and rigidity per length, equal for every catenary, as in the paper.
     Line {
         /// Mass per length m (kg/m).
         mass: f64,

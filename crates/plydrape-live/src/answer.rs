@@ -25,7 +25,7 @@ pub enum Mold {
     Known,
 }
 
-/// What the page is told.
+/// The answer for the page.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
     /// The ply was solved: JSON with `program`, `found`, `status`, `catenaries` and, as `page`, the data of a results page with one step.
@@ -35,7 +35,7 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// Its JSON text.
+    /// JSON text.
     #[must_use]
     pub fn text(&self) -> &str {
         match self {
@@ -71,7 +71,7 @@ struct Catenary {
     shearing: bool,
     /// Whether the mold holds a part of it: its force is then that of its axial stiffness.
     touches: bool,
-    /// Its middle (m).
+    /// Middle (m).
     middle: [f64; 3],
 }
 

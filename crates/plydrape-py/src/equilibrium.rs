@@ -222,9 +222,8 @@ impl Equilibrium {
                 (vec![properties.len()], names, directions)
             }
             other => {
-                let text = format!(
-                    "wrt is {other:?}; \"grippers\", \"lengths\" or \"material\" is wanted"
-                );
+                let text =
+                    format!("wrt is {other:?}; expected \"grippers\", \"lengths\" or \"material\"");
                 return Err(PyValueError::new_err(text));
             }
         };

@@ -112,7 +112,7 @@ pub fn fit(
         "moments" => (Test::Moments, [curvature, moment]),
         other => {
             return Err(PyValueError::new_err(format!(
-                "test is {other:?}; bias, rate, frame, overhang, hang or moments is wanted"
+                "test is {other:?}; expected bias, rate, frame, overhang, hang or moments"
             )));
         }
     };

@@ -25,7 +25,7 @@ fn named(name: &str, argument: &str) -> PyResult<Model> {
         "sheet" => Ok(Model::Sheet),
         "catenaries" => Ok(Model::Catenaries),
         other => {
-            let text = format!("{argument} is {other:?}; \"sheet\" or \"catenaries\" is wanted");
+            let text = format!("{argument} is {other:?}; expected \"sheet\" or \"catenaries\"");
             Err(PyValueError::new_err(text))
         }
     }

@@ -149,7 +149,7 @@ impl Outcome {
         self.quantities.overstretch.values()
     }
 
-    /// Its derivatives to the grippers' positions, shape (catenaries, grippers, 3).
+    /// Derivatives to the grippers' positions, shape (catenaries, grippers, 3).
     #[getter]
     fn overstretch_jacobian(&self) -> Array<f64> {
         self.quantities.overstretch.gradients(self.quantities.grippers)
@@ -161,7 +161,7 @@ impl Outcome {
         self.quantities.force.values()
     }
 
-    /// Its derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
+    /// Derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
     #[getter]
     fn forces_jacobian(&self) -> Array<f64> {
         self.quantities.force.gradients(self.quantities.grippers)
@@ -173,7 +173,7 @@ impl Outcome {
         self.quantities.shear.values()
     }
 
-    /// Its derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
+    /// Derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
     #[getter]
     fn shear_jacobian(&self) -> Array<f64> {
         self.quantities.shear.gradients(self.quantities.grippers)
@@ -185,7 +185,7 @@ impl Outcome {
         self.quantities.tilt.values()
     }
 
-    /// Its derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
+    /// Derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
     #[getter]
     fn tilts_jacobian(&self) -> Array<f64> {
         self.quantities.tilt.gradients(self.quantities.grippers)

@@ -332,6 +332,7 @@ impl SceneState {
             drawn: None,
             cell: None,
             thickness: self.thickness,
+            notices: Vec::new(),
             plan_refusal: self.refusal,
         };
         Scene(Arc::new(file), self.origin.unwrap_or_default())

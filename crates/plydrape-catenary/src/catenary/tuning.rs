@@ -22,7 +22,7 @@ pub(crate) struct Tuning {
     pub layer_grades: [f64; GRADES],
     /// k(0.6 + amplitude) up to which one panel of the long rule takes both layers of a span to about 1e-11.
     pub single_panel: f64,
-    /// The same of the short rule.
+    /// k(0.6 + amplitude) up to which one panel of the short rule takes both layers.
     pub short_panel: f64,
     /// Amplitude up to which one panel takes a whole layer to about 1e-11.
     pub weak_layer: f64,

@@ -37,7 +37,7 @@ struct Goal<'a> {
     blend: (f64, f64),
     /// θ at each end that is held (rad).
     held: [Option<f64>; 2],
-    /// Run and rise; none where the second end hangs.
+    /// Run and rise; `None` where the second end hangs.
     ends: Option<[f64; 2]>,
 }
 
@@ -194,7 +194,7 @@ fn continued<'a>(start: State, goal: impl Fn(f64) -> Goal<'a>) -> Result<State, 
 }
 
 impl Goal<'_> {
-    /// Newton's method from a state; none where it does not converge, or ends in a loop.
+    /// Newton's method from a state; `None` where it does not converge, or ends in a loop.
     fn newton(&self, from: &State) -> Option<State> {
         let mut state = from.clone();
         let size = self.panels.nodes();

@@ -85,7 +85,7 @@ impl Solver {
         }
     }
 
-    /// The same solver with other tuning constants.
+    /// This solver with other tuning constants.
     #[must_use]
     pub fn with_tuning(mut self, tuning: Tuning) -> Solver {
         self.tuning = tuning;
@@ -267,7 +267,7 @@ impl Solver {
         self.state.slopes()
     }
 
-    /// Horizontal force (N) of an element; none for a straight inextensible or vertical one.
+    /// Horizontal force (N) of an element; `None` for a straight inextensible or vertical one.
     #[must_use]
     pub fn force(&self, element: usize) -> Option<f64> {
         let hangs = self.problem.elements[element].state != SpanState::Straight;

@@ -15,7 +15,7 @@ use std::ops::Range;
 pub struct Evaluation {
     /// Slopes that hold both ends; a free end's is its outcome once lengths are measured. NaN where unknown.
     pub held: [f64; 2],
-    /// Its force with the derivatives.
+    /// Force with the derivatives.
     pub found: Evaluated<2>,
     /// What it was evaluated with.
     pub known: Needs,

@@ -17,7 +17,7 @@ impl Sensitivity<'_> {
         sub(point, closest.point).map(|c| c / closest.distance)
     }
 
-    /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; none without a mold. At a
+    /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; `None` without a mold. At a
     /// minimum along the span the gradient is that of the smallest distance.
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
@@ -27,7 +27,7 @@ impl Sensitivity<'_> {
         Some(Quantity { value: closest.distance, ..slope })
     }
 
-    /// Where the ideal drape has a span's fabric at a share of its length (m); none where it is not known.
+    /// Where the ideal drape has a span's fabric at a share of its length (m); `None` where it is not known.
     #[must_use]
     pub fn ideal(&self, span: &FreeSpan, share: f64) -> Option<Point> {
         let (mold, target) = (self.layup.mold.as_ref()?, self.layup.target.as_ref()?);

@@ -76,7 +76,7 @@ impl<'a> Sensitivity<'a> {
         Self::without(negligible, layup, solver, shape, positions, contacts)
     }
 
-    /// The same with every derivative. Its memory and time grow with the square of the number of grippers.
+    /// All derivatives, without leaving out small ones. Memory and time grow with the square of the number of grippers.
     #[must_use]
     pub fn whole(
         layup: &'a Layup,
@@ -113,7 +113,7 @@ impl<'a> Sensitivity<'a> {
         &self.rows[element][row]
     }
 
-    /// The gripper that holds an end of a span; none where the mold does.
+    /// The gripper that holds an end of a span; `None` where the mold does.
     #[must_use]
     pub fn gripper_at(&self, span: &FreeSpan, end: usize) -> Option<usize> {
         let whole = self.contacts[span.catenary].is_none();

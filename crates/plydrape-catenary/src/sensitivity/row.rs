@@ -83,7 +83,7 @@ impl Row {
         self.entries.iter_mut().for_each(|(_, x)| *x *= factor);
     }
 
-    /// Its product with a vector.
+    /// Product with a vector.
     #[must_use]
     pub fn dot(&self, x: &[f64]) -> f64 {
         self.entries().map(|(place, y)| y * x[place]).sum()

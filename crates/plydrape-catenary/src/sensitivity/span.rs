@@ -22,7 +22,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Its part along a fixed direction (m).
+    /// Part along a fixed direction (m).
     #[must_use]
     pub fn along(&self, direction: [f64; 3]) -> Quantity {
         let mut gradient = Row::default();
@@ -49,7 +49,7 @@ impl Sensitivity<'_> {
         Some((span.profile.as_ref()?, span.element?))
     }
 
-    /// Horizontal force (N); none where the model gives none.
+    /// Horizontal force (N); `None` where the model gives none.
     #[must_use]
     pub fn force(&self, span: &FreeSpan) -> Option<Quantity> {
         let (value, element) = (span.force?, span.element?);
@@ -108,7 +108,7 @@ impl Sensitivity<'_> {
         Quantity { value, gradient }
     }
 
-    /// Its point at a fixed fraction `t` of its run (m).
+    /// Point at a fixed fraction `t` of its run (m).
     #[must_use]
     pub fn place(&self, span: &FreeSpan, t: f64) -> Place {
         let mut gradient: [Row; 3] = Default::default();
@@ -134,7 +134,7 @@ impl Sensitivity<'_> {
         Place { point: span.point(t), gradient }
     }
 
-    /// Its point at a fixed share of its fabric from its first end (m).
+    /// Point at a fixed share of its fabric from its first end (m).
     #[must_use]
     pub fn fabric_place(&self, span: &FreeSpan, share: f64) -> Place {
         let t = fraction(span, share);

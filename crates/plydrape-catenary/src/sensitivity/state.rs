@@ -9,7 +9,7 @@ use crate::ply::{ContactSegment, GripperId, Ply};
 
 /// The derivatives of a state to all gripper positions.
 pub(super) struct State {
-    /// Those of each element's force (N), end slopes, run, rise and length (m).
+    /// Derivatives of each element's force (N), end slopes, run, rise and length (m).
     pub rows: Vec<[Row; ROWS]>,
     /// Taut path of each cell's stretched diagonal (m), if any.
     pub paths: Vec<Option<Quantity>>,

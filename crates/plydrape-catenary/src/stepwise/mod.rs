@@ -125,7 +125,7 @@ impl<'a> Plan<'a> {
         Stepwise { positions: self.positions, outcome }
     }
 
-    /// What the farthest gripper still lacks (m) after the longest moves, `reach` (m) in all; none if it arrives.
+    /// What the farthest gripper still lacks (m) after the longest moves, `reach` (m) in all; `None` if it arrives.
     fn shortfall(&self, reach: f64) -> Option<PositionError> {
         let error = self.largest_error();
         let distance = error.distance - reach;

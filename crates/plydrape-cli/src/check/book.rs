@@ -73,7 +73,7 @@ pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
 fn lines(ply: &BookPly) -> Vec<String> {
     let scene = &ply.scene;
     let thickness = match scene.thickness {
-        Some(thickness) => format!("{} mm thick", shown::millimetres(thickness)),
+        Some(thickness) => format!("{} mm thick", shown::millimeters(thickness)),
         None => "of a thickness that nothing needs".into(),
     };
     let below = match &ply.lies_on[..] {

@@ -2,7 +2,7 @@
 //! and workspace.
 
 use super::Line;
-use crate::numbers::{millimetres, shown};
+use crate::numbers::{millimeters, shown};
 use plydrape::measure::{Limits, Name, Sense};
 use plydrape::scene::Scene;
 
@@ -69,6 +69,6 @@ pub(super) fn packed(head: &str, texts: &[String]) -> Vec<String> {
 
 /// The box that grippers must stay in.
 fn workspace(sides: [[f64; 2]; 3]) -> String {
-    let [x, y, z] = sides.map(|ends| ends.map(millimetres).join(" to "));
+    let [x, y, z] = sides.map(|ends| ends.map(millimeters).join(" to "));
     format!("grippers in x {x}, y {y}, z {z} mm")
 }

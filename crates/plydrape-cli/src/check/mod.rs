@@ -14,7 +14,7 @@ mod way;
 
 use crate::failure::{Done, Failure};
 use crate::model;
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, millimeters, short};
 use crate::outcome::warn;
 use crate::results;
 use crate::watch::{Interrupt, whole};
@@ -42,7 +42,7 @@ What is possible but hardly meant, such as a start kilometers off, is warned of 
 with exit code 0.
 
 With --html, check.html goes to the scene's name with `.check`: a page for any browser that shows the ply hung at its start, the cups \
-that hold it and those that do not, what they carry, what stands in the cell, the mold, where the ply is wanted on it, which way its warp \
+that hold it and those that do not, what they carry, what stands in the cell, the mold, where the ply must end on it, which way its warp \
 runs, and where the cups shall end. Nothing is planned for it, and nothing is judged.")]
 pub struct Arguments {
     /// The scene file, or the file of a plybook.
@@ -170,7 +170,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
 /// What a mass per line makes per area, in this scene's cells, beside that of one ply.
 fn weight(ply: &Ply) -> Option<String> {
     let Section::Line { mass, .. } = ply.material.section else { return None };
-    let [a, b] = ply.cell.map(millimetres);
+    let [a, b] = ply.cell.map(millimeters);
     let areal_mass = ply.areal_mass();
     let plies = areal_mass / PREPREG;
     let plies = if plies >= 1.5 {

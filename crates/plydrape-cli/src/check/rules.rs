@@ -1,7 +1,7 @@
 //! Rules of the models, contact, release, tool and planner, as text.
 
 use super::Line;
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, millimeters, short};
 use plydrape::geometry::Pose;
 use plydrape::layup::{ContactEnd, Model, Release, ReleaseOrder, SlopeRule, Stepping};
 use plydrape::scene::{PlanMethod, Scene};
@@ -24,7 +24,7 @@ pub(super) fn rules(scene: &Scene) -> [Line; 2] {
     };
     let stepping = match settings.contact.stepping {
         Stepping::Once => "looked for once per step",
-        Stepping::Cut => "steps cut where they dip deeper",
+        Stepping::Cut => "steps cut where they penetrate deeper",
     };
     let end = match settings.contact.end {
         ContactEnd::Free => "free slope at its ends",
@@ -42,7 +42,7 @@ pub(super) fn rules(scene: &Scene) -> [Line; 2] {
         ),
         (
             "contact",
-            format!("within {} mm, {stepping}, {end}", millimetres(settings.contact.tolerance)),
+            format!("within {} mm, {stepping}, {end}", millimeters(settings.contact.tolerance)),
         ),
     ]
 }
@@ -56,7 +56,7 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
         PlanMethod::Path => "path",
         PlanMethod::Stepwise => "stepwise",
     };
-    let far = plan.move_limit.map(|far| format!(" of up to {} mm", millimetres(far)));
+    let far = plan.move_limit.map(|far| format!(" of up to {} mm", millimeters(far)));
     let text = format!(
         "{method}, {} steps{}, up to {} drapes, seed {}, motion at {} Hz",
         plan.steps,
@@ -93,7 +93,7 @@ pub(super) fn release(scene: &Scene) -> Option<Line> {
 pub(super) fn tool(scene: &Scene) -> Vec<Line> {
     let Some(tool) = &scene.layup.tool else { return Vec::new() };
     let axis = |axis: &plydrape::tool::Axis| {
-        let [least, most] = axis.stroke.map(millimetres);
+        let [least, most] = axis.stroke.map(millimeters);
         format!("{} {least} to {most} mm", axis.name)
     };
     let axes: Vec<String> = tool.axes.iter().map(axis).collect();
@@ -101,10 +101,10 @@ pub(super) fn tool(scene: &Scene) -> Vec<Line> {
     let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
     let joints = if scene.layup.tilts() { "" } else { ", pads without joints" };
     let residual = tool.residual.map_or(String::new(), |most| {
-        format!("; brings grippers to within {} mm", millimetres(most))
+        format!("; brings grippers to within {} mm", millimeters(most))
     });
     let place = |pose: &Pose, axis: usize| {
-        let [x, y, z] = pose.position.map(millimetres);
+        let [x, y, z] = pose.position.map(millimeters);
         // 0.0 takes the sign off a zero
         let [a, b, c] = pose.axes[axis].map(|c| short((c * 1e4).round() / 1e4 + 0.0));
         format!("({x}, {y}, {z}) mm, its {} along ({a}, {b}, {c})", ["x", "y", "z"][axis])

@@ -1,7 +1,7 @@
 //! How the ply is draped as a sheet, as text.
 
 use super::Line;
-use crate::numbers::{millimetres, short};
+use crate::numbers::{millimeters, short};
 use plydrape::layup::{Friction, Model, Settings, SheetTime};
 use plydrape::scene::Scene;
 use plydrape_io::error;
@@ -19,7 +19,7 @@ pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
 fn mesh(scene: &Scene) -> String {
     let sheet = &scene.layup.settings.sheet;
     let lines = match sheet.mesh {
-        Some(mesh) => format!("lines of nodes up to {} mm apart", millimetres(mesh)),
+        Some(mesh) => format!("lines of nodes up to {} mm apart", millimeters(mesh)),
         None => "lines of nodes up to a tenth of a cell apart".into(),
     };
     let time = match sheet.time {
@@ -31,7 +31,7 @@ fn mesh(scene: &Scene) -> String {
     };
     format!(
         "{lines}, {} mm beyond the grippers; {time}; up to {} states kept",
-        millimetres(sheet.overhang),
+        millimeters(sheet.overhang),
         sheet.keep
     )
 }
@@ -41,7 +41,7 @@ fn size(scene: &Scene) -> String {
     match SheetSize::of(scene) {
         Ok(SheetSize { nodes, mesh, memory }) => format!(
             "{nodes} nodes, at most {} mm apart; about {} of memory",
-            millimetres(mesh),
+            millimeters(mesh),
             error::bytes(memory)
         ),
         Err(fault) => fault.to_string(),
@@ -52,7 +52,7 @@ fn pads(settings: &Settings) -> String {
     let pad = &settings.pad;
     match pad.radius {
         0.0 => "grippers hold a point".into(),
-        radius => format!("pads of radius {} mm", millimetres(radius)),
+        radius => format!("pads of radius {} mm", millimeters(radius)),
     }
 }
 

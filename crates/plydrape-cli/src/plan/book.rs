@@ -40,7 +40,7 @@ struct Printed<'a> {
     time_s: f64,
 }
 
-/// A planned ply whose files stand ready.
+/// A planned ply whose files are written and not yet in place.
 struct Ready {
     record: PlyRecord,
     staged: Staged,
@@ -69,6 +69,10 @@ pub fn plan(
     let mut book = read_book(&results.scene)?;
     for ply in &mut book.plies {
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
+    }
+    for ply in &book.plies {
+        let of_ply = |notice: &String| format!("ply {}: {notice}", ply.name);
+        outcome::warn(&ply.scene.notices.iter().map(of_ply).collect::<Vec<_>>());
     }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
     let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::of).collect();

@@ -57,7 +57,7 @@ pub(super) struct Found {
 impl Found {
     /// Whether a signal ended the search, or what follows it.
     pub(super) fn is_interrupted(&self, ended: Option<Ended>, interrupt: &Interrupt) -> bool {
-        ended == Some(Ended::Interrupted) || self.broken_off && interrupt.is_signalled()
+        ended == Some(Ended::Interrupted) || self.broken_off && interrupt.is_signaled()
     }
 
     /// Whether it is accepted, and nothing is missing.

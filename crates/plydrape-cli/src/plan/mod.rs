@@ -61,6 +61,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let also = arguments.also.map(Into::into);
     let mut scene = plydrape_io::scene::read_for(&asked.scene, None, also)?;
     arguments.apply(&mut scene)?;
+    warn(&scene.notices);
     warn(&mesh::warnings(scene.layup.mold.as_ref(), scene.mesh.as_ref()));
     let earlier = arguments.earlier.as_deref();
     let earlier = earlier.map(|dir| checkpoint(dir, &scene)).transpose()?;
@@ -125,7 +126,7 @@ const TIMES: [f64; 2] = [1e-3, 1e7];
 
 /// The time after which the search ends.
 fn time(text: &str) -> Result<Duration, Failure> {
-    let help = "a time of up to some 100 days is wanted, e.g. 5min, 90s or 1.5h";
+    let help = "expected a time of up to some 100 days, e.g. 5min, 90s or 1.5h";
     let seconds = argument::value("--time", text, Measured::Time, &usual::ANY, TIMES, help)?;
     Ok(Duration::from_secs_f64(seconds))
 }

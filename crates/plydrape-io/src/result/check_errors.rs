@@ -24,7 +24,10 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
 fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
     let SampleVerdict { errors, cells, needed, .. } = sample;
     if !(1..=errors.samples).contains(&cells.len()) || result.scene.errors != Some(*errors) {
-        return Some(format!("its sample of {} cells is none of the scene's errors", cells.len()));
+        return Some(format!(
+            "its sample of {} cells does not have the scene's errors",
+            cells.len()
+        ));
     }
     if !is_share(errors) || *needed != errors.needed(errors.samples) {
         return Some(format!("its sample needs {needed} of {} cells", errors.samples));

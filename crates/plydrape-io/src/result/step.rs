@@ -1,4 +1,4 @@
-//! A step as it stands in a result file: a column for each quantity. What belongs to catenaries is there only where these draped.
+//! A step of a result file: a column for each quantity. What belongs to catenaries is there only where these draped.
 
 use super::contact::{ContactColumns, Known};
 use plydrape::draping::record::{

@@ -15,7 +15,7 @@ use serde_json::Value;
 
 /// How the limits of measures in one unit are written and read.
 pub(super) struct Kind {
-    /// What is wanted, with its article.
+    /// The name of the quantity with its article, as in `a length`.
     pub name: &'static str,
     /// A value with a unit, as a user would write it.
     pub example: &'static str,
@@ -115,7 +115,7 @@ fn share(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f6
     Err(document.error(
         value.span.clone(),
         format!("{} is more than the whole", document.quoted(&value.span)),
-        format!("a share from 0 to 1 is wanted; {si} of a hundred is \"{si} %\""),
+        format!("expected a share from 0 to 1; {si} of a hundred is \"{si} %\""),
     ))
 }
 

@@ -214,8 +214,8 @@ pub(super) const MIDDLE: &[&str] = &["middle", "center", "centre", "centered", "
 
 /// Above the middle of the target.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Centred;
-impl Keyword for Centred {
+pub(super) struct Centered;
+impl Keyword for Centered {
     const KEYWORD: &'static str = "centered";
     const ALIASES: &'static [&'static str] = &["centred", "center", "centre", "middle"];
     const PAIR: &'static str = "a place [x, y]";

@@ -83,7 +83,7 @@ pub(super) fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, E
         document.error(
             seed.span.clone(),
             format!("the seed {value} is negative"),
-            "a whole number of zero or more is wanted, e.g. 0",
+            "expected a whole number of zero or more, e.g. 0",
         )
     })
 }

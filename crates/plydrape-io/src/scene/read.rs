@@ -62,7 +62,7 @@ fn short(name: &str) -> String {
     shown::name(&shown::excerpt(name, LONGEST_PATH))
 }
 
-/// What to do about a file that is not there, if that can be told.
+/// What to do about a file that is not there, if anything helps.
 fn not_found(path: &Path, error: &std::io::Error) -> Option<String> {
     if error.kind() != ErrorKind::NotFound {
         return None;

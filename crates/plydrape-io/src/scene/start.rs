@@ -91,8 +91,8 @@ fn rectangle(
     let distance = |n: usize| spacing.0[n].size(document, &usual::SPACING);
     let distances = [distance(0)?, distance(1)?];
     let lift = height.coordinate(document, &usual::HEIGHT)?;
-    let plane = ground(keys, around)?;
-    let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
+    let plane = plane_below(keys, around)?;
+    let direction = match (&keys.direction, target.filter(|_| is_centered(keys))) {
         (Some(direction), _) => heading(direction, document)? + turn,
         (None, Some(target)) => match target.drape.as_ref().filter(|_| ply.grid == Grid::NONE) {
             Some(net) => net.placement.heading,
@@ -146,12 +146,12 @@ fn rectangle(
 }
 
 /// Whether the rectangle shall be above the middle of the target.
-fn is_centred(keys: &GrippersTable) -> bool {
+fn is_centered(keys: &GrippersTable) -> bool {
     keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, Place::Keyword(_)))
 }
 
 /// The plane above which the rectangle lies: the mold, or z = 0.
-fn ground(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, Error> {
+fn plane_below(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, Error> {
     let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     let Some(parallel) = keys.parallel_to_mold.as_ref().filter(|parallel| parallel.value) else {
         return Ok(level);

@@ -65,7 +65,7 @@ pub(super) fn tool(
     })
 }
 
-/// The axes of pads without joints: those of the array as it stands at the start.
+/// The axes of pads without joints: those of the array at the start.
 fn fixed_pads(
     table: &ToolTable,
     layup: &Layup,

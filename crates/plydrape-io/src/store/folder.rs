@@ -213,7 +213,7 @@ impl Folder {
         self.put(files, true)
     }
 
-    /// The same, but files of an earlier run that are not written now stay.
+    /// Writes files; those of an earlier run that are not written now stay.
     ///
     /// # Errors
     /// As [`Folder::write`].

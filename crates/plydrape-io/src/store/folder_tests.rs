@@ -152,7 +152,7 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     }
 }
 
-/// A link to a file elsewhere is not ours, whatever stands behind it.
+/// A link to a file elsewhere is not ours, whatever it leads to.
 #[cfg(unix)]
 #[test]
 fn a_link_is_not_followed() {

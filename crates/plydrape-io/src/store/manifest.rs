@@ -23,7 +23,7 @@ pub(crate) struct Stamp {
 struct Entry {
     /// The command that wrote it.
     by: String,
-    /// Its contents; more than one while files are being replaced.
+    /// Contents; more than one while files are being replaced.
     contents: Vec<Stamp>,
 }
 

@@ -44,7 +44,7 @@ pub fn model_name(model: Model) -> &'static str {
     }
 }
 
-/// A number with so many digits after the point; in exponent form if that would be too wide.
+/// A number with this many digits after the point; in exponent form if that would be too wide.
 pub(crate) fn fixed(value: Option<f64>, digits: usize) -> String {
     match value {
         None => "–".into(),
@@ -95,7 +95,7 @@ pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
         .max_by(|a, b| of_tool(a).cmp(&of_tool(b)).then(a.ratio().total_cmp(&b.ratio())))
 }
 
-/// Of the limits that hold, the one that is nearest to not holding; none of zero, which only zero keeps.
+/// Of the limits that hold, the one that is nearest to not holding; `None` for zero, which only zero keeps.
 #[must_use]
 pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
     let kept = limits.iter().filter(|v| v.ok && v.limit != 0.0);

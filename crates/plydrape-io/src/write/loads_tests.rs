@@ -19,7 +19,7 @@ fn dome(grippers: &str, keep: usize) -> Scene {
     let text = format!(
         "[ply]\ngrippers = [3, 3]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
         [mold]\nkind = \"sphere\"\nradius = 0.6\nposition = [0, 0, -0.6]\n\
-        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.04\norigin = \"centred\"\n{grippers}\n\
+        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.04\norigin = \"centered\"\n{grippers}\n\
         [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 6\n\
         [model]\nkind = \"sheet\"\n[sheet]\nmesh = 0.05\nkeep = {keep}\n"
     );

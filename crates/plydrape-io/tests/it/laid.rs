@@ -1,4 +1,4 @@
-//! Plies that are cut, laid on their molds from scenes: what counts, where the boundary is wanted, and which seed is taken.
+//! Plies that are cut, laid on their molds from scenes: what counts, the target boundary, and which seed is taken.
 
 use plydrape::net::Net;
 use plydrape_io::scene::{self, IdealDrape};
@@ -22,7 +22,7 @@ position = [0, 0, "-0.6 m"]
 [grippers]
 spacing = ["98 mm", "98 mm"]
 height = "90 mm"
-origin = "centred"
+origin = "centered"
 [target]
 {target}
 [motion]
@@ -58,7 +58,7 @@ fn a_searched_seed_is_the_same_for_the_net_and_for_the_drape() {
     let uv = [0, 1].map(|n| 0.5 * (outline[0][n] + outline[1][n]));
     let place = net.place(&ideal.mold, uv).expect("on the dome");
     assert!((place[0] - 0.03).hypot(place[1] - 0.02) < 1e-7, "{place:?}");
-    let [u, _] = net.fibres(&ideal.mold, uv).expect("on the dome");
+    let [u, _] = net.fibers(&ideal.mold, uv).expect("on the dome");
     assert!((u[1].atan2(u[0]).to_degrees() - 20.0).abs() < 1e-3, "{u:?}");
 
     // and it shears less than from the middle
@@ -120,7 +120,7 @@ fn trim_of_a_scene_is_measured_from_its_file() {
     let high = "x (mm),y (mm),z (mm)\n0,0,0\n100,0,0\n100,0,90\n";
     std::fs::write(home.path().join("high.csv"), high).unwrap();
     let message = refused(&sheet("trim = \"high.csv\""));
-    assert!(message.contains("point 3 of the wanted boundary lies 90.000 mm off"), "{message}");
+    assert!(message.contains("point 3 of the target boundary lies 90.000 mm off"), "{message}");
     assert!(message.contains("high.csv"), "{message}");
     let message = refused(&sheet("trim = \"nothing.csv\""));
     assert!(message.contains("nothing.csv"), "{message}");

@@ -177,7 +177,7 @@ fn moves_within_its_rates(poses: &Poses, s: f64, per_second: f64, what: &str) {
     }
 }
 
-/// The motion of a table, every so many samples; the last one is in it.
+/// The motion of a table, every this many samples; the last one is in it.
 fn motion(poses: &Poses, every: usize) -> Motion {
     let last = poses.len() - 1;
     let chosen: Vec<_> = (0..last).step_by(every.max(1)).chain([last]).map(|n| &poses[n]).collect();

@@ -55,7 +55,7 @@ struct Leg {
     quaternions: [[f64; 4]; 2],
     /// How much it turns (rad).
     turn: f64,
-    /// The axis that it turns about, by so much (rad).
+    /// The axis that it turns about, by this much (rad).
     spin: [f64; 3],
 }
 

@@ -88,7 +88,7 @@ impl Layer {
         Ok(Layer { thickness, rings, bounds, grid })
     }
 
-    /// Its thickness (m).
+    /// Thickness (m).
     #[must_use]
     pub fn thickness(&self) -> f64 {
         self.thickness
@@ -106,7 +106,7 @@ impl Layer {
         self.at(place).0 > 0.0
     }
 
-    /// Its height (m), slope, and second derivatives (1/m) at a place in plan.
+    /// Height (m), slope, and second derivatives (1/m) at a place in plan.
     fn at(&self, place: [f64; 2]) -> (f64, [f64; 2], [f64; 3]) {
         let none = (0.0, [0.0; 2], [0.0; 3]);
         let full = (self.thickness, [0.0; 2], [0.0; 3]);

@@ -30,7 +30,7 @@ pub struct Line {
     pub ring: usize,
     /// All of its ring: its last point is followed by its first, which is not repeated.
     pub closed: bool,
-    /// Its points in turn, the ply to the left seen from outside.
+    /// Points in turn, the ply to the left seen from outside.
     pub points: Vec<PlyPoint>,
     /// Unit normal of the mold at each point, towards the ply.
     pub normals: Vec<[f64; 3]>,
@@ -68,7 +68,7 @@ pub struct Boundary {
     pub outer_left_out: f64,
     /// What lies beyond the boundary of the mold.
     pub off_mold: LeftOut,
-    /// The fabric farthest beyond it; none if all is on the mold.
+    /// The fabric farthest beyond it; `None` if all is on the mold.
     pub farthest: Option<Farthest>,
     /// What the net has no place for, because the ply folds.
     pub folded: LeftOut,
@@ -96,7 +96,7 @@ impl Lie {
 type Sample = ([f64; 2], Lie);
 
 impl Net {
-    /// The outline of the ply, of one that is not cut the rectangle that the net covers; none of a strip without width.
+    /// The outline of the ply, of one that is not cut the rectangle that the net covers; `None` for a strip without width.
     #[must_use]
     pub fn ply_outline(&self) -> Option<Outline> {
         let placement = &self.placement;
@@ -107,7 +107,7 @@ impl Net {
         self.outline.clone().or_else(whole)
     }
 
-    /// The ply's boundary on the mold, and what of the ply has no place there; none of a strip without width.
+    /// The ply's boundary on the mold, and what of the ply has no place there; `None` for a strip without width.
     #[must_use]
     pub fn boundary(&self, mold: &Mold) -> Option<Boundary> {
         let outline = self.ply_outline()?;
@@ -181,7 +181,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The same of a point of the ply, which may be the farthest beyond the mold.
+    /// Where a point of the ply lies; it may be the farthest beyond the mold.
     fn lie_of_ply(&mut self, uv: [f64; 2]) -> Lie {
         let lie = self.lie(uv);
         if let Lie::Off(point) = lie

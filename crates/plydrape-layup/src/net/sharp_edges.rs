@@ -16,14 +16,14 @@ use std::collections::HashMap;
 pub struct SharpEdges {
     /// Their length under the ply (m).
     pub length: f64,
-    /// The largest angle by which the mold turns across one of them (rad), and where; none without any.
+    /// The largest angle by which the mold turns across one of them (rad), and where; `None` without any.
     pub sharpest: Option<(f64, PlyPoint)>,
 }
 
 type Triangle = [[f64; 3]; 3];
 
 impl Net {
-    /// The sharp edges of a mold that the ply runs over; none of a mold that has no edges to tell.
+    /// The sharp edges of a mold that the ply runs over; `None` for a mold that has no edges to tell.
     #[must_use]
     pub fn sharp_edges(&self, mold: &Mold) -> Option<SharpEdges> {
         let Mold::Mesh(mesh) = mold else { return None };

@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CellShear {
-    /// Mean over the corners (rad), positive where u and v stand at less than 90°. What the mold's curvature
+    /// Mean over the corners (rad), positive where u and v meet at less than 90°. What the mold's curvature
     /// adds to all four angles cancels.
     pub angle: f64,
     /// Mean over the corners of how far each is from 90° (rad), as KinDrape reports it.

@@ -28,7 +28,7 @@ pub struct Ruck {
 }
 
 impl Ruck {
-    /// The ruck of a slack s (m) in a line of flexural rigidity EI (N·m²) and weight per length (N/m); none without
+    /// The ruck of a slack s (m) in a line of flexural rigidity EI (N·m²) and weight per length (N/m); `None` without
     /// slack, or in a line without rigidity, which crumples instead.
     #[must_use]
     pub fn of(slack: f64, flexural_rigidity: f64, weight: f64) -> Option<Ruck> {
@@ -78,7 +78,7 @@ impl Ruck {
         self.amplitude * (y.cos() + COSINE + 0.5 * COSINE * square)
     }
 
-    /// Its steepest angle (rad).
+    /// Steepest angle (rad).
     #[must_use]
     pub fn steepest(&self) -> f64 {
         // w' = −Ck (sin y + c y) is steepest where cos y = −c
@@ -125,7 +125,7 @@ mod tests {
 
     /// 4.1 mm·(s/mm)^(4/7) for the paper's ply, within the 5 % that the law is known to.
     #[test]
-    fn a_millimetre_of_slack_in_the_papers_ply_rises_by_four() {
+    fn a_millimeter_of_slack_in_the_papers_ply_rises_by_four() {
         for slack in [0.1_f64, 1.0, 3.0] {
             let height = Ruck::of(slack * 1e-3, RIGIDITY, WEIGHT).unwrap().height() * 1e3;
             let printed = 4.1 * slack.powf(4.0 / 7.0);

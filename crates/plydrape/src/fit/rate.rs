@@ -26,11 +26,11 @@ const LEFT: f64 = 1e-3;
 /// A bias strip in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimedSpecimen {
-    /// Its name in errors.
+    /// Name in errors.
     pub name: String,
-    /// Its measures.
+    /// Measures.
     pub test: BiasExtension,
-    /// Its record: displacement (m) and force (N).
+    /// Record: displacement (m) and force (N).
     pub points: Vec<[f64; 2]>,
     /// Times of the points, rising (s).
     pub times: Vec<f64>,
@@ -159,7 +159,7 @@ fn solved(records: &[Record], relaxation: Option<f64>) -> Option<(DVector<f64>, 
 /// What resin adds to the shear force of a ply, and the curve of very slow shear that goes with it, from bias strips in time.
 ///
 /// # Errors
-/// Those of [`ShearTest::check`]; [`Error::FitTooFew`] and [`Error::FitPoint`] for a record; [`Error::FitNoRate`] if the tests do not
+/// The errors of [`ShearTest::check`]; [`Error::FitTooFew`] and [`Error::FitPoint`] for a record; [`Error::FitNoRate`] if the tests do not
 /// show it.
 pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
     let records: Result<Vec<Record>, Error> = specimens.iter().map(Record::of).collect();

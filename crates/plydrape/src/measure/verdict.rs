@@ -18,7 +18,7 @@ pub struct Verdict {
     pub unit: Cow<'static, str>,
     /// Whether it holds.
     pub ok: bool,
-    /// Step of the worst value; none where it belongs to no step, as the speed of a motion.
+    /// Step of the worst value; `None` where it belongs to no step, as the speed of a motion.
     pub step: Option<usize>,
     /// Which part of the ply has the worst value.
     #[cfg_attr(feature = "serde", serde(rename = "where"))]
@@ -131,7 +131,7 @@ mod tests {
         }
     }
 
-    /// Of several values NaN is the worst, wherever it stands: else it would be lost among sound ones.
+    /// Of several values NaN is the worst, wherever it is: else it would be lost among sound ones.
     #[test]
     fn a_value_that_is_no_number_is_not_lost() {
         for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {

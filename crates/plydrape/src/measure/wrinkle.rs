@@ -1,6 +1,6 @@
-//! Wrinkle height: how high the ruck stands that the slack of a segment makes on the mold (`ply/ruck.rs`).
+//! Wrinkle height: height of the ruck that the slack of a segment makes on the mold (`ply/ruck.rs`).
 //!
-//! Its limit is one of slack as a height. A ply without rigidity crumples and has no height, so scenes refuse such a limit there.
+//! The limit bounds slack by a height. A ply without rigidity crumples and has no height, so scenes refuse such a limit there.
 
 use super::{Bound, Description, Found, Measure, Most, Observation, Refusal, Scope, Unit};
 use crate::layup::Layup;
@@ -12,7 +12,7 @@ pub struct Wrinkle;
 impl Measure for Wrinkle {
     fn description(&self) -> Description {
         let own =
-            Description::of_catenaries("wrinkle", "wrinkle_mm", "wrinkle height", Unit::MILLIMETRE);
+            Description::of_catenaries("wrinkle", "wrinkle_mm", "wrinkle height", Unit::MILLIMETER);
         Description { scope: Scope::End, ..own }
     }
 

@@ -98,7 +98,7 @@ impl Judged {
 pub struct DrapeWatch<'a> {
     /// Asked before each time step whether to end.
     pub stop: &'a (dyn Fn() -> bool + Sync),
-    /// Told how many steps are done, with the state of the sheet if that drapes; it may end the drape.
+    /// Called with how many steps are done, with the state of the sheet if that drapes; it may end the drape.
     pub see: &'a mut dyn FnMut(usize, Option<&sheet::State>) -> ControlFlow<()>,
 }
 
@@ -106,7 +106,7 @@ pub struct DrapeWatch<'a> {
 /// cells.
 ///
 /// # Errors
-/// Those of [`super::check_model`] if the scene lacks what the model needs.
+/// The errors of [`super::check_model`] if the scene lacks what the model needs.
 pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, Error> {
     let mut drape = drape_places(scene, model, watch)?;
     drape.summary.judge_motion(&scene.layup, &scene.limits);
@@ -199,7 +199,7 @@ fn drape_sheet(
 /// taken more than `most_equilibria`.
 ///
 /// # Errors
-/// Those of [`super::check_model`] if the layup lacks what the model of its settings needs.
+/// The errors of [`super::check_model`] if the layup lacks what the model of its settings needs.
 pub fn judge(
     layup: &Layup,
     limits: &Limits,

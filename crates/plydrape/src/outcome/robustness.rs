@@ -17,7 +17,7 @@ use crate::sheet::event::at_these_times;
 pub struct Robustness {
     /// The scene, with the motion that was draped.
     scene: Scene,
-    /// The errors of the sample; none where the scene has none.
+    /// The errors of the sample; `None` where the scene has none.
     sample: Option<Errors>,
     /// Whether somebody asks what the motion tolerates.
     tolerance: bool,
@@ -43,7 +43,7 @@ impl Robustness {
         Robustness { scene: planned, sample, tolerance: asked }
     }
 
-    /// The errors of the sample; none where the scene has none.
+    /// The errors of the sample; `None` where the scene has none.
     #[must_use]
     pub fn sampled(&self) -> Option<&Errors> {
         self.sample.as_ref()

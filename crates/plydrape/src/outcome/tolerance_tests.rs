@@ -32,8 +32,8 @@ fn the_error_that_is_tolerated_is_the_largest_that_all_cells_keep() {
         let scene = boxed(margin);
         let found = Tolerance::of(&scene, &NEVER).unwrap();
         let unit = 1e3 * 1e-3 * crate::sheet::pitch(&scene.layup.ply);
-        let holds = |millimetres: f64| {
-            let factor = 1e-3 * millimetres / 1e-4;
+        let holds = |millimeters: f64| {
+            let factor = 1e-3 * millimeters / 1e-4;
             (0..16).all(|n| plain(&cell(&scene, errors.draw(n, 4).scaled(factor))).accepted())
         };
         let step = 2_f64.powf(0.125) * (1.0 + 1e-9);
@@ -87,7 +87,7 @@ fn sheared(most: f64) -> Scene {
     scene
 }
 
-/// The pull that a ply whose resin relaxes so many times as slowly needs is known from its own drape: a limit between those of two powers of
+/// The pull that a ply whose resin relaxes this many times as slowly needs is known from its own drape: a limit between those of two powers of
 /// 2 is met by the lower one, whether the ply at its own speed keeps it or not, and at the temperature at which the resin relaxes so.
 #[test]
 fn a_motion_may_be_as_fast_as_the_resin_of_its_ply_follows() {

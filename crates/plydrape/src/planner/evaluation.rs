@@ -65,7 +65,7 @@ impl Drapes {
 /// sheet; broken off where it needs too much or the search is stopped.
 ///
 /// # Errors
-/// Those of [`outcome::judge`] if the model that decides cannot drape the scene.
+/// The errors of [`outcome::judge`] if the model that decides cannot drape the scene.
 pub fn drape(
     scene: &Scene,
     planned: &[Vec<[f64; 3]>],
@@ -94,7 +94,7 @@ pub fn drape(
 }
 
 /// The drape of a layup and those of some cells with errors. `drape` drapes a cell; it gives `None` if it was stopped. A drape that is far
-/// from a plan is alone. So many cells may break a limit as are to spare, and do not count; behind one more only a few others are draped.
+/// from a plan is alone. This many cells may break a limit as are to spare, and do not count; behind one more only a few others are draped.
 ///
 /// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
 pub fn with_errors(
@@ -282,7 +282,7 @@ pub fn score(drape: &Judged) -> f64 {
     score_with(drape, &Bias::default())
 }
 
-/// The same of a coarse sheet, with what is known of its error.
+/// The score of a drape of a coarse sheet, corrected by what is known of its error.
 #[must_use]
 pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
     let ratios: Vec<f64> = drape.limits.iter().map(|v| weight(v, bias.of(v.name))).collect();

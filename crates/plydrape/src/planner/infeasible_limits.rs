@@ -19,9 +19,9 @@ use crate::state::Site;
 /// A value and a text that says where it is.
 type Found = (f64, String);
 
-/// Every limit that the scene itself rules out, with value and place; none if a plan may keep them all.
+/// Every limit that the scene itself rules out, with value and place; empty if a plan may keep them all.
 ///
-/// Its verdicts are those of [`crate::outcome::Summary::limits`] by name and unit, all of them not
+/// The verdicts are those of [`crate::outcome::Summary::limits`] by name and unit, all of them not
 /// ok. Three have no limit in the scene: `missing_nodes` of the ideal drape, `off_mold` of
 /// targets that the scene gives by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
 #[must_use]
@@ -208,8 +208,8 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     if scene.layup.bodies.is_empty() {
         return None;
     }
-    let neighbours = scene.layup.ply.neighbours();
-    let own = orientations(&scene.layup.ply, &neighbours, &target.grippers);
+    let neighbors = scene.layup.ply.neighbors();
+    let own = orientations(&scene.layup.ply, &neighbors, &target.grippers);
     let fixed = scene.layup.fixed_pads(&target.grippers);
     let tolerance = scene.layup.settings.contact.tolerance;
     let stands = |(place, own): (&[f64; 3], [f64; 4])| {
@@ -233,7 +233,7 @@ fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
     if layup.bodies.is_empty() || start.is_empty() {
         return None;
     }
-    let poses = Poses::by_neighbours(layup, &layup.ply.neighbours(), start);
+    let poses = Poses::by_neighbors(layup, &layup.ply.neighbors(), start);
     let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
     let nearest = clearance::at(layup, least, &poses)?;
     let at = format!("{} at the start", nearest.label(layup));

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 pub struct Outcome {
     /// The drape.
     pub drape: Drape,
-    /// Its last step.
+    /// Last step.
     pub last_step: LastStep,
 }
 

@@ -42,9 +42,9 @@ pub struct Scene {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct BookPly {
-    /// Its place in the order of laying, from 1.
+    /// Place in the order of laying, from 1.
     pub number: usize,
-    /// Its name, which no other ply of the part has.
+    /// Name, which no other ply of the part has.
     pub name: String,
 }
 

@@ -37,7 +37,7 @@ pub enum Status {
 /// asked before each time step. Nodes up to `low` (m) over the mold lie, as far as the release of pads asks for that.
 ///
 /// # Errors
-/// Those of [`Sheet::new`], and [`Error::SheetNoMotion`] if the motion has no steps for the grippers.
+/// The errors of [`Sheet::new`], and [`Error::SheetNoMotion`] if the motion has no steps for the grippers.
 pub fn drape(
     layup: &Layup,
     tuning: Tuning,
@@ -78,7 +78,7 @@ pub fn drape(
     Ok(Drape { sheet, status, steps, report, events, landing_step, landing_shear, last, duration })
 }
 
-/// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with
+/// Whether a step of this many is among the `keep` states that are kept, evenly over the steps, the first and the last with
 /// them.
 #[must_use]
 pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {

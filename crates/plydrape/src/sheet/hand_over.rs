@@ -93,12 +93,12 @@ impl View<'_> {
             error: None,
         };
         if last {
-            for rim in fabric.rims.iter().flatten() {
-                let place = rim.of(&state.positions);
+            for point in fabric.boundary.iter().flatten() {
+                let place = point.of(&state.positions);
                 let closest = mold.closest_point(place);
                 if !closest.beyond {
                     // a point of the boundary lies on the chord between nodes, which may be in the mold
-                    points.push(extra(rim.place, place, closest.distance.max(0.0)));
+                    points.push(extra(point.place, place, closest.distance.max(0.0)));
                 }
             }
         }

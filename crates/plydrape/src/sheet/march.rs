@@ -122,7 +122,7 @@ impl<'a> March<'a> {
         let [duration, longest] = self.durations(way, times);
         let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
         let mut done = 0.0;
-        // a motion in its own time needs so many steps at least
+        // a motion in its own time needs this many steps at least
         let mut tries = self.tuning.tries + (2.0 * duration / longest) as usize;
         while done < 1.0 {
             if self.is_stopped() {

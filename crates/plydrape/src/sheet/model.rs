@@ -6,7 +6,7 @@ use crate::Error;
 use crate::layup::{Friction, Layup, PadSettings, Settings, SheetTime};
 use crate::material::{MomentCurve, Section, ShearCurve, ShearRate, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::{Direction, Grid, Neighbours, Outline, Ply};
+use crate::ply::{Direction, Grid, Neighbors, Outline, Ply};
 use crate::tool::Tool;
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
@@ -20,9 +20,9 @@ const CLOSE: f64 = 0.3;
 pub struct Sheet {
     /// Nodes, segments and cells.
     pub fabric: Fabric,
-    /// Its grippers.
+    /// Grippers.
     pub grippers: Vec<Gripper>,
-    /// The mold; none for a ply that only hangs.
+    /// The mold; `None` for a ply that only hangs.
     pub mold: Option<Mold>,
     /// Mass per area (kg/m²).
     pub areal_mass: f64,
@@ -284,7 +284,7 @@ fn spans_an_area(held: &[(usize, [f64; 2])]) -> bool {
     })
 }
 
-/// Stiffness of a mount along x, y and z (N/m); none if it is rigid and holds whatever pulls.
+/// Stiffness of a mount along x, y and z (N/m); `None` if it is rigid and holds whatever pulls.
 ///
 /// One that is rigid along some axes only has the stiffness `stiffest` (N/m) there, far more than the ply. Where the fabric
 /// can slide under the pad of a rigid one, it gives by a ten-thousandth of the pitch (m) before it does.
@@ -311,11 +311,11 @@ pub fn pitch(ply: &Ply) -> f64 {
     if ply.grid != Grid::NONE {
         return if ply.grid.nv > 1 { a.min(b) } else { a };
     }
-    let distance = |pair: &Neighbours| {
+    let distance = |pair: &Neighbors| {
         let [[u, v], [p, q]] = pair.grippers.map(|n| ply.place(n));
         (p - u).hypot(q - v)
     };
-    ply.neighbours().iter().map(distance).fold(f64::INFINITY, f64::min).min(a.max(b))
+    ply.neighbors().iter().map(distance).fold(f64::INFINITY, f64::min).min(a.max(b))
 }
 
 fn check(holds: bool, what: &'static str, value: f64, range: &'static str) -> Result<(), Error> {

@@ -60,7 +60,7 @@ impl<'a> Releases<'a> {
         pressing.map(|since| since + self.rule.dwell).min_by(f64::total_cmp)
     }
 
-    /// Since when the pad of a gripper presses that lets go on the way (s); none if it holds on, or has let go.
+    /// Since when the pad of a gripper presses that lets go on the way (s); `None` if it holds on, or has let go.
     fn presses_since(&self, gripper: usize) -> Option<f64> {
         let since = match &self.rule.times {
             Some(times) => {

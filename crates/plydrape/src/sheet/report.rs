@@ -14,7 +14,7 @@ use crate::geometry::vector::{cross, dot, norm, sub};
 pub struct Report {
     /// Nodes.
     pub nodes: usize,
-    /// Largest height of a ridge at the end, where excess length is caught (mm).
+    /// Largest height of a ridge at the end, formed by excess length (mm).
     pub ridge_max_mm: Option<f64>,
     /// Largest height of a bridge at the end, where the fabric is taut over a hollow (mm).
     pub bridge_max_mm: Option<f64>,

@@ -20,13 +20,13 @@ pub struct Tuning {
     pub lift: f64,
     /// Largest step of Newton's iteration at which a time step is solved (of the mesh).
     pub step_tolerance: f64,
-    /// The same where the drape ends.
+    /// Largest step of Newton's iteration at which the drape ends (of the mesh).
     pub rest_tolerance: f64,
     /// Safety with which a step of the iteration is taken to go with the square of the one before, where it tells that the next
     /// one is below the tolerance.
     pub next_step: f64,
     /// Iterations after which a time step in which the ply buckles, so that its matrix is not positive definite, is solved with
-    /// steps that are so many times as large as otherwise.
+    /// steps that are this many times as large as otherwise.
     pub creep_iterations: usize,
     /// How many times as large.
     pub creep: f64,

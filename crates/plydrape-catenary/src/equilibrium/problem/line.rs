@@ -53,7 +53,7 @@ pub fn heading<T: Number>(
     gripper: usize,
     direction: usize,
 ) -> Option<[T; 2]> {
-    let [before, after] = lines.neighbours(gripper, direction);
+    let [before, after] = lines.neighbors(gripper, direction);
     let line = Line::new(positions[before], positions[after]);
     (line.run.re() > 0.0).then(|| line.heading())
 }

@@ -343,7 +343,7 @@ impl Reader<'_> {
         match self.scope().nodes.insert(node, (point, now)) {
             Some((other, before)) if other != point => {
                 let message = format!(
-                    "node {node} is defined again at another place; it stands in line {before} already"
+                    "node {node} is defined again at another place; it is in line {before} already"
                 );
                 Err(refused(self.file, now, message, "give it a number of its own"))
             }

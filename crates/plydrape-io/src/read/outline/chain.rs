@@ -15,7 +15,7 @@ const MOST_NEAR: usize = 8;
 /// A closed line.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// Its points (m).
+    /// Points (m).
     pub ring: Ring,
     /// A curve and a point of it, for messages.
     pub place: Place,

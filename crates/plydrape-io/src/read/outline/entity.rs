@@ -23,13 +23,13 @@ const ROUNDING: f64 = 1e-6;
 /// A curve as a polygon.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    /// Its points (m); of a closed one the first is not repeated.
+    /// Points (m); of a closed one the first is not repeated.
     pub points: Vec<[f64; 2]>,
     /// Whether its end is its beginning.
     pub closed: bool,
-    /// Its type, as DXF names it.
+    /// Type, as DXF names it.
     pub entity: &'static str,
-    /// Its layer.
+    /// Layer.
     pub layer: String,
     /// The block that it is of.
     pub placed: Placed,
@@ -69,15 +69,15 @@ impl Curve {
     }
 }
 
-/// The curves of the layers that are wanted, and of those that are not their layers alone.
+/// The curves of the layers that are read, and of the other layers their names alone.
 pub struct Curves {
-    /// Those that are wanted.
+    /// The curves of the layers that are read.
     pub curves: Vec<Curve>,
     /// Layers of the others.
     pub others: BTreeSet<String>,
     /// The texts of all layers.
     pub texts: Vec<Text>,
-    /// Meshes that are written as polylines, on the layers that are wanted.
+    /// Meshes that are written as polylines, on the layers that are read.
     pub meshes: usize,
 }
 
@@ -234,7 +234,7 @@ impl Reader<'_> {
                     if mirrored { -ellipse.minor_axis_ratio } else { ellipse.minor_axis_ratio };
                 let start = ellipse.start_parameter;
                 let arc = Arc {
-                    centre: plane(&ellipse.center),
+                    center: plane(&ellipse.center),
                     p,
                     q: [-ratio * p[1], ratio * p[0]],
                     start,
@@ -374,7 +374,7 @@ fn plain(value: &str) -> Vec<String> {
     text.split('\n').map(words).filter(|line| !line.is_empty()).collect()
 }
 
-/// What an entity is called, a point of it, and the normal of its plane; none for what is no curve.
+/// What an entity is called, a point of it, and the normal of its plane; `None` for what is no curve.
 fn sort(entity: &EntityType) -> Option<(&'static str, Point, &Vector)> {
     Some(match entity {
         EntityType::Line(line) => ("LINE", line.p1.clone(), &line.extrusion_direction),
@@ -409,7 +409,7 @@ fn in_own_plane(entity: &EntityType) -> bool {
     }
 }
 
-/// Whether a plane is seen from behind; none for one that is inclined to the drawing.
+/// Whether a plane is seen from behind; `None` for one that is inclined to the drawing.
 fn mirrored(normal: &Vector) -> Option<bool> {
     let across = normal.x.hypot(normal.y);
     (normal.z != 0.0 && across <= ROUNDING * normal.z.abs()).then_some(normal.z < 0.0)
@@ -422,10 +422,10 @@ fn heights(entity: &EntityType) -> Option<[f64; 2]> {
         EntityType::Polyline(line) => line.vertices().map(|v| v.location.clone()).collect(),
         EntityType::Spline(spline) => spline.control_points.clone(),
         EntityType::Ellipse(ellipse) => {
-            let (centre, axis) = (&ellipse.center, &ellipse.major_axis);
+            let (center, axis) = (&ellipse.center, &ellipse.major_axis);
             vec![
-                centre.clone(),
-                Point::new(centre.x + axis.x, centre.y + axis.y, centre.z + axis.z),
+                center.clone(),
+                Point::new(center.x + axis.x, center.y + axis.y, center.z + axis.z),
             ]
         }
         _ => return None,
@@ -444,10 +444,10 @@ fn plane(point: &Point) -> [f64; 2] {
 }
 
 /// An arc of a circle, its angles in degrees.
-fn arc(centre: &Point, radius: f64, start: f64, sweep: f64, limit: Limit) -> Result<Flat, TooMany> {
+fn arc(center: &Point, radius: f64, start: f64, sweep: f64, limit: Limit) -> Result<Flat, TooMany> {
     let (p, q) = ([radius, 0.0], [0.0, radius]);
     let [start, sweep] = [start, sweep].map(f64::to_radians);
-    closed_if_whole(Arc { centre: plane(centre), p, q, start, sweep }, limit)
+    closed_if_whole(Arc { center: plane(center), p, q, start, sweep }, limit)
 }
 
 /// An arc that ends where it begins is whole, and an arc of no angle is that too.

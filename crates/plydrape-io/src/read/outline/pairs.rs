@@ -66,7 +66,7 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Where the reading of a text stands.
+/// State of the reading of a text.
 enum State<'a> {
     /// Between two sections.
     Outside,
@@ -124,7 +124,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
         if number == 0 {
             groups = 0;
             if std::mem::take(&mut frozen) {
-                // the library does not read the flag; a layer whose colour is negative is off
+                // the library does not read the flag; a layer whose color is negative is off
                 kept.push(line, b"62", b"-7");
             }
         }
@@ -182,7 +182,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
                 keeps = is_text || ENTITIES.contains(&entity);
                 if is_text {
                     kept.push(line, code, TEXTS[0]);
-                    // its own type stands where the name of its style would
+                    // its own type is where the name of its style would be
                     kept.push(line, b"7", entity);
                 } else if keeps {
                     kept.push(line, code, value);

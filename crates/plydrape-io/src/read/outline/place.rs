@@ -5,9 +5,9 @@ use std::fmt::{self, Write};
 /// A curve of a drawing, for messages: what it is, its layer, and a point of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Place {
-    /// Its type, as DXF names it.
+    /// Type, as DXF names it.
     pub entity: &'static str,
-    /// Its layer.
+    /// Layer.
     pub layer: String,
     /// A point of it (m).
     pub at: [f64; 2],

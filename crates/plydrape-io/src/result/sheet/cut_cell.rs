@@ -19,7 +19,7 @@ pub(crate) struct CutCell {
 }
 
 impl CutCell {
-    /// Those of a sheet, in order; none of a ply that ends at lines of nodes, and none where the file is of another scene.
+    /// The cut cells of a sheet, in order; empty if the ply ends at lines of nodes, or the file is of another scene.
     pub fn all(ply: &Ply, settings: &Settings, mesh: &SheetMesh) -> Vec<CutCell> {
         let Some(cut) = &ply.cut else { return Vec::new() };
         let Ok(fabric) = Fabric::of(ply, settings) else { return Vec::new() };

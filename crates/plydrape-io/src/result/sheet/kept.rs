@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// The states of a result's sheet in their file, wherever that is by now.
 ///
-/// Those of a drape are in a hidden folder as long as the result is; those of a result that was read are beside it.
+/// The states of a drape are in a hidden folder as long as the result exists; those of a result that was read are beside it.
 #[derive(Debug, Clone)]
 pub struct SheetKept {
     seal: SheetSeal,
@@ -24,13 +24,13 @@ enum Place {
 }
 
 impl SheetKept {
-    /// Those of a file that was just made.
+    /// The states in a file that was just made.
     #[must_use]
     pub fn made(file: SheetFile) -> Self {
         SheetKept { seal: file.seal().clone(), place: Place::Hidden(Arc::new(file)) }
     }
 
-    /// Those of a result that was read from a folder.
+    /// The states of a result that was read from a folder.
     #[must_use]
     pub(crate) fn read(seal: SheetSeal, folder: PathBuf) -> Self {
         SheetKept { seal, place: Place::Folder(folder) }

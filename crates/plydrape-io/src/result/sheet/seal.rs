@@ -11,7 +11,7 @@ use std::io::{self, Read};
 pub struct SheetSeal {
     /// Name of the file.
     pub file: String,
-    /// Its length (bytes).
+    /// Length (bytes).
     pub length: u64,
     /// CRC-32 of all its bytes, as in `crc32:0123abcd`.
     pub checksum: String,

@@ -173,7 +173,7 @@ mod tests {
         assert!(rest.lines().count() > 90 + result.summary.limits.len() && widest(&rest) <= 100);
     }
 
-    /// Load and pull stand beside their limits, or the words that they have none.
+    /// Load and pull are shown beside their limits, or as having none.
     #[test]
     fn margins_say_which_force_has_no_limit() {
         let mut result = sample::sheet(4, 2, 3);
@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(text, wanted);
     }
 
-    /// What a cup bears stands beside what it holds, which is more than its limit by the safety.
+    /// What a cup bears is shown beside what it holds, which is more than its limit by the safety.
     #[test]
     fn margins_say_what_a_cup_holds() {
         let mut result = sample::sheet(4, 2, 3);

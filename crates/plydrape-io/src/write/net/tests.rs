@@ -88,7 +88,7 @@ fn a_line_of_nodes_has_no_map() {
     );
 }
 
-/// Its files, and the same bytes again from the same net.
+/// Files, and the same bytes again from the same net.
 #[test]
 fn a_net_writes_its_files_twice_the_same() {
     let dir = tempfile::tempdir().unwrap();

@@ -50,7 +50,7 @@ pub fn bytes(pattern: &Pattern) -> Vec<u8> {
     pdf.finish()
 }
 
-/// A page and where the pattern stands on it.
+/// A page and the position of the pattern on it.
 struct Page {
     /// Width and height (mm).
     size: [f64; 2],

@@ -78,10 +78,10 @@ fn lines(result: &ResultFile) -> Result<Vec<Line>, Error> {
     }
     let outline = outline(result);
     let rings = outline.rings().enumerate().map(|(n, ring)| {
-        let rim = fabric.along(ring);
+        let boundary = fabric.along(ring);
         Line {
             name: if n == 0 { "boundary".into() } else { format!("hole {n}") },
-            points: rim.iter().map(|rim| rim.of(&state.positions)).collect(),
+            points: boundary.iter().map(|point| point.of(&state.positions)).collect(),
             closed: true,
         }
     });

@@ -27,7 +27,7 @@ pub enum Operation {
     Real(f64),
     /// A power whose exponent is a formula itself.
     Power,
-    /// The same with the other sign.
+    /// The number with the other sign.
     Negate,
     /// A function of one.
     Call(Function),

@@ -22,7 +22,7 @@ pub struct Gaps {
 }
 
 impl Mesh {
-    /// Gaps and steps between faces that are no wider than `width` (m); none where faces meet. A hole in a face is none.
+    /// Gaps and steps between faces that are no wider than `width` (m); `None` where faces meet. A hole in a face is none.
     #[must_use]
     pub fn gaps(&self, width: f64) -> Option<Gaps> {
         let sides = Sides::of(&self.vertices, &self.triangles);

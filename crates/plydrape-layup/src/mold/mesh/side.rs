@@ -13,7 +13,7 @@ pub(super) struct Side {
     pub ends: [u32; 2],
     /// Their places (m).
     pub points: [[f64; 3]; 2],
-    /// Its length (m).
+    /// Length (m).
     pub length: f64,
     /// Unit vector from its first end to its second.
     pub direction: [f64; 3],
@@ -46,7 +46,7 @@ impl Side {
         (share, distance(p, self.at(share)))
     }
 
-    /// Its point at a share of its length.
+    /// Point at a share of its length.
     pub fn at(&self, share: f64) -> [f64; 3] {
         along(self.points[0], share * self.length, self.direction)
     }

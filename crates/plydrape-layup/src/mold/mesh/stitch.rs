@@ -210,10 +210,10 @@ impl Stitching<'_> {
         let Some(c) = corners.into_iter().find(|n| *n != a && *n != b) else { return false };
         let mut changed = false;
         for &(share, v) in along {
-            let foot = side.at(share);
-            let away = distance(self.at(v), foot);
+            let closest = side.at(share);
+            let away = distance(self.at(v), closest);
             let place =
-                [self.at(v), foot].into_iter().find(|at| self.may_divide([a, b, c], v, *at));
+                [self.at(v), closest].into_iter().find(|at| self.may_divide([a, b, c], v, *at));
             let Some(place) = place else {
                 let [low, high] = [a.min(b), a.max(b)];
                 changed |= self.refused.insert([v, low, high]);

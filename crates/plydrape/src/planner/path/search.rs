@@ -29,7 +29,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 struct Candidate {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
-    /// Its drapes; none of one that was not draped, or of which only the score is known.
+    /// Drapes; `None` for one that was not draped, or of which only the score is known.
     drapes: Option<Drapes>,
     score: f64,
     /// The key of its drapes in the journal, until it was compared with the others.
@@ -61,7 +61,7 @@ struct Choice {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
     known: Known,
-    /// The decision itself; none if a search before has made it.
+    /// The decision itself; `None` if a search before has made it.
     decision: Option<Decision>,
 }
 
@@ -246,7 +246,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Evolution about the best until no more than so many drapes are left; a search that continues an earlier one takes other
+    /// Evolution about the best until no more than this many drapes are left; a search that continues an earlier one takes other
     /// samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>, left: usize) {
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));

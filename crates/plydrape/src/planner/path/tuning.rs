@@ -97,7 +97,7 @@ pub struct Front {
     pub finer: usize,
     /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
     pub steepest: f64,
-    /// The same for grippers on mounts.
+    /// Steepest slope that is tried first for grippers on mounts.
     pub steepest_on_mounts: f64,
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.

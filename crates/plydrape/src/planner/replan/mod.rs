@@ -43,7 +43,7 @@ use shapes::Shapes;
 /// A plan that was found and draped, with all that a correction needs of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Plan<'a> {
-    /// Its scene; the motion in it does not count.
+    /// Scene; the motion in it does not count.
     pub scene: &'a Scene,
     /// What its motion is made of.
     pub record: &'a PlanRecord,

@@ -78,7 +78,7 @@ fn planned(path: Steps, bodies: Bodies) -> Found {
     carried(path, bodies, None)
 }
 
-/// The same with a tool.
+/// The clearance along a path, with a tool.
 fn carried(path: Steps, bodies: Bodies, tool: Option<Tool>) -> Found {
     let (ply, mut settings) = (cloth(GRID), Settings::default());
     settings.model = Model::Catenaries;

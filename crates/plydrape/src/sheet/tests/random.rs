@@ -208,7 +208,7 @@ fn the_same_layup_gives_the_same_bytes() {
     }
 }
 
-/// A drape that is told to stop says so, and is not accepted.
+/// A drape that is stopped says so, and is not accepted.
 #[test]
 fn a_stopped_drape_is_interrupted() {
     let layup = layup(WHOLE);

@@ -135,7 +135,7 @@ fn a_dwell_delays_the_release_by_itself() {
     assert_eq!((gripper, time + 0.75), (same, later));
 }
 
-/// A pad that lets go on the way does so when all nodes within a cell have lain for the dwell, told from the states of the steps:
+/// A pad that lets go on the way does so when all nodes within a cell have lain for the dwell, found from the states of the steps:
 /// these surround the moment by a step. Pads that are left do at the end, and no pad holds after it has let go.
 #[test]
 fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
