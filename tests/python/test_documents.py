@@ -43,7 +43,7 @@ def test_the_readme_is_short() -> None:
 
 
 def test_every_document_says_the_version_of_the_program() -> None:
-    """That of the workspace in README, guide, citation and changelog; the page shows the program's."""
+    """The workspace's, in README, guide, citation, changelog and page."""
 
     def text(name: str) -> str:
         return (ROOT / name).read_text(encoding="utf-8")

@@ -52,7 +52,7 @@ const WIDTH: usize = 99;
 /// Prints the presets.
 pub fn run(arguments: &Arguments) -> Done {
     let text = match arguments.json {
-        true => json::of(&presets())?,
+        true => json::to_text(&presets())?,
         false => text(),
     };
     results::print(&text, &[])?;

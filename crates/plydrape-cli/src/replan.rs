@@ -149,7 +149,7 @@ fn once(
     let output = arguments.output.clone().unwrap_or_else(beside);
     let replanned = planned.replan(replanner, &seen)?;
     let answer = match arguments.json {
-        true => json::of(&Answer::of(planned, replanner, &replanned, arguments.rate)?)?,
+        true => json::to_text(&Answer::new(planned, replanner, &replanned, arguments.rate)?)?,
         false => String::new(),
     };
     let said = said(&seen, &replanned);
@@ -209,7 +209,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
             }
             Err(refusal) => {
                 refused = true;
-                json::of(&refusal)?
+                json::to_text(&refusal)?
             }
         };
         // nobody asks for what nobody reads
@@ -252,15 +252,15 @@ fn answer(
     let Request { id, seen } = json_offset(text, planned.tolerance());
     let answer = || {
         let found = planned.replan(replanner, &seen?.also_far(arguments.far))?;
-        let answer = Answer::of(planned, replanner, &found, arguments.rate)?;
+        let answer = Answer::new(planned, replanner, &found, arguments.rate)?;
         let answer = Answer { id: id.clone(), ..answer };
-        Ok((json::of(&answer)?, answer.accepted))
+        Ok((json::to_text(&answer)?, answer.accepted))
     };
     answer().map_err(|error: Error| Refusal { id: id.clone(), ..error.into() })
 }
 
 impl<'a> Answer<'a> {
-    fn of(
+    fn new(
         planned: &PlannedResult,
         replanner: &'a Replanner,
         replanned: &'a Replanned,

@@ -85,11 +85,11 @@ impl<'a> Search<'a> {
         };
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
         let cells = errors.map_or(0, |errors| errors.samples);
-        Search { cells, ..Self::of(most, unit, time, interrupt, quiet) }
+        Search { cells, ..Self::counted(most, unit, time, interrupt, quiet) }
     }
 
     /// Watches work of at most `most` pieces, counted in a `unit`.
-    pub fn of(
+    pub fn counted(
         most: usize,
         unit: &'static str,
         time: Option<Duration>,
@@ -280,7 +280,7 @@ mod tests {
     }
 
     fn height(value: f64) -> Verdict {
-        Verdict::of(Name::Height, Worst { value, at: String::new(), place: None }, 0.5, Some(30))
+        Verdict::new(Name::Height, Worst { value, at: String::new(), place: None }, 0.5, Some(30))
     }
 
     fn progress(best: &[Verdict], accepted: bool) -> Progress<'_> {

@@ -71,6 +71,6 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 
     let mut text = asked.text(&result, &table::draped(&result, took));
     text += errors::left_out(&result, interrupted, &interrupt);
-    asked.print(quiet, &Printed::of(&result, took), &text, &files)?;
+    asked.print(quiet, &Printed::new(&result, took), &text, &files)?;
     Ok(exit_code(&result, interrupted))
 }

@@ -126,8 +126,8 @@ pub fn run(arguments: &Arguments) -> Done {
         Theory::Exact => Solved::exact(span, curve)?,
     };
     let text = match arguments.json {
-        true => json::of(&solved.printed())?,
-        false => text::of(&solved),
+        true => json::to_text(&solved.printed())?,
+        false => text::text(&solved),
     };
     results::print(&text, &[])?;
     Ok(ExitCode::SUCCESS)

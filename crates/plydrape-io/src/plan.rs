@@ -62,7 +62,7 @@ fn checksum(scene: &SceneEcho) -> Result<u32, Error> {
 /// [`Error`] if a number is not finite.
 pub fn text(search: &Checkpoint, scene: &SceneEcho) -> Result<String, Error> {
     let scene = search.is_unfinished().then(|| checksum(scene)).transpose()?;
-    json::of(&Written { format: FORMAT, version: VERSION, scene, search })
+    json::to_text(&Written { format: FORMAT, version: VERSION, scene, search })
 }
 
 /// Reads the text of a plan file for a search of a scene. Of a search of another one that was cut off only its best plan is left.

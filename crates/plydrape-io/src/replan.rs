@@ -9,7 +9,7 @@ use crate::text::table::significant;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::pick_up::Offset;
-use plydrape::planner::replan::{Plan, Replanned, Replanner, SheetShapes};
+use plydrape::planner::replan::{KnownPlan, Replanned, Replanner, SheetShapes};
 use plydrape::scene::{self, Scene};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -39,10 +39,10 @@ impl PlannedResult {
             title: echo.title.clone(),
             layup: result.layup(),
             limits: echo.limits.clone(),
-            plan: scene::Plan {
+            plan: scene::PlanSettings {
                 method: record.method,
                 rate: record.rate,
-                ..scene::Plan::default()
+                ..scene::PlanSettings::default()
             },
             errors: echo.errors,
             also: false,
@@ -78,7 +78,7 @@ impl PlannedResult {
     pub fn replanner(&self) -> Result<Replanner<'_>, Error> {
         let ResultFile { plan, steps, summary, .. } = &self.result;
         let Some(record) = plan else { return Err(not_planned()) };
-        let plan = Plan { scene: &self.scene, record, steps, summary };
+        let plan = KnownPlan { scene: &self.scene, record, steps, summary };
         Ok(Replanner::new(plan, self.sheet.as_ref())?)
     }
 

@@ -131,7 +131,7 @@ impl TensionLaw {
 
 /// Mass per length and flexural rigidity of one catenary.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct LineSection {
     /// Mass per length m (kg/m).
     pub mass: f64,
     /// Flexural rigidity EI (N·m²).

@@ -103,7 +103,7 @@ pub fn answer(scene: &str, mold: Mold) -> Answer {
 }
 
 fn refused(message: &str, help: &str) -> Answer {
-    Answer::Refused(json::of(&Refused { refused: message, help }).unwrap_or_default())
+    Answer::Refused(json::to_text(&Refused { refused: message, help }).unwrap_or_default())
 }
 
 fn hanging(result: &ResultFile, form: Form) -> Result<String, Error> {
@@ -111,7 +111,7 @@ fn hanging(result: &ResultFile, form: Form) -> Result<String, Error> {
     let steps = result.steps.first().and_then(|step| Some((step, step.catenaries.as_ref()?)));
     let own = steps.map(|(step, hanging)| {
         let curves = result.curves(step);
-        json::of(&Hanging {
+        json::to_text(&Hanging {
             program: PROGRAM,
             found: hanging.solver.found(),
             status: [hanging.solver.status.name(), hanging.solver.contact.name()],

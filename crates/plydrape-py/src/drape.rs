@@ -385,7 +385,7 @@ impl Plan {
     /// which it is that for the longest as [i, j], None of the frame of a tool.
     #[getter]
     fn limited_by(&self) -> PyResult<Vec<Json>> {
-        self.record.limited_by.iter().map(Json::of).collect()
+        self.record.limited_by.iter().map(Json::new).collect()
     }
 
     /// Time of each planned step (s), shape (steps,).

@@ -206,7 +206,7 @@ impl Equilibrium {
                 (vec![2], ["u", "v"].map(String::from).to_vec(), directions)
             }
             "material" => {
-                let properties = Property::of(&ply.material);
+                let properties = Property::of_material(&ply.material);
                 let names: Vec<_> = properties.iter().map(|p| p.key().to_owned()).collect();
                 let directions: Option<Vec<_>> =
                     properties.iter().map(|p| Direction::property(&ply, *p)).collect();

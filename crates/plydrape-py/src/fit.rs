@@ -118,5 +118,5 @@ pub fn fit(
     };
     let fitted = plydrape_io::fit::fit(&Request { test, warp, weft, titles })
         .map_err(|fault| error::value(&fault))?;
-    Json::of(&fitted.json())
+    Json::new(&fitted.json())
 }

@@ -53,7 +53,7 @@ struct Rows {
 }
 
 impl Rows {
-    fn of(quantities: &[Option<Quantity>], grippers: usize) -> Self {
+    fn new(quantities: &[Option<Quantity>], grippers: usize) -> Self {
         let width = 3 * grippers;
         let value = |quantity: &Option<Quantity>| quantity.as_ref().map_or(f64::NAN, |q| q.value);
         let gradient = |quantity: &Option<Quantity>| match quantity {
@@ -123,7 +123,7 @@ pub fn outcome(
     let (found, result) = found.map_err(|fault| error::scene(&fault))?;
     let [overstretch, tilt] = [found.last_step.overstretch, found.last_step.tilt]
         .map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
-    let rows = |quantities: &[Option<Quantity>]| Rows::of(quantities, grippers);
+    let rows = |quantities: &[Option<Quantity>]| Rows::new(quantities, grippers);
     let quantities = Quantities {
         grippers,
         overstretch: rows(&overstretch),

@@ -292,13 +292,13 @@ impl Result {
     /// asked for.
     #[getter]
     fn tolerance(&self) -> PyResult<Option<Json>> {
-        self.0.summary.tolerance.as_ref().map(Json::of).transpose()
+        self.0.summary.tolerance.as_ref().map(Json::new).transpose()
     }
 
     /// The outcome by the model that decides: the `summary` of result.json.
     #[getter]
     fn summary(&self) -> PyResult<Json> {
-        Json::of(&self.0.summary)
+        Json::new(&self.0.summary)
     }
 
     /// When the pads grip, press and let go, in the order of time; empty where they hold the ply from first to last.
@@ -307,7 +307,7 @@ impl Result {
     /// [i, j]. The last release comes later than the last step where pads dwell.
     #[getter]
     fn events(&self) -> PyResult<Vec<Json>> {
-        self.0.events().iter().map(Json::of).collect()
+        self.0.events().iter().map(Json::new).collect()
     }
 
     /// Every limit, judged by the model that decides, by its name.
@@ -337,7 +337,7 @@ impl Result {
     /// >>> sorted(result.to_dict())
     /// ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
-        Json::of(&*self.0)
+        Json::new(&*self.0)
     }
 
     /// The text of result.json, with its check sum.

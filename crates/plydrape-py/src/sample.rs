@@ -91,7 +91,7 @@ impl Sample {
     /// gripper. None of catenaries.
     #[getter]
     fn highest(&self) -> PyResult<Option<Json>> {
-        self.0.highest.as_ref().map(Json::of).transpose()
+        self.0.highest.as_ref().map(Json::new).transpose()
     }
 
     /// The height at each node of the sheet that the share of the cells keeps (mm), shape (nodes,), in four digits; empty of

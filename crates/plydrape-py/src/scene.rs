@@ -99,7 +99,7 @@ pub struct Origin {
 
 impl Origin {
     /// Tables with the folder of their files.
-    fn of(scene: &SceneFile, base: &Path) -> Self {
+    fn new(scene: &SceneFile, base: &Path) -> Self {
         Origin { tables: scene.input.clone(), base: base.into(), ..Origin::default() }
     }
 }
@@ -163,7 +163,7 @@ impl Scene {
                 }
             },
         }
-        let way = motion.map(Way::of).transpose()?.flatten();
+        let way = motion.map(Way::new).transpose()?.flatten();
         if way.is_some() {
             let hold = Map::from_iter([("kind".into(), Value::String("hold".into()))]);
             keys.insert("motion".into(), Value::Table(hold));
@@ -234,7 +234,7 @@ impl Scene {
             parallel(py, || scene::read(&path)).map_err(|refused| error::scene(&refused))?;
         warn_of_old_keys(py, &scene)?;
         let whole = std::path::absolute(&path).unwrap_or(path);
-        let origin = Origin::of(&scene, whole.parent().unwrap_or(Path::new("")));
+        let origin = Origin::new(&scene, whole.parent().unwrap_or(Path::new("")));
         Ok(Scene(Arc::new(scene), origin))
     }
 
@@ -302,7 +302,7 @@ impl Scene {
         let scene = parallel(py, || scene::parse(text, &base, name));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
         warn_of_old_keys(py, &scene)?;
-        let origin = Origin::of(&scene, &base);
+        let origin = Origin::new(&scene, &base);
         Ok(Scene(Arc::new(scene), origin))
     }
 
@@ -574,7 +574,7 @@ impl Scene {
     /// {'deviation': 0.0001}
     #[getter]
     fn errors(&self) -> PyResult<Option<Json>> {
-        self.0.errors.as_ref().map(Json::of).transpose()
+        self.0.errors.as_ref().map(Json::new).transpose()
     }
 
     /// The error of every quantity in one sample of the scene's `errors`, in SI units.
@@ -608,7 +608,7 @@ impl Scene {
     /// True
     #[pyo3(signature = (sample, factor = 1.0))]
     fn draw(&self, sample: usize, factor: f64) -> PyResult<Json> {
-        Json::of(&self.drawn(sample, factor)?)
+        Json::new(&self.drawn(sample, factor)?)
     }
 
     /// The scene of one real cell: the same commands, with every error that `draw` gives for the sample.
@@ -699,7 +699,7 @@ struct Way<'py> {
 
 impl<'py> Way<'py> {
     /// The motion of a table that has positions.
-    fn of(table: &Bound<'py, PyDict>) -> PyResult<Option<Self>> {
+    fn new(table: &Bound<'py, PyDict>) -> PyResult<Option<Self>> {
         if !table.contains("positions")? {
             return Ok(None);
         }

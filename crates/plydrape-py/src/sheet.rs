@@ -217,7 +217,7 @@ impl Sheet {
     #[getter]
     fn summary(&self) -> PyResult<Json> {
         let summary = self.result.summary_of(Model::Sheet);
-        Json::of(&summary.and_then(|summary| summary.sheet.as_ref()))
+        Json::new(&summary.and_then(|summary| summary.sheet.as_ref()))
     }
 
     /// Whether every step was solved and the ply is at rest at the end.

@@ -196,7 +196,7 @@ impl Solver {
         }
         let state = state.clone();
         let shape =
-            spans::Equilibrium::of(&state.ply, &state.solver, outcome, &positions, &contacts);
+            spans::Equilibrium::new(&state.ply, &state.solver, outcome, &positions, &contacts);
         Ok(Equilibrium { state: Mutex::new(state), positions, shape })
     }
 }

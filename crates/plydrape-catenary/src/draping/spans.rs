@@ -155,7 +155,7 @@ impl Equilibrium {
 
     /// The ply that a solver has just solved, at the positions (m) and contact segments that it solved for.
     #[must_use]
-    pub fn of(
+    pub fn new(
         ply: &Ply,
         solver: &Solver,
         solved: Solved,

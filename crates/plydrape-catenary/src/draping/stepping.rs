@@ -70,7 +70,7 @@ impl<'a> Draping<'a> {
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
         }
-        Equilibrium::of(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
+        Equilibrium::new(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.

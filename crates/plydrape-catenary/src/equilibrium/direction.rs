@@ -33,7 +33,7 @@ pub enum Property {
 impl Property {
     /// The properties of a material.
     #[must_use]
-    pub fn of(material: &Material) -> &'static [Property] {
+    pub fn of_material(material: &Material) -> &'static [Property] {
         match material.section {
             Section::Line { .. } => &[Property::Mass, Property::FlexuralRigidity],
             Section::Areal { .. } => {

@@ -21,13 +21,13 @@ pub mod tuning;
 
 pub use last_step::LastStep;
 pub use row::Row;
-pub use span::Place;
+pub use span::PointDerivative;
 
 use crate::draping::spans::{Equilibrium, FreeSpan, Point};
 use crate::equilibrium::Solver;
 use crate::layup::Layup;
 use crate::ply::ContactSegment;
-use state::State;
+use state::StateDerivatives;
 use tuning::TUNING;
 
 /// A number with its gradient to all gripper positions.
@@ -62,7 +62,7 @@ pub struct Sensitivity<'a> {
 impl<'a> Sensitivity<'a> {
     /// Differentiates the last state of a solver: `shape` are its spans, `positions` (m) and `contacts`
     /// those with which it was solved. Derivatives that are negligible beside others of the same quantity are left out, see
-    /// [`tuning::Tuning`], so that the memory and the directions that it takes grow with the number of
+    /// [`tuning::SensitivityTuning`], so that the memory and the directions that it takes grow with the number of
     /// grippers and not with its square.
     #[must_use]
     pub fn new(
@@ -97,8 +97,8 @@ impl<'a> Sensitivity<'a> {
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let State { rows, paths, slopes, is_sound } =
-            State::new(&layup.ply, solver, positions, contacts, negligible);
+        let StateDerivatives { rows, paths, slopes, is_sound } =
+            StateDerivatives::new(&layup.ply, solver, positions, contacts, negligible);
         Sensitivity { layup, shape, positions, contacts, rows, paths, slopes, is_sound }
     }
 

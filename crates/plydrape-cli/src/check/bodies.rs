@@ -1,13 +1,13 @@
 //! What moves with grippers and robot, and what stands in the cell, as text.
 
-use super::Line;
+use super::SummaryLine;
 use crate::numbers::millimeters;
 use plydrape::bodies::{Mount, Shape};
 use plydrape::scene::Scene;
 use plydrape_io::store::shown;
 
 /// Bodies, then obstacles; nothing where there are none.
-pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
+pub(super) fn bodies(scene: &Scene) -> Vec<SummaryLine> {
     let bodies = scene.layup.bodies.bodies().iter().map(|body| {
         let on = match body.on {
             Mount::Pad => "each pad",
@@ -34,7 +34,7 @@ pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
 }
 
 /// Lines under one noun.
-fn numbered(noun: &'static str, texts: impl Iterator<Item = String>) -> Vec<Line> {
+fn numbered(noun: &'static str, texts: impl Iterator<Item = String>) -> Vec<SummaryLine> {
     texts.enumerate().map(|(n, text)| (if n == 0 { noun } else { "" }, text)).collect()
 }
 

@@ -1,6 +1,6 @@
 //! The cell that a verdict is reached in, as text: mounts, loads and errors in force.
 
-use super::Line;
+use super::SummaryLine;
 use super::limits::packed;
 use crate::numbers::{degrees, millimeters, short};
 use plydrape::errors::{Errors, Term};
@@ -8,7 +8,7 @@ use plydrape::scene::World;
 use plydrape_io::scene::SceneFile;
 
 /// The cell by its name, what holds the ply, and what may be off.
-pub(super) fn cell(scene: &SceneFile) -> Vec<Line> {
+pub(super) fn cell(scene: &SceneFile) -> Vec<SummaryLine> {
     let pad = &scene.layup.settings.pad;
     let ideal = scene.world() == World::Ideal;
     let name = scene.cell.as_deref().unwrap_or(if ideal { "ideal" } else { "of the scene" });

@@ -1,6 +1,6 @@
 //! The cups of an array over a ply that is cut, as text: which of them hold, and why the others do not.
 
-use super::Line;
+use super::SummaryLine;
 use super::limits::packed;
 use crate::numbers::millimeters;
 use plydrape::ply::{GripperId, gripper_name};
@@ -10,7 +10,7 @@ use plydrape_io::scene::{CupArray, LeftOff, SceneFile};
 const NAMED: usize = 6;
 
 /// How many cups of the array hold, and where it lies over the ply.
-pub(super) fn cups(scene: &SceneFile) -> Vec<Line> {
+pub(super) fn cups(scene: &SceneFile) -> Vec<SummaryLine> {
     let Some(CupArray { cups, left_off, off }) = &scene.cups else { return Vec::new() };
     let mut parts = match left_off.len() {
         0 => vec![format!("all {cups} cups of the array hold")],

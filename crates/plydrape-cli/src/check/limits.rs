@@ -1,7 +1,7 @@
 //! The limits of the model that decides, as text: those of the scene, of its preset, the usual ones, and those that follow from pads, tool
 //! and workspace.
 
-use super::Line;
+use super::SummaryLine;
 use crate::numbers::{millimeters, shown};
 use plydrape::measure::{Limits, Name, Sense};
 use plydrape::scene::Scene;
@@ -10,7 +10,7 @@ use plydrape::scene::Scene;
 const WIDTH: usize = 88;
 
 /// Every limit that the model is judged by in this layup, several a line.
-pub(super) fn limits(scene: &Scene) -> Vec<Line> {
+pub(super) fn limits(scene: &Scene) -> Vec<SummaryLine> {
     let (layup, limits) = (&scene.layup, &scene.limits);
     let usual = Limits::of(layup);
     let preset = limits.preset.map(|preset| (preset, usual.clone().with_preset(preset)));

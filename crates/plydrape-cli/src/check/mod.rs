@@ -28,7 +28,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// A noun of the scene and what it is; without a noun it goes on with the one before.
-type Line = (&'static str, String);
+type SummaryLine = (&'static str, String);
 
 /// The page of a scene.
 const PAGE: &str = "check.html";
@@ -78,7 +78,7 @@ struct Noun<'a> {
 }
 
 /// The lines of each noun, those without one with the noun before.
-fn nouns(lines: &[Line]) -> Vec<Noun<'_>> {
+fn nouns(lines: &[SummaryLine]) -> Vec<Noun<'_>> {
     let mut nouns: Vec<Noun> = Vec::new();
     for (noun, text) in lines {
         match nouns.last_mut().filter(|last| noun.is_empty() || last.noun == *noun) {
@@ -109,7 +109,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if arguments.json {
         let title = &scene.title;
         let printed = Printed { title, summary: nouns(&lines), warnings: &warnings, files: &files };
-        results::print(&json::of(&printed)?, &files)?;
+        results::print(&json::to_text(&printed)?, &files)?;
         return Ok(ExitCode::SUCCESS);
     }
     if !quiet {
@@ -126,7 +126,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 fn page(
     scene: &SceneFile,
     arguments: &Arguments,
-    lines: &[Line],
+    lines: &[SummaryLine],
     warnings: &[String],
 ) -> Result<Vec<PathBuf>, Failure> {
     let beside = || arguments.scene.with_extension("check");
@@ -145,7 +145,7 @@ fn page(
 }
 
 /// The nouns of a scene, each in a line.
-fn summary(scene: &SceneFile) -> Vec<Line> {
+fn summary(scene: &SceneFile) -> Vec<SummaryLine> {
     let ply = &scene.layup.ply;
     let mut lines = vec![("ply", shown::ply(ply))];
     lines.extend(scene.drawn.iter().flat_map(drawing::drawing).map(|text| ("", text)));

@@ -1,21 +1,21 @@
 //! What a mold is, as text.
 
-use super::Line;
+use super::SummaryLine;
 use crate::numbers::{degrees, millimeters};
 use plydrape::geometry::Pose;
 use plydrape::mold::{Face, MeshReport, Mold, Plane, Surface};
 use plydrape_io::scene::SceneFile;
 
 /// The mold, and what was repaired in a mesh: one line each.
-pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
+pub(super) fn mold(scene: &SceneFile) -> Vec<SummaryLine> {
     let Some(mold) = &scene.layup.mold else {
         return vec![("mold", "none: the ply just hangs".into())];
     };
-    of(mold, scene.mesh.as_ref())
+    shape(mold, scene.mesh.as_ref())
 }
 
 /// A mold, with what was repaired if it is a mesh.
-pub(super) fn of(mold: &Mold, report: Option<&MeshReport>) -> Vec<Line> {
+pub(super) fn shape(mold: &Mold, report: Option<&MeshReport>) -> Vec<SummaryLine> {
     let mm = |length: f64| format!("{} mm", millimeters(length));
     let side = |face: Face| match face {
         Face::Outside => "outside",
@@ -96,7 +96,7 @@ fn standing(what: &str, pose: &Pose) -> String {
 }
 
 /// A mesh in the lines of its report.
-fn mesh(report: &MeshReport) -> Vec<Line> {
+fn mesh(report: &MeshReport) -> Vec<SummaryLine> {
     let text = report.to_string();
     let nouns = std::iter::once("mold").chain(std::iter::repeat(""));
     nouns.zip(text.lines()).map(|(noun, line)| (noun, line.to_string())).collect()

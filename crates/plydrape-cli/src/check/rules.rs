@@ -1,13 +1,13 @@
 //! Rules of the models, contact, release, tool and planner, as text.
 
-use super::Line;
+use super::SummaryLine;
 use crate::numbers::{degrees, millimeters, short};
 use plydrape::geometry::Pose;
 use plydrape::layup::{ContactEnd, Model, Release, ReleaseOrder, SlopeRule, Stepping};
 use plydrape::scene::{PlanMethod, Scene};
 
 /// Rules of the models, and of contact.
-pub(super) fn rules(scene: &Scene) -> [Line; 2] {
+pub(super) fn rules(scene: &Scene) -> [SummaryLine; 2] {
     let settings = &scene.layup.settings;
     let called = |model: Model| match model {
         Model::Sheet => "sheet",
@@ -48,7 +48,7 @@ pub(super) fn rules(scene: &Scene) -> [Line; 2] {
 }
 
 /// How a motion would be planned; nothing where there is nothing to plan.
-pub(super) fn plan(scene: &Scene) -> Option<Line> {
+pub(super) fn plan(scene: &Scene) -> Option<SummaryLine> {
     let (Some(_), Some(_), plan) = (&scene.layup.mold, &scene.layup.target, &scene.plan) else {
         return None;
     };
@@ -69,7 +69,7 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
 }
 
 /// When pads let go, if they do not hold the ply to the end.
-pub(super) fn release(scene: &Scene) -> Option<Line> {
+pub(super) fn release(scene: &Scene) -> Option<SummaryLine> {
     let Release { order, dwell, .. } = scene.layup.release.as_ref()?;
     let presses = *dwell > 0.0;
     let dwell = short(*dwell);
@@ -90,7 +90,7 @@ pub(super) fn release(scene: &Scene) -> Option<Line> {
 }
 
 /// What carries the grippers, if they do not move by themselves.
-pub(super) fn tool(scene: &Scene) -> Vec<Line> {
+pub(super) fn tool(scene: &Scene) -> Vec<SummaryLine> {
     let Some(tool) = &scene.layup.tool else { return Vec::new() };
     let axis = |axis: &plydrape::tool::Axis| {
         let [least, most] = axis.stroke.map(millimeters);

@@ -1,6 +1,6 @@
 //! How the ply is draped as a sheet, as text.
 
-use super::Line;
+use super::SummaryLine;
 use crate::numbers::{millimeters, short};
 use plydrape::layup::{Friction, Model, Settings, SheetTime};
 use plydrape::scene::Scene;
@@ -8,7 +8,7 @@ use plydrape_io::error;
 use plydrape_io::result::sheet::SheetSize;
 
 /// Mesh, size of pads and friction of the sheet; nothing where catenaries decide.
-pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
+pub(super) fn sheet(scene: &Scene) -> Vec<SummaryLine> {
     let settings = &scene.layup.settings;
     if settings.model != Model::Sheet {
         return Vec::new();
@@ -38,7 +38,7 @@ fn mesh(scene: &Scene) -> String {
 
 /// How large it is; the scene was refused where it cannot be draped.
 fn size(scene: &Scene) -> String {
-    match SheetSize::of(scene) {
+    match SheetSize::new(scene) {
         Ok(SheetSize { nodes, mesh, memory }) => format!(
             "{nodes} nodes, at most {} mm apart; about {} of memory",
             millimeters(mesh),

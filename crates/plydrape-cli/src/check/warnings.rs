@@ -91,7 +91,7 @@ fn reach_beyond_cups(ply: &Ply, overhang: f64) -> f64 {
 fn fine_mesh(scene: &SceneFile) -> Option<String> {
     let layup = &scene.layup;
     let cut = layup.ply.cut.as_ref().filter(|_| layup.settings.model == Model::Sheet)?;
-    let SheetSize { nodes, mesh, .. } = SheetSize::of(scene).ok()?;
+    let SheetSize { nodes, mesh, .. } = SheetSize::new(scene).ok()?;
     let least = cut.outline.area() / (mesh * mesh);
     let times = nodes as f64 / least;
     (times > FINE && cut.turn != 0.0).then(|| {

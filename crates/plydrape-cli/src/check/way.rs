@@ -1,6 +1,6 @@
 //! The way of the grippers, as text: the start, the target, and how far apart they are.
 
-use super::Line;
+use super::SummaryLine;
 use crate::numbers::{degrees, millimeters, short};
 use plydrape::ply::{Direction, GripperId, Ply, gripper_name};
 use plydrape::scene::Scene;
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 const ROUNDING: f64 = 1e-9;
 
 /// The motion, the start, the target and the longest way between them.
-pub(super) fn way(scene: &Scene) -> Vec<Line> {
+pub(super) fn way(scene: &Scene) -> Vec<SummaryLine> {
     let mut lines = vec![("motion", motion(scene)), ("start", place(start(scene)))];
     lines.push(("target", target(scene)));
     if let Some(target) = &scene.layup.target {

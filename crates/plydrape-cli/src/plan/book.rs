@@ -75,7 +75,7 @@ pub fn plan(
         outcome::warn(&ply.scene.notices.iter().map(of_ply).collect::<Vec<_>>());
     }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
-    let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::of).collect();
+    let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::new).collect();
     if !found.is_empty() {
         let lines = found.iter().map(|ply| format!("ply {}: {}", ply.ply, ply.text()));
         say_infeasible(&lines.collect::<String>(), &found, arguments, quiet)?;
@@ -186,7 +186,7 @@ struct Infeasible<'a> {
 }
 
 impl<'a> Infeasible<'a> {
-    fn of(ply: &'a BookPly) -> Option<Self> {
+    fn new(ply: &'a BookPly) -> Option<Self> {
         let limits = infeasible_limits(&ply.scene);
         (!limits.is_empty()).then_some(Infeasible { ply: &ply.name, limits })
     }
@@ -218,7 +218,7 @@ fn one(
     let (_, ended) = search.finish();
     let found = arguments.judged(scene, planned?, folder.stage(), &interrupt, true)?;
     let Found { result, checkpoint, .. } = &found;
-    let record = PlyRecord::of(book, index, result);
+    let record = PlyRecord::new(book, index, result);
     let interrupted = found.is_interrupted(ended, &interrupt);
     let done = found.is_done();
     let unsolved = outcome::is_unsolved(result);

@@ -26,7 +26,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    fn of(planned: &Planned) -> Self {
+    fn new(planned: &Planned) -> Self {
         let peaks = planned.motion.peaks();
         Motion {
             duration_s: planned.motion.duration(),
@@ -83,7 +83,7 @@ impl Arguments {
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Found, Failure> {
-        let (motion, checkpoint) = (Motion::of(&planned), planned.checkpoint.clone());
+        let (motion, checkpoint) = (Motion::new(&planned), planned.checkpoint.clone());
         let (decisions, solving) = (planned.decisions, planned.outcome.drape.solving);
         let along = planner::along(scene, &planned.motion);
         let steps = planned.motion.steps();

@@ -104,7 +104,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     // what is beside is where the search goes on from
     kept.map_or(Ok(()), |kept| kept.remove(plan::RUNNING))?;
     let printed = Printed {
-        drape: outcome::Printed::of(result, *solving),
+        drape: outcome::Printed::new(result, *solving),
         method: scene.plan.method,
         plan_time_s: took.as_secs_f64(),
         evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),
@@ -170,7 +170,7 @@ fn say_infeasible<T: Serialize>(
 ) -> Result<(), Failure> {
     let said = match (arguments.results.json, arguments.anyway) {
         (true, true) => return Ok(()),
-        (true, false) => json::of(&Infeasible { accepted: false, infeasible_limits: limits })?,
+        (true, false) => json::to_text(&Infeasible { accepted: false, infeasible_limits: limits })?,
         _ if quiet => return Ok(()),
         (false, true) => format!("{text}\n"),
         (false, false) => format!(

@@ -9,7 +9,7 @@ use std::fmt::Write;
 const POINTS: usize = 400;
 
 /// Everything a person wants to know of a span.
-pub fn of(solved: &Solved) -> String {
+pub fn text(solved: &Solved) -> String {
     let span = &solved.span;
     let rise = match span.rise {
         0.0 => "level".to_string(),

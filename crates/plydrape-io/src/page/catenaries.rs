@@ -182,7 +182,7 @@ fn shape(result: &ResultFile, step: &Step, detail: &Detail) -> Shape {
     };
     let across = along.split_off(graph.edges().min(along.len()));
     Shape {
-        surface: Surface::of(result, step, &curves, detail.intervals),
+        surface: Surface::from_curves(result, step, &curves, detail.intervals),
         fibers: if are_alone(result) { along.concat() } else { Vec::new() },
         diagonals: if drawn > graph.edges() { across.concat() } else { Vec::new() },
         contacts: contacts(result, step, &curves),

@@ -55,7 +55,7 @@ pub(super) fn look(scene: &SceneFile) -> Look {
     let on_mold = net.zip(mold.as_ref());
     let place = |uv| on_mold.and_then(|(net, mold)| net.place_or_node(mold, uv));
     let outline = on_mold.and_then(|(net, mold)| net.boundary(mold)).map(|boundary| {
-        let line = |line: &plydrape::net::Line| {
+        let line = |line: &plydrape::net::BoundaryLine| {
             let points = line.points.iter().map(|point| point.place);
             let again = line.points.first().filter(|_| line.closed).map(|point| point.place);
             points.chain(again).collect()

@@ -129,7 +129,7 @@ impl Form {
 /// # Errors
 /// As [`html`].
 pub fn data(result: &ResultFile, form: Form) -> Result<String, Error> {
-    crate::store::json::of(&page(result, form)?)
+    crate::store::json::to_text(&page(result, form)?)
 }
 
 /// The page of a result. Same result, same bytes.
@@ -159,7 +159,7 @@ pub fn look_html(
     let (look, left_out) =
         (Some(look(scene)), warnings.iter().map(|text| look::sentence(text)).collect());
     let page = Page { facts, look, left_out, ..page(&result, Form::FILE)? };
-    filled(&result, &crate::store::json::of(&page)?)
+    filled(&result, &crate::store::json::to_text(&page)?)
 }
 
 /// The page with its title and its data.

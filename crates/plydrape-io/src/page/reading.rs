@@ -122,7 +122,7 @@ mod tests {
 
     fn judged(limits: &[(Name, f64)]) -> Vec<Verdict> {
         let worst = || Worst { value: 0.0, at: String::new(), place: None };
-        limits.iter().map(|(name, limit)| Verdict::of(*name, worst(), *limit, None)).collect()
+        limits.iter().map(|(name, limit)| Verdict::new(*name, worst(), *limit, None)).collect()
     }
 
     /// A pad tilted by 30° under 6 N straight down has 3 N along the ply and 5.196 N off the pad; pressed, it has none of that.

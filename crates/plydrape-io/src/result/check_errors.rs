@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-9;
 /// What is impossible in the world and the sample of a result and in what it tolerates.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let summary = &result.summary;
-    if summary.world != World::of(&result.scene.settings.pad, summary.sample.is_some()) {
+    if summary.world != World::new(&result.scene.settings.pad, summary.sample.is_some()) {
         return Some(format!("its world is {:?}, and not that of its scene", summary.world));
     }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);

@@ -102,7 +102,7 @@ impl Serialize for Steps<'_> {
         let mut known = Known::default();
         let mut list = to.serialize_seq(Some(self.0.len()))?;
         for step in self.0 {
-            list.serialize_element(&StepColumns::of(step, &mut known))?;
+            list.serialize_element(&StepColumns::new(step, &mut known))?;
         }
         list.end()
     }

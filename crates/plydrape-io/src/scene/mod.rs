@@ -174,7 +174,7 @@ fn in_folder(path: &Path) -> String {
 
 /// The refusal of a file that is something else than a scene, if its bytes tell.
 fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<Error> {
-    let kind = FileKind::of(bytes).filter(|kind| *kind != FileKind::Scene)?;
+    let kind = FileKind::detect(bytes).filter(|kind| *kind != FileKind::Scene)?;
     let file = shown::name(name);
     let message = format!("`{file}` is {}, not a scene", kind.name());
     Some(source::Document::new(name, "").error_anywhere(message, kind.in_place_of_a_scene(&file)))

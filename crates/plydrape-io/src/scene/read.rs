@@ -140,7 +140,7 @@ fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
             ),
         };
     }
-    if let Some(kind) = FileKind::of(&bytes)
+    if let Some(kind) = FileKind::detect(&bytes)
         && !matches!(kind, FileKind::Scene | FileKind::Table)
         && (std::str::from_utf8(&bytes).is_err() || bytes.contains(&0))
     {

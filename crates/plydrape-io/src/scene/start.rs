@@ -1,7 +1,7 @@
 //! Where the grippers start.
 
 use super::check::Surroundings;
-use super::choice::Place;
+use super::choice::PlaceChoice;
 use crate::Error;
 
 use super::file::GrippersTable;
@@ -118,11 +118,11 @@ fn rectangle(
             ));
         }
         (Some(origin), None) => match (&origin.value, target) {
-            (Place::At(origin), _) => coordinates(origin, document, &usual::PLACE)?,
-            (Place::Keyword(_), Some(target)) => {
+            (PlaceChoice::At(origin), _) => coordinates(origin, document, &usual::PLACE)?,
+            (PlaceChoice::Keyword(_), Some(target)) => {
                 shift(middle(&target.grippers), middle(&unmoved().grippers(ply, distances)))
             }
-            (Place::Keyword(_), None) => {
+            (PlaceChoice::Keyword(_), None) => {
                 return Err(document.error(
                     origin.span.clone(),
                     "the start shall be centered above the target, and the scene has no target",
@@ -147,7 +147,7 @@ fn rectangle(
 
 /// Whether the rectangle shall be above the middle of the target.
 fn is_centered(keys: &GrippersTable) -> bool {
-    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, Place::Keyword(_)))
+    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, PlaceChoice::Keyword(_)))
 }
 
 /// The plane above which the rectangle lies: the mold, or z = 0.

@@ -128,7 +128,7 @@ impl<'de> Deserializer<'de> for Tree<'_, '_> {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         if name == LOCATED {
-            return visitor.visit_seq(Place { value: self, given: 0 });
+            return visitor.visit_seq(PlacedValue { value: self, given: 0 });
         }
         self.deserialize_any(visitor)
     }
@@ -203,12 +203,12 @@ where
 }
 
 /// The place of a value, and the value.
-struct Place<'t, 'i> {
+struct PlacedValue<'t, 'i> {
     value: Tree<'t, 'i>,
     given: u8,
 }
 
-impl<'de> SeqAccess<'de> for Place<'_, '_> {
+impl<'de> SeqAccess<'de> for PlacedValue<'_, '_> {
     type Error = Fault;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(

@@ -170,7 +170,7 @@ usual! {
 
 impl Usual {
     /// What is found in practice of a limit or what is like it.
-    pub(super) fn of<M: Measure>(practice: &Practice) -> Self {
+    pub(super) fn from_practice<M: Measure>(practice: &Practice) -> Self {
         let others: &[&str] = match M::UNIT {
             "m" => LENGTHS,
             "m/s" => &["mm/s"],
@@ -232,7 +232,7 @@ impl Usual {
 
 /// What is usual of the duration of a motion.
 pub(super) fn duration() -> Usual {
-    Usual::of::<Time>(&Practice::DURATION)
+    Usual::from_practice::<Time>(&Practice::DURATION)
 }
 
 /// What is usual of an error of a cell.

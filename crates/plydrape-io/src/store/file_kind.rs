@@ -27,7 +27,7 @@ const HEAD: usize = 4096;
 
 impl FileKind {
     /// The kind of a file, if its bytes tell.
-    pub fn of(bytes: &[u8]) -> Option<FileKind> {
+    pub fn detect(bytes: &[u8]) -> Option<FileKind> {
         Self::of_start(bytes, bytes.len() as u64)
     }
 
@@ -223,7 +223,7 @@ mod tests {
             (b"hello\n", None),
         ];
         for (bytes, kind) in cases {
-            assert_eq!(FileKind::of(bytes), kind, "{}", String::from_utf8_lossy(bytes));
+            assert_eq!(FileKind::detect(bytes), kind, "{}", String::from_utf8_lossy(bytes));
         }
     }
 

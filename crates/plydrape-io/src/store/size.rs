@@ -5,7 +5,7 @@
 
 use crate::{Error, error};
 use plydrape::ply::Ply;
-use plydrape::scene::{Plan, PlanMethod};
+use plydrape::scene::{PlanMethod, PlanSettings};
 use std::env;
 
 /// Environment variable that holds another budget, as in `16 GB`.
@@ -117,7 +117,7 @@ pub struct PlanSheets {
 ///
 /// # Errors
 /// As [`check`].
-pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Error> {
+pub fn plan(ply: &Ply, plan: &PlanSettings, sheets: Option<PlanSheets>) -> Result<(), Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let (program, cores) = match plan.method {
         PlanMethod::Path => (0.0, cores),

@@ -255,7 +255,7 @@ mod tests {
         let before = (verdict_in_a_line(&result, &result.summary), verdict(&result, Ink::Plain));
         let mut also = sample::draped(4, 2, 3);
         let worst = Worst { value: 90.0, at: "gripper g0_0".into(), place: None };
-        also.summary.limits = vec![Verdict::of(Name::Tilt, worst, 40.0, Some(3))];
+        also.summary.limits = vec![Verdict::new(Name::Tilt, worst, 40.0, Some(3))];
         also.summary.status = Status::Torn;
         result.also = Some(sample::also(also));
         assert!(result.summary.accepted());

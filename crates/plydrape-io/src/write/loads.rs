@@ -51,7 +51,7 @@ pub(crate) struct Stiffness {
 
 impl Stiffness {
     /// That of mounts that yield along some axis.
-    fn of(pad: &PadSettings) -> Option<Self> {
+    fn new(pad: &PadSettings) -> Option<Self> {
         let [lateral, axial] =
             [pad.lateral_stiffness, pad.axial_stiffness].map(|k| k.map(|k| k * PER_MM));
         (lateral.is_some() || axial.is_some()).then_some(Stiffness { lateral, axial })
@@ -61,7 +61,7 @@ impl Stiffness {
 impl Loads {
     /// The loads of a result; `None` without steps.
     pub fn of(result: &ResultFile) -> Option<Self> {
-        let mounts = Stiffness::of(&result.scene.settings.pad);
+        let mounts = Stiffness::new(&result.scene.settings.pad);
         let mut times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
         let mut steps: Vec<Vec<Load>> = result.steps.iter().map(of_step).collect();
         let (end, loads) = times.last().copied().zip(steps.last().cloned())?;

@@ -6,7 +6,7 @@ use plydrape::layup::{Model, Release, ReleaseOrder};
 use plydrape::motion::TimedMotion;
 use plydrape::planner::PlanRecord;
 use plydrape::scene::{PlanMethod, Scene};
-use plydrape::sheet::{State, Tuning};
+use plydrape::sheet::{ClothState, SheetTuning};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -37,13 +37,13 @@ fn draped(scene: &Scene) -> (ResultFile, tempfile::TempDir) {
 }
 
 /// All states of the sheet of a scene.
-fn states(scene: &Scene) -> Vec<State> {
+fn states(scene: &Scene) -> Vec<ClothState> {
     let mut seen = Vec::new();
-    let see = |_: &_, state: &State, _| {
+    let see = |_: &_, state: &ClothState, _| {
         seen.push(state.clone());
         ControlFlow::Continue(())
     };
-    plydrape::sheet::drape(&scene.layup, Tuning::default(), 5e-4, &|| false, see).unwrap();
+    plydrape::sheet::drape(&scene.layup, SheetTuning::default(), 5e-4, &|| false, see).unwrap();
     seen
 }
 

@@ -40,11 +40,11 @@ impl Surface {
     /// is one row of points.
     #[must_use]
     pub fn new(result: &ResultFile, step: &Step, intervals: usize) -> Self {
-        Surface::of(result, step, &result.curves(step), intervals)
+        Surface::from_curves(result, step, &result.curves(step), intervals)
     }
 
     /// The surface between the curves of a step.
-    pub(crate) fn of(
+    pub(crate) fn from_curves(
         result: &ResultFile,
         step: &Step,
         curves: &[Vec<Vec<Point>>],

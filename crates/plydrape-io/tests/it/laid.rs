@@ -67,7 +67,7 @@ fn a_searched_seed_is_the_same_for_the_net_and_for_the_drape() {
     let plain = laid(home.path(), &text.replace("\"best\"", "\"middle\""));
     assert!(largest(net) < 0.95 * largest(&plain.net), "{} {}", largest(net), largest(&plain.net));
     let summary =
-        Summary::of(net, &Findings::of(net, &ideal.mold, None, ideal.seeds.clone()), None);
+        Summary::new(net, &Findings::new(net, &ideal.mold, None, ideal.seeds.clone()), None);
     let search = summary.search.expect("a search");
     assert!((search.held_max_shear_deg.unwrap().to_radians() - largest(&plain.net)).abs() < 1e-12);
     assert_eq!(search.max_shear_deg, summary.max_shear_deg);
@@ -107,7 +107,7 @@ fn trim_of_a_scene_is_measured_from_its_file() {
     arcs.iter().rev().for_each(|arc| row(-165.0, *arc));
     std::fs::write(home.path().join("edge.csv"), rows).unwrap();
     let ideal = laid(home.path(), &sheet("trim = \"edge.csv\""));
-    let findings = Findings::of(&ideal.net, &ideal.mold, ideal.wanted.as_ref(), None);
+    let findings = Findings::new(&ideal.net, &ideal.mold, ideal.wanted.as_ref(), None);
     let trim = findings.trim.expect("a trim");
     let (beyond, short) = (trim.beyond.unwrap().error, trim.short.unwrap().error);
     // chords of the file's points are 0.007 mm off the mold
@@ -139,8 +139,8 @@ fn what_hangs_over_between_nodes_is_not_accepted() {
     let (_, tail) = tail.split_once("[target]").unwrap();
     let ideal = laid(home.path(), &format!("{head}{formula}[target]{tail}"));
     assert!(ideal.net.missing.is_empty());
-    let findings = Findings::of(&ideal.net, &ideal.mold, None, None);
-    let summary = Summary::of(&ideal.net, &findings, None);
+    let findings = Findings::new(&ideal.net, &ideal.mold, None, None);
+    let summary = Summary::new(&ideal.net, &findings, None);
     assert!(!summary.accepted);
     assert!(summary.verdict().contains("4 mm beyond the mold's boundary"), "{}", summary.verdict());
     let boundary = summary.boundary.unwrap();
@@ -153,7 +153,7 @@ fn what_hangs_over_between_nodes_is_not_accepted() {
 fn boundary_and_seeds_are_written() {
     let home = tempfile::tempdir().unwrap();
     let ideal = laid(home.path(), &scene("seed = \"best\"\ndirection = \"best\""));
-    let findings = Findings::of(&ideal.net, &ideal.mold, None, ideal.seeds.clone());
+    let findings = Findings::new(&ideal.net, &ideal.mold, None, ideal.seeds.clone());
     let out = home.path().join("out");
     let files =
         plydrape_io::write::net::write_all(&ideal.net, &ideal.mold, &findings, "L", &out, &[])

@@ -129,7 +129,7 @@ fn mounts_tolerate_ten_times_the_errors_of_rigid_grippers() {
         scene.layup.motion = planned.motion.steps();
         scene.layup.settings.contact.stepping = Stepping::Cut;
         let watch = Watch { stop: &|| false, done: &|_, _| {} };
-        Tolerance::of(&scene, &watch).expect("not stopped").gripper_mm
+        Tolerance::new(&scene, &watch).expect("not stopped").gripper_mm
     };
     let [rigid, mounted] = [&rigid, &mounted].map(tolerated);
     assert!(mounted > 10.0 * rigid, "rigid {rigid}, on mounts {mounted}");

@@ -145,7 +145,7 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
     let mut solver = Solver::new(&ply.scene.layup.ply, &ply.scene.layup.settings);
     let equilibrium = solver.solve(&positions, &ply.contacts);
     let shape =
-        Equilibrium::of(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
+        Equilibrium::new(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
     Solved { solver, shape, positions }
 }
 

@@ -25,7 +25,7 @@ pub struct PlyPoint {
 
 /// A part of the boundary that lies on the mold without a gap.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct BoundaryLine {
     /// The ring it belongs to: 0 is the outer boundary, holes follow.
     pub ring: usize,
     /// All of its ring: its last point is followed by its first, which is not repeated.
@@ -61,7 +61,7 @@ pub struct Farthest {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
     /// The parts that lie on the mold.
-    pub lines: Vec<Line>,
+    pub lines: Vec<BoundaryLine>,
     /// Their length along the mold (m).
     pub length: f64,
     /// Length of fabric of the outer boundary that has no place on the mold (m).
@@ -222,7 +222,7 @@ impl Walk<'_> {
                 pairs.map(|[a, b]| EdgeRule::Along.length(&line[a].1, &line[b].1)).sum::<f64>();
             let point =
                 |(uv, s): &([f64; 2], SurfacePoint)| PlyPoint { fabric: *uv, place: s.point };
-            self.found.lines.push(Line {
+            self.found.lines.push(BoundaryLine {
                 ring,
                 closed,
                 points: line.iter().map(point).collect(),
@@ -266,7 +266,7 @@ impl Walk<'_> {
     /// Area of the ply that has no place on the mold.
     fn areas(&mut self, outline: &Outline) {
         let placement = self.net.placement;
-        let coverage = Coverage::of(&placement, Some(outline));
+        let coverage = Coverage::new(&placement, Some(outline));
         let [nu, nv] = placement.nodes;
         for [i, j] in (0..nv - 1).flat_map(|j| (0..nu - 1).map(move |i| [i, j])) {
             if coverage.share([i, j]) > 0.0 {

@@ -31,7 +31,7 @@ mod surface_point;
 mod trim;
 mod tuning;
 
-pub use boundary::{Boundary, Farthest, LeftOut, Line, PlyPoint};
+pub use boundary::{Boundary, BoundaryLine, Farthest, LeftOut, PlyPoint};
 pub use coverage::Coverage;
 pub use edge::EdgeRule;
 pub use missing::{Missing, Reason};
@@ -88,7 +88,7 @@ impl Net {
         placement: Placement,
         outline: Option<Outline>,
     ) -> Result<Self, Error> {
-        let coverage = Coverage::of(&placement, outline.as_ref());
+        let coverage = Coverage::new(&placement, outline.as_ref());
         let net = Net::drape_covered(mold, placement, &coverage)?;
         Ok(Net { outline, ..net })
     }
@@ -134,7 +134,7 @@ impl Net {
                 let ring = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 shear.push(match ring {
                     [Some(a), Some(b), Some(c), Some(d)] if coverage.counts([i, j]) => {
-                        Some(CellShear::of([a, b, c, d], placement.edges))
+                        Some(CellShear::new([a, b, c, d], placement.edges))
                     }
                     _ => None,
                 });
@@ -147,7 +147,7 @@ impl Net {
     /// Which nodes and cells are on the ply.
     #[must_use]
     pub fn coverage(&self) -> Coverage {
-        Coverage::of(&self.placement, self.outline.as_ref())
+        Coverage::new(&self.placement, self.outline.as_ref())
     }
 
     /// The node at grid indices `[i, j]` (m), if it has a place.

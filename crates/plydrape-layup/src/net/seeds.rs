@@ -197,7 +197,7 @@ impl<'a> Search<'a> {
         };
         let first = [0, 1].map(|n| placement.seed[n] as isize - (before[n] * step) as isize);
         let in_place = if step > 1 { TUNING.about_in_place } else { TUNING.in_place };
-        Search { mold, held, coverage: Coverage::of(&held, outline), step, first, in_place }
+        Search { mold, held, coverage: Coverage::new(&held, outline), step, first, in_place }
     }
 
     /// A node in the net of the scene.

@@ -29,7 +29,7 @@ impl Net {
         let Mold::Mesh(mesh) = mold else { return None };
         let outline = self.ply_outline()?;
         let width = self.placement.mesh[0].max(self.placement.mesh[1]);
-        let cells = Cells::of(self, 2.0 * width);
+        let cells = Cells::new(self, 2.0 * width);
         let mut found = SharpEdges { length: 0.0, sharpest: None };
         for edge in mesh.sharp_edges(TUNING.sharp) {
             let [a, b] = edge.ends;
@@ -69,7 +69,7 @@ struct Cells {
 }
 
 impl Cells {
-    fn of(net: &Net, side: f64) -> Self {
+    fn new(net: &Net, side: f64) -> Self {
         let [nu, nv] = net.placement.nodes;
         let mut by_cube: HashMap<[i64; 3], Vec<[usize; 2]>> = HashMap::new();
         for j in 0..nv - 1 {

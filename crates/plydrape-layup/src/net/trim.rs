@@ -4,7 +4,7 @@
 //! order in the distance on other molds. The side follows from the target boundary at its closest point: it runs around the
 //! ply in the sense of the ply's own boundary.
 
-use super::boundary::{Boundary, Line, PlyPoint};
+use super::boundary::{Boundary, BoundaryLine, PlyPoint};
 use super::edge::EdgeRule;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
@@ -124,7 +124,7 @@ impl Boundary {
     pub fn trim(&self, mold: &Mold, wanted: &Wanted) -> Option<Trim> {
         let surface = ExtendedSurface::new(mold);
         let curve = wanted.lines();
-        let outer: Vec<&Line> = self.lines.iter().filter(|line| line.ring == 0).collect();
+        let outer: Vec<&BoundaryLine> = self.lines.iter().filter(|line| line.ring == 0).collect();
         let own: Vec<[SurfacePoint; 2]> = outer.iter().flat_map(|line| pieces(line)).collect();
 
         let mut found: Vec<Vec<Beside>> = Vec::with_capacity(outer.len());
@@ -190,12 +190,12 @@ struct Beside {
     tangent: [f64; 3],
 }
 
-fn point(line: &Line, n: usize) -> SurfacePoint {
+fn point(line: &BoundaryLine, n: usize) -> SurfacePoint {
     SurfacePoint { point: line.points[n].place, normal: line.normals[n], beyond: 0.0 }
 }
 
 /// The lines between neighboring points.
-fn pieces(line: &Line) -> Vec<[SurfacePoint; 2]> {
+fn pieces(line: &BoundaryLine) -> Vec<[SurfacePoint; 2]> {
     let count = line.points.len();
     let last = if line.closed { count } else { count - 1 };
     (0..last).map(|n| [point(line, n), point(line, (n + 1) % count)]).collect()

@@ -2,7 +2,7 @@
 
 /// Tolerances and limits of the net of the ideal drape.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tuning {
+pub(crate) struct NetTuning {
     /// Distance of the seed from the mold, as a share of the smaller mesh width, up to which it lies on the mold.
     pub seed_distance: f64,
     /// Vertical part of the unit normal at the seed up to which the mold is upright there, so that a heading in plan has no
@@ -82,7 +82,7 @@ pub(crate) struct Tuning {
 }
 
 /// The constants in use.
-pub(crate) const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: NetTuning = NetTuning {
     seed_distance: 1e-4,
     upright: 1e-6,
     largest_shear: 89.0 / 180.0 * std::f64::consts::PI,

@@ -22,7 +22,7 @@ pub use outline::{Outline, Ring};
 pub use places::{FARTHEST, STEEPEST, is_near};
 pub use ruck::Ruck;
 
-use crate::material::{Line, Material, Section};
+use crate::material::{LineSection, Material, Section};
 
 /// A woven ply held by grippers: a rectangle that ends at its array of grippers, or as it is cut.
 ///
@@ -142,9 +142,9 @@ impl Ply {
     /// With areal properties each fiber line stands for a strip as wide as it is to the next one: `b` for the lines along
     /// u, `a` for those along v. A bias line is no tow; it takes the mean of the array's pitches, and of both rigidities.
     #[must_use]
-    pub fn line(&self, kind: Kind) -> Line {
+    pub fn line(&self, kind: Kind) -> LineSection {
         match self.material.section {
-            Section::Line { mass, flexural_rigidity } => Line { mass, flexural_rigidity },
+            Section::Line { mass, flexural_rigidity } => LineSection { mass, flexural_rigidity },
             Section::Areal { mass, warp_rigidity, weft_rigidity } => {
                 let (along_u, along_v) = match self.warp {
                     Direction::U => (warp_rigidity, weft_rigidity),
@@ -157,7 +157,7 @@ impl Ply {
                     Kind::EdgeV => (wide_v, along_v),
                     Kind::Rising | Kind::Falling => ((a + b) / 2.0, (along_u + along_v) / 2.0),
                 };
-                Line { mass: mass * width, flexural_rigidity: rigidity * width }
+                LineSection { mass: mass * width, flexural_rigidity: rigidity * width }
             }
         }
     }

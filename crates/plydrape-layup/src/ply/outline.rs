@@ -268,17 +268,17 @@ fn checked(mut ring: Ring, n: usize) -> Result<Ring, Error> {
 
 /// Refuses lines that meet other than end to end; lines are taken in the order of their lowest x.
 fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
-    struct Line {
+    struct RingSide {
         ring: usize,
         place: usize,
         ends: [[f64; 2]; 2],
     }
-    let of = |(ring, points): (usize, &Ring)| -> Vec<Line> {
-        let number = |(place, ends)| Line { ring, place, ends };
+    let of = |(ring, points): (usize, &Ring)| -> Vec<RingSide> {
+        let number = |(place, ends)| RingSide { ring, place, ends };
         lines(points).enumerate().map(number).collect()
     };
-    let mut all: Vec<Line> = rings.iter().enumerate().flat_map(of).collect();
-    let span = |line: &Line| {
+    let mut all: Vec<RingSide> = rings.iter().enumerate().flat_map(of).collect();
+    let span = |line: &RingSide| {
         let [a, b] = line.ends;
         [a[0].min(b[0]), a[0].max(b[0])]
     };

@@ -70,7 +70,7 @@ struct Record {
 }
 
 impl Record {
-    fn of(specimen: &TimedSpecimen) -> Result<Self, Error> {
+    fn new(specimen: &TimedSpecimen) -> Result<Self, Error> {
         let TimedSpecimen { name, test, points, times } = specimen;
         let trellis = ShearTest::Bias(*test);
         trellis.check()?;
@@ -162,7 +162,7 @@ fn solved(records: &[Record], relaxation: Option<f64>) -> Option<(DVector<f64>, 
 /// The errors of [`ShearTest::check`]; [`Error::FitTooFew`] and [`Error::FitPoint`] for a record; [`Error::FitNoRate`] if the tests do not
 /// show it.
 pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
-    let records: Result<Vec<Record>, Error> = specimens.iter().map(Record::of).collect();
+    let records: Result<Vec<Record>, Error> = specimens.iter().map(Record::new).collect();
     let records = records?;
     let none = || Error::FitNoRate;
     let pauses = records.iter().flat_map(|record| record.times.windows(2));

@@ -50,7 +50,7 @@ pub(super) fn largest_ruck(seen: &Observation, property: impl Fn(&Ruck) -> f64) 
     let mut most = Most::default();
     for (edge, segment) in seen.edges() {
         let line = ply.line(lines.catenary(edge).kind);
-        let ruck = Ruck::of(segment.slack(), line.flexural_rigidity, line.mass * gravity);
+        let ruck = Ruck::from_slack(segment.slack(), line.flexural_rigidity, line.mass * gravity);
         most.meet(ruck.as_ref().map_or(0.0, &property), segment.site, segment.place);
     }
     most

@@ -62,7 +62,7 @@ pub struct Effort {
 impl Effort {
     /// That of a finished drape.
     #[must_use]
-    pub fn of(drape: &sheet::Drape) -> Self {
+    pub fn new(drape: &sheet::Drape) -> Self {
         let sheet::Report { nodes, solves, .. } = drape.report;
         Effort { nodes, solves, time: drape.duration }
     }

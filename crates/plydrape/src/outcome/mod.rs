@@ -117,8 +117,8 @@ pub(crate) fn keeping_states(
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Drape, Error> {
     let (steps, keep) = (scene.layup.motion.positions.len(), scene.layup.settings.sheet.keep);
-    let mut states: Vec<sheet::State> = Vec::new();
-    let mut see = |step: usize, state: Option<&sheet::State>| {
+    let mut states: Vec<sheet::ClothState> = Vec::new();
+    let mut see = |step: usize, state: Option<&sheet::ClothState>| {
         if let Some(state) = state.filter(|state| sheet::is_kept(state.step, steps, keep)) {
             states.push(state.clone());
         }

@@ -42,7 +42,7 @@ impl RateTolerance {
     /// How fast the ply of a scene may be draped along its motion, of which is known whether it is accepted as it is; `None` if it was
     /// stopped, or time does not matter.
     #[must_use]
-    pub fn of(scene: &Scene, is_accepted: bool, watch: &Watch) -> Option<Self> {
+    pub fn new(scene: &Scene, is_accepted: bool, watch: &Watch) -> Option<Self> {
         let rate = Self::applies_to(&scene.layup)?;
         let keeps = |octave: i32| {
             let mut other = Scene { errors: None, ..scene.clone() };

@@ -10,8 +10,8 @@ use crate::scene::World;
 fn limits(steps: usize, height: f64) -> Vec<Verdict> {
     let worst = Worst { value: height, at: "fabric point (1.0, 2.0) mm".into(), place: None };
     vec![
-        Verdict::of(Name::Height, worst.clone(), 0.5, Some(steps)),
-        Verdict::of(Name::Position, worst, 2.0, Some(steps)),
+        Verdict::new(Name::Height, worst.clone(), 0.5, Some(steps)),
+        Verdict::new(Name::Position, worst, 2.0, Some(steps)),
     ]
 }
 

@@ -64,7 +64,7 @@ impl Tolerance {
 
     /// What the motion of a scene tolerates that is accepted without errors; `None` if it was stopped.
     #[must_use]
-    pub fn of(scene: &Scene, watch: &Watch) -> Option<Self> {
+    pub fn new(scene: &Scene, watch: &Watch) -> Option<Self> {
         let unit = unit_error(sheet::pitch(&scene.layup.ply));
         let mut errors = Errors::default();
         errors.gripper.position = Term::Deviation(unit);

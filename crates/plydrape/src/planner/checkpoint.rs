@@ -3,7 +3,7 @@
 use super::journal::Journal;
 use super::path::{Strategy, preload};
 use crate::Error;
-use crate::scene::{Plan, Scene};
+use crate::scene::{PlanSettings, Scene};
 
 /// Positions (m) of all grippers, step by step.
 type Positions = Vec<Vec<[f64; 3]>>;
@@ -32,7 +32,7 @@ pub struct Checkpoint {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 struct Unfinished {
     /// How it searched.
-    plan: Plan,
+    plan: PlanSettings,
     /// Where the grippers started (m).
     start: Vec<[f64; 3]>,
     /// The checkpoint from which it went on itself.

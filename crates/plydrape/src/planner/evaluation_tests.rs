@@ -35,7 +35,7 @@ fn planned(errors: Errors, layup: &Layup) -> Vec<Motion> {
 fn judged(ok: bool) -> Judged {
     let worst = Worst { value: if ok { 0.1 } else { 0.9 }, at: String::new(), place: None };
     Judged {
-        limits: vec![Verdict::of(Name::Height, worst, 0.5, Some(1))],
+        limits: vec![Verdict::new(Name::Height, worst, 0.5, Some(1))],
         complete: true,
         missing: 0.0,
         unsolved: 0,

@@ -49,7 +49,7 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
 /// A verdict (in the measure's unit) of something that exceeds its limit, if it does.
 fn beyond(name: Name, limit: f64, found: Option<Found>) -> Option<Verdict> {
     let (value, at) = found?;
-    let verdict = Verdict::of(name, Worst { value, at, place: None }, limit, None);
+    let verdict = Verdict::new(name, Worst { value, at, place: None }, limit, None);
     (!verdict.ok).then_some(verdict)
 }
 
@@ -78,9 +78,9 @@ fn places(
         ),
     ];
     found.into_iter().filter_map(move |(name, limit, found)| {
-        let worst = Worst::of(&found?, &scene.layup);
+        let worst = Worst::new(&found?, &scene.layup);
         let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
-        Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
+        Some(Verdict::new(name, worst, limit, step)).filter(|verdict| !verdict.ok)
     })
 }
 
@@ -223,7 +223,7 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     let nearest = clearance::at(&scene.layup, least, &poses)?;
     let at = format!("{} at the target", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, None);
+    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, None);
     (!verdict.ok).then_some(verdict)
 }
 
@@ -238,7 +238,7 @@ fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
     let nearest = clearance::at(layup, least, &poses)?;
     let at = format!("{} at the start", nearest.label(layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, Some(1));
+    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, Some(1));
     (!verdict.ok).then_some(verdict)
 }
 

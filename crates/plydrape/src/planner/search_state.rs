@@ -67,7 +67,7 @@ pub struct SearchState<'a> {
 }
 
 /// Positions of all grippers (m), step by step, and the strategy behind them.
-type Plan = (Option<Strategy>, Vec<Vec<Point>>);
+type BestPlan = (Option<Strategy>, Vec<Vec<Point>>);
 
 struct Best<'a> {
     watcher: Watcher<'a>,
@@ -77,7 +77,7 @@ struct Best<'a> {
     decided: bool,
     stage: &'static str,
     /// The plan itself.
-    plan: Option<Plan>,
+    plan: Option<BestPlan>,
     forecast: Option<Forecast>,
     /// When the decision under way began.
     began: Instant,
@@ -186,7 +186,7 @@ impl<'a> SearchState<'a> {
     }
 
     /// The checkpoint of the search as it is, with all that was judged.
-    fn checkpoint_of(&self, (strategy, positions): &Plan) -> Option<Checkpoint> {
+    fn checkpoint_of(&self, (strategy, positions): &BestPlan) -> Option<Checkpoint> {
         let (scene, from) = self.origin?;
         let before = from.map_or(0, |checkpoint| checkpoint.evaluations);
         let evaluations = before + self.candidates() + self.decisions();

@@ -12,7 +12,7 @@ use super::energy::{Energy, Stiffness};
 use super::friction::{Anchor, Hold, penalty};
 use super::pads::Pads;
 use super::system::{System, add};
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use super::unknowns::Carrier;
 use crate::geometry::vector::{distance, dot, norm, sub};
 use crate::mold::Mold;
@@ -90,7 +90,7 @@ impl<'a> Contact<'a> {
     pub fn new(
         sheet: &Sheet,
         mold: &'a Mold,
-        tuning: &Tuning,
+        tuning: &SheetTuning,
         pads: &Pads,
         system: &System,
     ) -> Self {

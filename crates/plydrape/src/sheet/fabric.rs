@@ -359,7 +359,7 @@ impl Fabric {
 impl BoundaryPoint {
     /// Interpolates values of the nodes at this point.
     #[must_use]
-    pub fn of<const N: usize>(&self, values: &[[f64; N]]) -> [f64; N] {
+    pub fn interpolate<const N: usize>(&self, values: &[[f64; N]]) -> [f64; N] {
         let mut sum = [0.0; N];
         for (node, weight) in self.nodes.iter().zip(self.weights) {
             for (sum, value) in sum.iter_mut().zip(values[*node as usize]) {
@@ -509,7 +509,7 @@ mod tests {
             let expected = std::f64::consts::TAU * (outer + inner);
             assert!((length / expected - 1.0).abs() < 0.02, "{length} {expected}");
             for point in fabric.boundary.iter().flatten() {
-                let at = point.of(&fabric.places);
+                let at = point.interpolate(&fabric.places);
                 assert!((at[0] - point.place[0]).hypot(at[1] - point.place[1]) < 1e-12);
                 assert!(outline.depth(at).abs() < 1e-9);
             }

@@ -110,7 +110,7 @@ impl Sheet {
         }
         // a single line stands for a strip one cell wide
         let width = if b > 0.0 { b } else { a };
-        let fabric = Fabric::of(ply, settings)?;
+        let fabric = Fabric::new(ply, settings)?;
 
         let areal_mass = ply.areal_mass();
         let rigidity = match material.section {
@@ -200,7 +200,7 @@ impl Fabric {
     ///
     /// # Errors
     /// [`Error::SheetPadsOverhang`] or [`Error::SheetPadOff`] if pads hang over the boundary.
-    pub fn of(ply: &Ply, settings: &Settings) -> Result<Self, Error> {
+    pub fn new(ply: &Ply, settings: &Settings) -> Result<Self, Error> {
         let ([a, b], grid) = (ply.cell, ply.grid);
         let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch(ply));

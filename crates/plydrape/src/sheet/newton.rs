@@ -257,7 +257,7 @@ impl Cloth<'_> {
     }
 
     /// Refuses a time step in which grippers and a node that came to the mold went farther than twice what
-    /// [`super::Tuning::contact_way`] allows.
+    /// [`super::SheetTuning::contact_way`] allows.
     fn check_landing(&self) -> Result<(), Failure> {
         let most = 2.0 * self.tuning.contact_way * self.sheet.pitch;
         let mut pads = self.now.pads.iter().zip(&self.before.pads);

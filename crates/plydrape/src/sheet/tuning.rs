@@ -2,7 +2,7 @@
 
 /// Tolerances and constants of the sheet's solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct SheetTuning {
     /// Depth (of the pitch of the grippers) that the ply's own weight sinks into the contact's penalty: small enough that
     /// the pressure of taut yarns on a mold, some hundred times the weight, stays below 0.02 mm of 100 mm.
     pub contact_depth: f64,
@@ -77,9 +77,9 @@ pub struct Tuning {
     pub turn_stiffness: f64,
 }
 
-impl Default for Tuning {
+impl Default for SheetTuning {
     fn default() -> Self {
-        Tuning {
+        SheetTuning {
             contact_depth: 1e-7,
             mount_contact: 100.0,
             slip: 1e-4,

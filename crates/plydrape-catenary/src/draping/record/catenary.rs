@@ -118,7 +118,7 @@ impl SpanState {
     pub fn ruck(&self, ply: &Ply, gravity: f64, catenary: &CatenaryState) -> Option<Ruck> {
         let line = ply.line(catenary.kind);
         let slack = excess(self.length - self.path, catenary.length);
-        Ruck::of(slack, line.flexural_rigidity, line.mass * gravity)
+        Ruck::from_slack(slack, line.flexural_rigidity, line.mass * gravity)
     }
 }
 

@@ -7,7 +7,7 @@
 use super::circumstances::Circumstances;
 use super::constraint::Constraint;
 use super::element::{Element, End, PlaneSlope, SlopeSource};
-use super::line::Line;
+use super::line::StraightLine;
 use crate::equilibrium::Number;
 
 /// An unknown slope: that of a line of edges at a gripper, which two hanging edges share.
@@ -124,7 +124,7 @@ impl<T: Number> Slopes<T> {
         constraints: &[Option<Constraint<T>>],
         catenary: usize,
         [element, end]: [usize; 2],
-        line: &Line<T>,
+        line: &StraightLine<T>,
     ) -> End<T> {
         let along = line.heading();
         if around.ply.line(around.kind(catenary)).flexural_rigidity == 0.0 {

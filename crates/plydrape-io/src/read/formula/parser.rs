@@ -23,11 +23,11 @@ const POWER: i64 = 7;
 
 /// Operations, each behind its operands.
 type Program = Vec<Operation>;
-type Input<'a> = Stateful<LocatingSlice<&'a str>, State<'a>>;
+type Input<'a> = Stateful<LocatingSlice<&'a str>, ParserState<'a>>;
 type Parsed<T> = ModalResult<T, Misread>;
 
 #[derive(Debug)]
-struct State<'a> {
+struct ParserState<'a> {
     text: &'a str,
     /// How deep in brackets, signs and powers.
     depth: usize,
@@ -35,7 +35,7 @@ struct State<'a> {
 
 /// The operations of a formula.
 pub(super) fn program(text: &str) -> Result<Program, Misread> {
-    let input = Input { input: LocatingSlice::new(text), state: State { text, depth: 0 } };
+    let input = Input { input: LocatingSlice::new(text), state: ParserState { text, depth: 0 } };
     let end = alt((eof.void(), misplaced));
     delimited(spaces, formula, end).parse(input).map_err(|error| error.into_inner())
 }

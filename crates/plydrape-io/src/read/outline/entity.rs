@@ -2,7 +2,7 @@
 
 use super::Options;
 use super::flatten::{self, Arc, Limit, Nurbs, TooMany};
-use super::place::Place;
+use super::place::EntityPlace;
 use super::transform::Transform;
 use crate::error::Fault;
 use ::dxf::Drawing;
@@ -64,8 +64,8 @@ pub struct Text {
 
 impl Curve {
     /// A point of it, for messages.
-    pub fn place(&self, at: [f64; 2]) -> Place {
-        Place { entity: self.entity, layer: self.layer.clone(), at }
+    pub fn place(&self, at: [f64; 2]) -> EntityPlace {
+        EntityPlace { entity: self.entity, layer: self.layer.clone(), at }
     }
 }
 
@@ -157,7 +157,7 @@ impl Reader<'_> {
         if let EntityType::Text(text) = &entity.specific {
             let mirror = mirrored(&text.normal) == Some(true);
             let own = if mirror { Transform::mirror() } else { Transform::scale(1.0) };
-            let at = outer.after(&own).of(plane(&text.location));
+            let at = outer.after(&own).apply(plane(&text.location));
             let lines = plain(&text.value);
             if !lines.is_empty() && at.iter().all(|c| c.is_finite()) {
                 let is_beside = depth == 0 && text.text_style_name == "ATTRIB";
@@ -172,8 +172,11 @@ impl Reader<'_> {
             return Ok(());
         };
         let z_unit = flatten::stretch(outer.x, outer.y);
-        let place =
-            Place { entity: kind, layer: layer.to_owned(), at: outer.of([origin.x, origin.y]) };
+        let place = EntityPlace {
+            entity: kind,
+            layer: layer.to_owned(),
+            at: outer.apply([origin.x, origin.y]),
+        };
         if self.visited > MOST_ENTITIES {
             return Err(too_many_in_blocks(&place, MOST_ENTITIES, "entities in blocks"));
         }
@@ -261,7 +264,7 @@ impl Reader<'_> {
         if flat.points.len() > room {
             return Err(too_many(TooMany));
         }
-        let points: Vec<[f64; 2]> = flat.points.iter().map(|p| transform.of(*p)).collect();
+        let points: Vec<[f64; 2]> = flat.points.iter().map(|p| transform.apply(*p)).collect();
         if !points.iter().flatten().all(|c| c.is_finite()) {
             return Err(not_finite());
         }
@@ -293,7 +296,7 @@ impl Reader<'_> {
         &mut self,
         insert: &Insert,
         layer: &str,
-        place: &Place,
+        place: &EntityPlace,
         outer: &Transform,
         depth: usize,
     ) -> Result<(), Fault> {
@@ -477,7 +480,7 @@ fn polyline(vertices: Vec<([f64; 2], f64)>, closed: bool, limit: Limit) -> Resul
     Ok(Flat { points, closed })
 }
 
-fn nurbs(spline: &Spline, place: &Place) -> Result<Nurbs, Fault> {
+fn nurbs(spline: &Spline, place: &EntityPlace) -> Result<Nurbs, Fault> {
     if spline.control_points.is_empty() {
         return Err(Fault::new(
             format!("{place} has fit points and no control points"),
@@ -496,11 +499,11 @@ const FLAT: &str = "draw the outline flat, in the x-y plane";
 const EXPLODE: &str = "explode the block in the drawing";
 
 /// A curve in a plane that is not that of the drawing.
-fn tilted(place: &Place) -> Fault {
+fn tilted(place: &EntityPlace) -> Fault {
     Fault::new(format!("{place} lies in a plane that is inclined to the drawing"), FLAT)
 }
 
 /// Blocks within blocks without end, or too many of them.
-fn too_many_in_blocks(place: &Place, most: usize, what: &str) -> Fault {
+fn too_many_in_blocks(place: &EntityPlace, most: usize, what: &str) -> Fault {
     Fault::new(format!("{place} places more than {most} {what}"), EXPLODE)
 }

@@ -88,7 +88,7 @@ pub struct Source {
 }
 
 impl Source {
-    fn of(line: &Closed) -> Self {
+    fn new(line: &Closed) -> Self {
         Source {
             layers: line.layers.iter().cloned().collect(),
             block: line.placed.blocks.first().map(ToString::to_string),
@@ -213,8 +213,8 @@ fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
         .map_err(|fault| Fault::new(fault.to_string(), "correct the drawing"))?;
     Ok(Drawn {
         outline,
-        boundary: Source::of(boundary),
-        holes: holes.into_iter().map(Source::of).collect(),
+        boundary: Source::new(boundary),
+        holes: holes.into_iter().map(Source::new).collect(),
         gaps,
         others: chosen.others,
         skipped,

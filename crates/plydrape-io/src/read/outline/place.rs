@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 /// A curve of a drawing, for messages: what it is, its layer, and a point of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Place {
+pub(super) struct EntityPlace {
     /// Type, as DXF names it.
     pub entity: &'static str,
     /// Layer.
@@ -13,9 +13,9 @@ pub(super) struct Place {
     pub at: [f64; 2],
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for EntityPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Place { entity, layer, at } = self;
+        let EntityPlace { entity, layer, at } = self;
         write!(f, "{entity} on layer `{}` at {}", layer.escape_debug(), mm(*at))
     }
 }

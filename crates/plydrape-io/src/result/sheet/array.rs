@@ -88,7 +88,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    pub(super) fn of(&self, extent: Extent) -> usize {
+    pub(super) fn count(&self, extent: Extent) -> usize {
         match extent {
             States => self.states,
             Nodes => self.nodes,
@@ -128,7 +128,7 @@ pub(super) const BEFORE: usize = 10;
 impl Array {
     /// Extents in numbers.
     pub(super) fn lengths(&self, sizes: &Sizes) -> Vec<usize> {
-        self.shape.iter().map(|extent| sizes.of(*extent)).collect()
+        self.shape.iter().map(|extent| sizes.count(*extent)).collect()
     }
 
     /// Bytes of its numbers; `None` beyond all range.

@@ -40,7 +40,7 @@ impl SheetStates {
         input::size(&path).map_err(unreadable)?;
         let file = File::open(&path).map_err(unreadable)?;
         let found =
-            SheetSeal::of((&file).take(seal.length.saturating_add(1))).map_err(unreadable)?;
+            SheetSeal::read((&file).take(seal.length.saturating_add(1))).map_err(unreadable)?;
         if (found.length, &found.checksum) != (seal.length, &seal.checksum) {
             return Err(changed("its check sum is not the one of its result".into()));
         }

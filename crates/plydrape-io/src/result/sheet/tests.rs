@@ -54,7 +54,7 @@ fn finished(dir: &Path, mesh: &SheetMesh<'static>, states: u32) -> SheetFile {
 /// A file with any bytes, and the seal that fits them.
 fn forged(dir: &Path, bytes: &[u8]) -> Result<SheetStates, Error> {
     fs::write(dir.join(NAME), bytes).unwrap();
-    SheetStates::open(dir, &SheetSeal::of(bytes).unwrap())
+    SheetStates::open(dir, &SheetSeal::read(bytes).unwrap())
 }
 
 /// Comparable with a NaN: the numbers as text.

@@ -106,7 +106,7 @@ impl<'de> Deserialize<'de> for LimitsTable {
 
 /// The value of a bound as it is written.
 fn bound<'de, A: MapAccess<'de>>(map: &mut A, name: Name) -> Result<Located<Raw>, A::Error> {
-    let Kind { name, example, .. } = Kind::of(name);
+    let Kind { name, example, .. } = Kind::of_measure(name);
     map.next_value_seed(LocatedSeed(RawSeed { name, example }))
 }
 

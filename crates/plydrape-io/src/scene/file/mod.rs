@@ -25,7 +25,7 @@ pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 
-use super::choice::{Centered, Curve, FrictionChoice, MaterialChoice, Place, Positions};
+use super::choice::{Centered, Curve, FrictionChoice, MaterialChoice, PlaceChoice, Positions};
 use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
@@ -338,7 +338,7 @@ pub(super) struct GrippersTable {
     pub height: Option<Quantity<Length>>,
     /// Place x, y of gripper g0_0 (m), the origin unless given; with `parallel_to_mold`, of the mold point
     /// below it. Or "centered": the rectangle's middle is above the middle of the target.
-    pub origin: Option<Located<Place<Centered>>>,
+    pub origin: Option<Located<PlaceChoice<Centered>>>,
     /// Place x, y of the middle of the ply (m), of one that is cut the middle of its drawing, instead of the `origin`: where the ply
     /// is picked up.
     pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,

@@ -95,7 +95,7 @@ mod tests {
 
     fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
         let at = "gripper g0_0".to_owned();
-        Verdict::of(name, Worst { value, at, place: None }, limit, Some(3))
+        Verdict::new(name, Worst { value, at, place: None }, limit, Some(3))
     }
 
     /// Limits that are not kept come first, by how far they are exceeded; then as many of the others as fit.

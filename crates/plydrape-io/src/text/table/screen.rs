@@ -147,7 +147,7 @@ mod tests {
 
     fn verdict_of(name: Name, value: f64, limit: f64) -> Verdict {
         let at = "very far away ".repeat(20);
-        Verdict::of(name, Worst { value, at, place: None }, limit, Some(90))
+        Verdict::new(name, Worst { value, at, place: None }, limit, Some(90))
     }
 
     fn widest(text: &str) -> usize {
@@ -191,7 +191,7 @@ mod tests {
         result.scene.settings.pad.slip_force = Some(10.0);
         let at = "gripper g3_1".to_owned();
         let worst = Worst { value: 4.4, at, place: None };
-        result.summary.limits = vec![Verdict::of(Name::Slip, worst, 10.0 / 1.5, Some(2))];
+        result.summary.limits = vec![Verdict::new(Name::Slip, worst, 10.0 / 1.5, Some(2))];
         let text = verdict(&result, Ink::Plain);
         let wanted = "accepted by the sheet in an ideal cell, without errors\n\
             largest load of a cup 4.4 of 10 N along the ply (g3_1)\n";

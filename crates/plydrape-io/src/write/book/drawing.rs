@@ -18,21 +18,21 @@ const TRIANGLES: usize = 900;
 const YARNS: [usize; 2] = [12, 48];
 
 /// The plan of a drawing: what is where.
-struct Plan {
+struct PlanView {
     low: [f64; 2],
     high: [f64; 2],
     /// Pixels for a meter.
     scale: f64,
 }
 
-impl Plan {
-    fn of(book: &Book) -> Self {
+impl PlanView {
+    fn new(book: &Book) -> Self {
         let points = || book.plies.iter().flat_map(|ply| ply.region.iter().flatten());
         let low = [0, 1].map(|n| points().map(|p| p[n]).fold(f64::INFINITY, f64::min));
         let high = [0, 1].map(|n| points().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max));
         let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
         let (low, high) = (low.map(|c| c - more), high.map(|c| c + more));
-        Plan { low, high, scale: WIDTH / (high[0] - low[0]).max(high[1] - low[1]) }
+        PlanView { low, high, scale: WIDTH / (high[0] - low[0]).max(high[1] - low[1]) }
     }
 
     /// Pixels of a place in plan (m), y upwards.
@@ -63,7 +63,7 @@ impl Plan {
 
 /// All outlines on the mold, numbered, each with the direction of its warp.
 pub(super) fn all(book: &Book, plies: &[PlyRecord]) -> String {
-    let plan = Plan::of(book);
+    let plan = PlanView::new(book);
     let mut body = mold(book, &plan);
     for (n, ply) in plies.iter().enumerate() {
         let class = format!("ply c{}", n % COLORS);
@@ -101,7 +101,7 @@ pub(super) const COLORS: usize = 6;
 
 /// One ply with its yarns, over those that it lies on.
 pub(super) fn one(book: &Book, index: usize) -> String {
-    let (plan, ply) = (Plan::of(book), &book.plies[index]);
+    let (plan, ply) = (PlanView::new(book), &book.plies[index]);
     let mut body = String::new();
     for lower in &ply.lies_on {
         let rings = plan.rings(&book.plies[*lower].region);
@@ -117,7 +117,7 @@ pub(super) fn one(book: &Book, index: usize) -> String {
 }
 
 /// The mold in triangles, darker the steeper it is.
-fn mold(book: &Book, plan: &Plan) -> String {
+fn mold(book: &Book, plan: &PlanView) -> String {
     let found = patch(&book.mold, plan.low, plan.high, TRIANGLES);
     let mut body = String::new();
     for corners in &found.triangles {

@@ -54,7 +54,7 @@ pub struct PlyRecord {
 impl PlyRecord {
     /// Of a ply of a book and its planned result.
     #[must_use]
-    pub fn of(book: &Book, index: usize, result: &ResultFile) -> Self {
+    pub fn new(book: &Book, index: usize, result: &ResultFile) -> Self {
         let ply: &BookPly = &book.plies[index];
         let limits = &result.summary.limits;
         let worst = limiting(limits).or_else(|| closest(limits)).cloned();
@@ -106,7 +106,7 @@ struct Written<'a> {
 /// # Errors
 /// [`Error`] if a number is not finite.
 pub fn text(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Result<String, Error> {
-    json::of(&Written {
+    json::to_text(&Written {
         format: "plydrape-book",
         version: VERSION,
         program: PROGRAM,

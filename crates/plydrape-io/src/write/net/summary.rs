@@ -120,9 +120,9 @@ pub struct ShearPlace {
 impl Summary {
     /// Of a net and what is found of it, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
-    pub fn of(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
+    pub fn new(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
         let (layup, report) = (&net.placement, &net.report);
-        let boundary = findings.boundary.as_ref().map(BoundarySummary::of);
+        let boundary = findings.boundary.as_ref().map(BoundarySummary::new);
         let hair = HAIR * layup.mesh[0].min(layup.mesh[1]);
         let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies(hair));
         let all = net.missing.is_empty() && lies;
@@ -139,7 +139,7 @@ impl Summary {
             seed: layup.seed,
             seed_place: layup.place,
             max_shear_deg: report.largest_shear.map(|(largest, _)| largest.to_degrees()),
-            max_shear_at: report.largest_shear.and_then(|(_, cell)| ShearPlace::of(net, cell)),
+            max_shear_at: report.largest_shear.and_then(|(_, cell)| ShearPlace::new(net, cell)),
             mean_shear_deg: report.mean_shear.to_degrees(),
             shear_limit_deg: shear_limit.map(f64::to_degrees),
             max_edge_error: report.largest_edge_error,
@@ -149,9 +149,9 @@ impl Summary {
             unreached: report.unreached,
             first_missing: report.first.clone(),
             boundary,
-            sharp_edges: findings.sharp_edges.as_ref().map(SharpEdgesSummary::of),
+            sharp_edges: findings.sharp_edges.as_ref().map(SharpEdgesSummary::new),
             trim: findings.trim,
-            search: findings.seeds.as_ref().map(SearchSummary::of),
+            search: findings.seeds.as_ref().map(SearchSummary::new),
         }
     }
 
@@ -325,7 +325,7 @@ impl Summary {
 }
 
 impl ShearPlace {
-    fn of(net: &Net, [i, j]: [usize; 2]) -> Option<Self> {
+    fn new(net: &Net, [i, j]: [usize; 2]) -> Option<Self> {
         let low = net.placement.fabric([i, j]);
         let [u, v] = [0, 1].map(|c| low[c] + 0.5 * net.placement.mesh[c]);
         let ring = [
@@ -340,7 +340,7 @@ impl ShearPlace {
 }
 
 impl BoundarySummary {
-    fn of(boundary: &Boundary) -> Self {
+    fn new(boundary: &Boundary) -> Self {
         BoundarySummary {
             length: boundary.length,
             off_mold_length: boundary.off_mold.length,
@@ -370,7 +370,7 @@ fn faults_of(boundary: Option<&BoundarySummary>) -> String {
 }
 
 impl SharpEdgesSummary {
-    fn of(edges: &SharpEdges) -> Self {
+    fn new(edges: &SharpEdges) -> Self {
         SharpEdgesSummary {
             length: edges.length,
             sharpest_deg: edges.sharpest.map(|(turn, _)| turn.to_degrees()),
@@ -380,7 +380,7 @@ impl SharpEdgesSummary {
 }
 
 impl SearchSummary {
-    fn of(seeds: &Seeds) -> Self {
+    fn new(seeds: &Seeds) -> Self {
         let taken = &seeds.choices[seeds.chosen];
         // only the held point is in its place to the last bit
         let held = seeds.choices.iter().find(|choice| {

@@ -169,7 +169,7 @@ pub(crate) fn files(
     };
     Ok(vec![
         ("drape.py".into(), SCRIPT.as_bytes().to_vec()),
-        ("ply.json".into(), json::of(&data)?.into_bytes()),
+        ("ply.json".into(), json::to_text(&data)?.into_bytes()),
     ])
 }
 

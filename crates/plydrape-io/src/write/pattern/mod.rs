@@ -37,7 +37,7 @@ pub struct Gripper {
 
 /// A line in space, such as the boundary of a ply on the mold.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct PatternLine {
     /// What it is called.
     pub name: String,
     /// Points (m); of a closed one the first is not repeated.

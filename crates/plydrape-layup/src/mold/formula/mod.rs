@@ -48,7 +48,7 @@ impl Formula {
         if top != 1 || depth > MOST {
             return None;
         }
-        let polynomial = Polynomial::of(&program);
+        let polynomial = Polynomial::from_program(&program);
         Some(Formula { text: text.to_string(), program, depth, polynomial })
     }
 

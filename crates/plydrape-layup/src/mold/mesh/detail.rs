@@ -116,7 +116,7 @@ impl Mesh {
         for boundary in self.boundaries.iter().filter(|boundary| boundary.hole) {
             let points: Vec<[f64; 3]> =
                 boundary.vertices.iter().map(|n| self.vertices[*n as usize]).collect();
-            let Some(size) = Size::of(&points, None).filter(|size| size.width <= width) else {
+            let Some(size) = Size::new(&points, None).filter(|size| size.width <= width) else {
                 continue;
             };
             if boundary.vertices.len() <= TUNING.cap_corners
@@ -357,7 +357,7 @@ impl Mesh {
                 points.push(self.vertices[vertex as usize]);
                 vertex = after;
             }
-            let Some(size) = Size::of(&points, None).filter(|size| size.width <= width) else {
+            let Some(size) = Size::new(&points, None).filter(|size| size.width <= width) else {
                 continue;
             };
             if vertex == start && points.len() > 2 && self.highest_point(size.middle).is_none() {
@@ -397,7 +397,7 @@ impl Mesh {
         // in their order, because a sum of floats depends on it
         let mut lengths: Vec<f64> = perimeter.copied().collect();
         lengths.sort_by(f64::total_cmp);
-        let size = Size::of(&points, Some([area, lengths.iter().sum()]))?;
+        let size = Size::new(&points, Some([area, lengths.iter().sum()]))?;
         let around = part.first()?.around;
         let [x, y] = size.middle;
         let kind = if part[0].below { DetailKind::Pit } else { DetailKind::Stud };
@@ -485,7 +485,7 @@ pub(super) struct Size {
 
 impl Size {
     /// Of some points (m), and of the area (m²) and the perimeter (m) that they bound, if these are known.
-    pub fn of(points: &[[f64; 3]], area_and_perimeter: Option<[f64; 2]>) -> Option<Self> {
+    pub fn new(points: &[[f64; 3]], area_and_perimeter: Option<[f64; 2]>) -> Option<Self> {
         let extents = (0..TUNING.extents).map(|n| {
             let angle = std::f64::consts::PI * n as f64 / TUNING.extents as f64;
             let (sin, cos) = angle.sin_cos();

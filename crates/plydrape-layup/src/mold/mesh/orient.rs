@@ -98,7 +98,7 @@ pub(super) fn orient(
                 }
             }
         }
-        let sides = Sides::of(mesh, &members, &turn);
+        let sides = Sides::new(mesh, &members, &turn);
         let over = if closed {
             sides.volume < 0.0
         } else {
@@ -148,7 +148,7 @@ struct Sides {
 }
 
 impl Sides {
-    fn of(mesh: &Joined, members: &[u32], turn: &[bool]) -> Self {
+    fn new(mesh: &Joined, members: &[u32], turn: &[bool]) -> Self {
         let mut sides = Sides { volume: 0.0, vector_area: [0.0; 3], area: 0.0 };
         // volumes are counted from a vertex, so that a far origin costs no digits
         let origin = members

@@ -20,7 +20,7 @@ pub(super) fn stitch(mesh: &mut Joined, tolerance: f64) -> Stitches {
     if tolerance <= 0.0 {
         return stitches;
     }
-    let mut sides = Sides::of(&mesh.vertices, &mesh.triangles);
+    let mut sides = Sides::new(&mesh.vertices, &mesh.triangles);
     let mut around: HashMap<u32, Vec<u32>> =
         sides.all.iter().flat_map(|side| side.ends).map(|n| (n, Vec::new())).collect();
     for (corners, n) in mesh.triangles.iter().zip(0..) {
@@ -39,7 +39,7 @@ pub(super) fn stitch(mesh: &mut Joined, tolerance: f64) -> Stitches {
         if !work.merge_vertices(&sides) && !work.divide_sides(&sides) {
             break;
         }
-        sides = Sides::of(&work.mesh.vertices, &work.mesh.triangles);
+        sides = Sides::new(&work.mesh.vertices, &work.mesh.triangles);
     }
     stitches
 }

@@ -259,7 +259,7 @@ impl Search<'_, '_> {
         let found: Mutex<Vec<Candidate>> = Mutex::new(Vec::new());
         let objective = |unit: &DVector<f64>| -> f64 {
             let strategy = Strategy::of_unit(unit.as_slice());
-            let Some(candidate) = shared.of(strategy) else { return f64::MAX };
+            let Some(candidate) = shared.candidate(strategy) else { return f64::MAX };
             let score = candidate.score;
             lock(&found).push(candidate);
             score
@@ -305,8 +305,8 @@ impl Search<'_, '_> {
     /// Drapes along strategies.
     fn drape(&mut self, strategies: &[Strategy]) {
         self.left = self.left.saturating_sub(strategies.len());
-        let of = |strategy: &Strategy| self.shared.of(*strategy);
-        let found: Vec<Candidate> = strategies.par_iter().filter_map(of).collect();
+        let candidate = |strategy: &Strategy| self.shared.candidate(*strategy);
+        let found: Vec<Candidate> = strategies.par_iter().filter_map(candidate).collect();
         self.candidates.extend(found);
         self.rank();
     }
@@ -407,7 +407,7 @@ impl Search<'_, '_> {
 
 impl Shared<'_, '_> {
     /// The candidate of a strategy; none once the search is stopped.
-    fn of(&self, strategy: Strategy) -> Option<Candidate> {
+    fn candidate(&self, strategy: Strategy) -> Option<Candidate> {
         if self.state.is_stopped() {
             return None;
         }

@@ -15,10 +15,10 @@ use crate::scene::Scene;
 
 /// The lines between neighboring grippers of a scene, as they shall lie on the mold.
 #[derive(Debug, Clone)]
-pub struct Lines(Vec<Line>);
+pub struct Lines(Vec<TautLine>);
 
 #[derive(Debug, Clone)]
-struct Line {
+struct TautLine {
     /// Grippers at both ends.
     grippers: [usize; 2],
     /// Fabric length (m).
@@ -60,7 +60,7 @@ impl Lines {
                 // a line across the yarns becomes as long as the shear of the ideal drape makes it
                 None => places.windows(2).map(|pair| distance(pair[0], pair[1])).sum(),
             };
-            Some(Line { grippers: pair.grippers, length, places })
+            Some(TautLine { grippers: pair.grippers, length, places })
         };
         ply.neighbors().into_iter().map(line).collect::<Option<_>>().map(Lines)
     }
@@ -176,7 +176,7 @@ mod tests {
             let ends = graph.ends(n);
             let [a, b] = ends.map(|gripper| target(GRID.id(gripper)));
             let places = (0..=16).map(|k| between(a, b, f64::from(k) / 16.0)).collect();
-            Line { grippers: ends, length: 0.1, places }
+            TautLine { grippers: ends, length: 0.1, places }
         };
         Lines((0..graph.edges()).map(line).collect())
     }

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, LN_10, PI};
 
 /// Constants of each stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct PathTuning {
     /// The way from the start to the first formation of a front.
     pub transport: Transport,
     /// Fronts and the trajectories that they give.
@@ -170,7 +170,7 @@ pub struct Search {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub const TUNING: PathTuning = PathTuning {
     transport: Transport {
         margin: 0.1,
         divisions: 5,

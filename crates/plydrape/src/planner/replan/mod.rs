@@ -42,7 +42,7 @@ use shapes::Shapes;
 
 /// A plan that was found and draped, with all that a correction needs of it.
 #[derive(Debug, Clone, Copy)]
-pub struct Plan<'a> {
+pub struct KnownPlan<'a> {
     /// Scene; the motion in it does not count.
     pub scene: &'a Scene,
     /// What its motion is made of.
@@ -56,7 +56,7 @@ pub struct Plan<'a> {
 /// Answers where a ply lies with a motion.
 #[derive(Debug)]
 pub struct Replanner<'a> {
-    plan: Plan<'a>,
+    plan: KnownPlan<'a>,
     motion: TimedMotion,
     /// The positions that stand for the steps of the motion, one list a step.
     path: Vec<Vec<[f64; 3]>>,
@@ -132,8 +132,8 @@ impl<'a> Replanner<'a> {
     /// [`Error::ReplanAgain`] if the plan was corrected before; [`Error::ReplanRealTime`], [`Error::ReplanUnfinished`], [`Error::ReplanNoShapes`]
     /// or [`Error::ReplanMotion`] if its drape says too little; [`Error::ReplanNoTransport`] if it has no transport in which an offset could
     /// be taken out.
-    pub fn new(plan: Plan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, Error> {
-        let Plan { scene, record, steps, summary } = plan;
+    pub fn new(plan: KnownPlan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, Error> {
+        let KnownPlan { scene, record, steps, summary } = plan;
         if record.picked_up.is_some() {
             return Err(Error::ReplanAgain);
         }
@@ -200,7 +200,7 @@ impl<'a> Replanner<'a> {
     /// [`Error::ReplanOffset`] if the offset is no number; [`Error::ReplanTouches`] if the ply would touch the mold before the planned landing;
     /// [`Error::ReplanNotRigid`], [`Error::ReplanDwells`] or [`Error::ReplanMotion`] if it could not be carried there as one body.
     pub fn replan(&self, offset: &Offset, residual: Option<f64>) -> Result<Replanned, Error> {
-        let Plan { scene, record, .. } = self.plan;
+        let KnownPlan { scene, record, .. } = self.plan;
         if !offset.is_near() {
             return Err(Error::ReplanOffset);
         }

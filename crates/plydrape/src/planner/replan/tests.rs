@@ -59,8 +59,8 @@ struct Found {
 }
 
 impl Found {
-    fn plan(&self) -> Plan<'_> {
-        Plan {
+    fn plan(&self) -> KnownPlan<'_> {
+        KnownPlan {
             scene: &self.scene,
             record: &self.record,
             steps: &self.drape.steps,
