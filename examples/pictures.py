@@ -159,7 +159,7 @@ def draw(shown: list[Shown]) -> list[tuple[list[Image.Image], Image.Image]]:
             {
                 "report": str((one.folder / "report.html").resolve()),
                 "model": one.model,
-                "colour": {"sheet": "over_mold", "catenaries": "gap"}[one.model],
+                "color": {"sheet": "over_mold", "catenaries": "gap"}[one.model],
                 "size": PANEL,
                 "pixels": 2,
                 "steps": list(one.steps),

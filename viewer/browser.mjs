@@ -43,17 +43,17 @@ export async function openReport(
     offline: true,
   });
   const page = await context.newPage();
-  const complaints = [];
+  const diagnostics = [];
   const requests = [];
   page.on("console", (message) => {
     // Said by the software renderer about reading pixels back, not by the page.
     if (/GPU stall due to ReadPixels/.test(message.text())) return;
     if (["error", "warning"].includes(message.type()))
-      complaints.push(`${message.type()}: ${message.text()}`);
+      diagnostics.push(`${message.type()}: ${message.text()}`);
   });
-  page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
+  page.on("pageerror", (error) => diagnostics.push(`error: ${error.message}`));
   page.on("request", (request) => requests.push(request.url()));
   await page.goto(pathToFileURL(file).href + hash);
   if (wait) await page.evaluate(() => window.plydrape.ready);
-  return { page, context, complaints, requests };
+  return { page, context, diagnostics, requests };
 }

@@ -1,6 +1,6 @@
-// Builds the two pages, each one HTML file with script, style and licences inside. Same sources, same bytes.
+// Builds the two pages, each one HTML file with script, style and licenses inside. Same sources, same bytes.
 //
-// The template of the results page: the program puts the title and the data where its two __PLYDRAPE_…__ marks stand.
+// The template of the results page: the program puts the title and the data where its two __PLYDRAPE_…__ marks are.
 // The live page: it holds the solver as a WebAssembly module, packed. `node build.mjs MODULE.wasm` puts in a new one
 // (scripts/live compiles it); without it the module stays that of the page as it is.
 
@@ -27,14 +27,14 @@ function text(result) {
   return result.outputFiles[0].text.trim();
 }
 
-/** Name, version and licence text of a bundled library: its licence asks for it. */
-async function licence(name) {
+/** Name, version and license text of a bundled library: its license asks for it. */
+async function license(name) {
   const folder = join(here, "node_modules", name);
   const { version } = JSON.parse(await readFile(join(folder, "package.json"), "utf8"));
   return `${name} ${version}\n\n${(await readFile(join(folder, "LICENSE"), "utf8")).trim()}`;
 }
 
-/** Puts the parts where their marks stand in a page, each once. */
+/** Puts the parts where their marks are in a page, each once. */
 function filled(page, name, parts) {
   for (const [mark, part] of Object.entries(parts)) {
     if (page.split(mark).length !== 2) throw new Error(`${name} must hold ${mark} once`);
@@ -45,15 +45,15 @@ function filled(page, name, parts) {
 
 /** Builds a page from its template, script and style. */
 async function bundle({ template, script, style, libraries }) {
-  const [code, look, ...licences] = await Promise.all([
+  const [code, look, ...licenses] = await Promise.all([
     build({ ...options, entryPoints: [script], format: "iife" }).then(text),
     build({ ...options, entryPoints: [style] }).then(text),
-    ...libraries.map(licence),
+    ...libraries.map(license),
   ]);
-  const notice = `This page contains these libraries.\n\n${licences.join("\n\n")}`;
-  if (notice.includes("--")) throw new Error("a licence text cannot stand in an HTML comment");
+  const notice = `This page contains these libraries.\n\n${licenses.join("\n\n")}`;
+  if (notice.includes("--")) throw new Error("a license text cannot be in an HTML comment");
   return filled(await readFile(join(here, template), "utf8"), template, {
-    "<!--LICENCES-->": `<!--\n${notice}\n-->`,
+    "<!--LICENSES-->": `<!--\n${notice}\n-->`,
     "/*STYLE*/": look.replaceAll("</style", "<\\/style"),
     "/*SCRIPT*/": code.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--"),
   });

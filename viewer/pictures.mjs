@@ -8,7 +8,7 @@ import { text } from "node:stream/consumers";
 import { join } from "node:path";
 import { openReport, startBrowser } from "./browser.mjs";
 
-/** The page keeps so much room free at the right for its legend (CSS pixels), which is a picture of its own here. */
+/** The page keeps this much room free at the right for its legend (CSS pixels), which is a picture of its own here. */
 const FREE = 96;
 /** What the legend's ticks reach beyond it (CSS pixels). */
 const BEYOND = 8;
@@ -22,10 +22,10 @@ const ALONE = `
 
 const orders = JSON.parse(await text(process.stdin));
 const browser = await startBrowser();
-for (const { report, model, colour, size, pixels, steps, folder } of orders) {
+for (const { report, model, color, size, pixels, steps, folder } of orders) {
   await mkdir(folder, { recursive: true });
   const [width, height] = size;
-  const hash = `#model=${model}&colour=${colour}&step=${String(steps[0])}`;
+  const hash = `#model=${model}&color=${color}&step=${String(steps[0])}`;
   const { page, context } = await openReport(browser, report, { width: 1280, height: 720, hash, pixels });
   await page.locator("#show-forces").uncheck();
   await page.addStyleTag({ content: LOW });

@@ -8,7 +8,7 @@ the ply. What holds them together are MuJoCo's tendons:
   diagonal at rest. In a trellis of stiff yarns, sheared by an angle g, their moment per area is
   2 G sin(g/2): within 0.6 % of G g up to 20 deg. (They add to the tension of the yarns what G is to
   EA', which must be small.)
-- *fixed* tendons, one for each of x, y and z, over three neighbours of a line: their length is the
+- *fixed* tendons, one for each of x, y and z, over three neighbors of a line: their length is the
   second difference of the line, their stiffness that of the bending rigidity.
 
 Pinned nodes are mocap bodies, moved from outside. The mold is a plane or a sphere; nodes touch it
@@ -79,17 +79,17 @@ class Plane:
 class Sphere:
     """A ball as mold."""
 
-    centre: tuple[float, float, float]
+    center: tuple[float, float, float]
     radius: float
 
     def geom(self) -> str:
         """It as MuJoCo's shape, set back by the balls of the nodes."""
-        x, y, z = self.centre
+        x, y, z = self.center
         return f'type="sphere" size="{self.radius - BALL}" pos="{x} {y} {z}"'
 
     def height(self, positions: Real) -> tuple[Real, Real]:
         """Heights (n,) over the mold of places (n, 3), and unit normals (n, 3)."""
-        way = positions - np.array(self.centre)
+        way = positions - np.array(self.center)
         distance = np.linalg.norm(way, axis=1)
         return np.asarray(distance - self.radius), way / distance[:, None]
 

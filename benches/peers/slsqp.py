@@ -181,7 +181,7 @@ class Ply:
 def differences(ply: Ply, rows: slice, force: Real, slopes: Real) -> tuple[Real, Real, Real]:
     """Forward differences of length (n, 3) and end slopes (n, 2, 3) by H, s1, s2; end slopes.
 
-    One call of :func:`shape` for the point and its three neighbours.
+    One call of :func:`shape` for the point and its three neighbors.
     """
     n = force.size
     step_h, step_s = 1e-7 * np.maximum(1.0, np.abs(force)), 1e-7

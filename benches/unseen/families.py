@@ -188,7 +188,7 @@ def mesh(draw: Draw) -> Mold:
 
 
 def stl(local: Height, half: float, divisions: int) -> bytes:
-    """A binary STL in millimetres of the square ±half (m), each of its squares cut in two."""
+    """A binary STL in millimeters of the square ±half (m), each of its squares cut in two."""
     places = [half * (2.0 * n / divisions - 1.0) for n in range(divisions + 1)]
     points = [[(1e3 * x, 1e3 * y, 1e3 * local(x, y)) for y in places] for x in places]
 
@@ -199,7 +199,7 @@ def stl(local: Height, half: float, divisions: int) -> bytes:
     for row, after in itertools.pairwise(points):
         for (a, d), (b, c) in zip(itertools.pairwise(row), itertools.pairwise(after), strict=True):
             records += [triangle(a, b, c), triangle(a, c, d)]
-    header = b"a mold of a random scene, millimetres".ljust(80)
+    header = b"a mold of a random scene, millimeters".ljust(80)
     return header + struct.pack("<I", len(records)) + b"".join(records)
 
 

@@ -1,4 +1,4 @@
-"""Molds of random scenes: what every family draws, and where a mold stands.
+"""Molds of random scenes: what every family draws, and the pose of a mold.
 
 A family draws the slope that its surface shall have near the array's corners and takes its
 curvature from it, bounded by how far a mold may turn along one cell. All lengths follow from the
@@ -30,7 +30,7 @@ MIDDLE_OFF = 0.3
 """Farthest that the ply's middle lies from the mold's along each axis, of the array's reach."""
 
 PLACE = (1.0, 1.0, 0.3)
-"""How far from the origin of the scene a mold stands, at most, in x, y and z (m)."""
+"""How far from the origin of the scene a mold is, at most, in x, y and z (m)."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Mold:
 
 @dataclass(frozen=True)
 class Pose:
-    """Where a mold stands: turned about the fixed axes x, then y, then z, and moved."""
+    """Pose of a mold: turned about the fixed axes x, then y, then z, and moved."""
 
     turn: Vector
     """Angles (degrees)."""
@@ -129,7 +129,7 @@ class Draw:
         return self.rng.uniform(-size, size)
 
     def place(self) -> Vector:
-        """Where a mold stands (m)."""
+        """Position of a mold (m)."""
         x, y, z = (self.near(size * self.array.scale) for size in PLACE)
         return x, y, z
 

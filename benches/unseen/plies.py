@@ -42,7 +42,7 @@ class Array:
     grippers: tuple[int, int]
     """Number along u and v."""
     cell: tuple[float, float]
-    """Fabric between neighbours, along u and v (m)."""
+    """Fabric between neighbors, along u and v (m)."""
     scale: float
     """Of all lengths."""
 

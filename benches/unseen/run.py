@@ -26,7 +26,7 @@ from summary import tables
 ROOT = Path(__file__).resolve().parents[2]
 
 GRACE = 60.0
-"""Time that a plan which is told to end may take to write its best (s)."""
+"""Time that a plan which is asked to end may take to write its best (s)."""
 
 AT_LEAST = ("contact_share", "gripper_distance")
 """Limits that a value shall not fall below."""
@@ -39,7 +39,7 @@ class Run:
     exit: int
     """Its exit code; below zero the signal that ended it."""
     late: bool
-    """Whether it was told to end because its time was over."""
+    """Whether it was asked to end because its time was over."""
     seconds: float
     memory_mb: float
     """Peak resident memory."""

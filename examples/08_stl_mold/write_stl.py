@@ -1,6 +1,6 @@
-"""Writes mold.stl: a shallow, doubly curved mold as a binary STL in millimetres.
+"""Writes mold.stl: a shallow, doubly curved mold as a binary STL in millimeters.
 
-The surface is z = -x^2/2 + 3x^3/5 - 9y^2/10 + 4xy/5 (metres) over x, y from -60 to 380 mm, on a
+The surface is z = -x^2/2 + 3x^3/5 - 9y^2/10 + 4xy/5 (meters) over x, y from -60 to 380 mm, on a
 grid of 10 mm, each square cut in two triangles. Needs Python alone: python3 write_stl.py
 """
 
@@ -32,7 +32,7 @@ def main() -> None:
         for x in places:
             a, b, c, d = (x, y), (x + STEP, y), (x + STEP, y + STEP), (x, y + STEP)
             records += [triangle(a, b, c), triangle(a, c, d)]
-    header = b"shallow doubly curved mold, millimetres".ljust(80)
+    header = b"shallow doubly curved mold, millimeters".ljust(80)
     data = header + struct.pack("<I", len(records)) + b"".join(records)
     Path(__file__).with_name("mold.stl").write_bytes(data)
 

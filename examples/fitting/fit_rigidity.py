@@ -19,7 +19,7 @@ from scipy.optimize import least_squares
 Array = NDArray[np.float64]
 
 CELL = 0.05
-"""Fabric between neighbouring grippers (m)."""
+"""Fabric between neighboring grippers (m)."""
 GRIPPERS = np.array([[0.0, 0.0, 0.0], [0.0475, 0.0, 0.01], [0.095, 0.0, 0.0]])
 """Where the grippers are (m)."""
 MASS = 0.3143

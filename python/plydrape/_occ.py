@@ -125,7 +125,7 @@ def read(
 
 
 def bound(seconds: float) -> None:
-    """Ends this process by a signal after so much processor time, where the system can do so."""
+    """Ends this process by a signal after this much processor time, where the system can do so."""
     if find_spec("resource") is None:
         return
     import resource
@@ -157,7 +157,7 @@ def child() -> int:
 def read_here(
     path: Path, chord: float | None, angle: float, unit: float | None
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The same in this process, which ends where OpenCASCADE crashes; arguments as of `read`.
+    """Reads a CAD file in this process, which ends where OpenCASCADE crashes; see `read`.
 
     Raises
     ------

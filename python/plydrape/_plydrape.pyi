@@ -503,7 +503,7 @@ class Material:
         Raises
         ------
         ValueError
-            If there is none of that name.
+            If there is no such name.
 
         Examples
         --------
@@ -552,7 +552,7 @@ class Material:
         Raises
         ------
         ValueError
-            If there is none of that name.
+            If there is no such name.
 
         Examples
         --------
@@ -1722,7 +1722,7 @@ class Result:
         """
     def surface(self, /, step: SupportsIndex, *, intervals: SupportsIndex = 8) -> Surface:
         """
-        The ply between the catenaries of a step as a surface with so many intervals along each side of a cell.
+        The ply between the catenaries of a step as a surface with this many intervals along each side of a cell.
 
         Parameters
         ----------
@@ -1998,7 +1998,7 @@ class Sample:
     @property
     def ok(self, /) -> bool:
         """
-        Whether so many do, or as many without a failure as give 95 % confidence.
+        Whether this many do, or as many without a failure as give 95 % confidence.
         """
     @property
     def ratios(self, /) -> NDArray[float64]:
@@ -2283,7 +2283,7 @@ class Scene:
         """
     def replace(self, /, **changes: typing.Any) -> Scene:
         """
-        The same scene with other values: keyword arguments as those of a scene, in which only what changes must stand.
+        The same scene with other values: keyword arguments as those of a scene, of which only those that change are needed.
 
         A dict is merged into the table of that name, key by key; None takes a table or a key away. A table with another `kind` is
         taken whole. The scene itself stays as it is, and comments of its file are not in the `text` of the new one.
@@ -2396,7 +2396,7 @@ class Scene:
         Raises
         ------
         ValueError
-            If the scene has no errors, the factor is not finite, or neighbors would stand (all but)
+            If the scene has no errors, the factor is not finite, or neighbors would be (all but)
             straight above each other.
 
         Examples
@@ -2443,7 +2443,7 @@ class Scene:
         ------
         ValueError
             If the shapes do not fit, times do not ascend from 0, a coordinate is not a number up to 10⁶ m, or
-            neighbors stand (all but) straight above each other, where the model has no solution.
+            neighbors are (all but) straight above each other, where the model has no solution.
 
         Examples
         --------
@@ -2458,7 +2458,7 @@ class Sheet:
     """
     The whole ply as a sheet: its states over the steps that were kept. Measures and the verdict are those of its result.
 
-    Nodes stand where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
+    Nodes lie where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
     Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
 
     Examples
@@ -2711,7 +2711,7 @@ class Solver:
         Raises
         ------
         ValueError
-            If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all
+            If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors are (all
             but) straight above each other, where the model has no solution.
         SolveError
             If no equilibrium was found.
@@ -2934,7 +2934,7 @@ class Surface:
     @property
     def triangles(self, /) -> NDArray[uint32]:
         """
-        Corners of its triangles, shape (triangles, 3); none of a strip.
+        Corners of its triangles, shape (triangles, 3); none for a strip.
         """
 
 def _restore(name: str, state: str, file: bytes | None) -> Any:
@@ -2981,7 +2981,7 @@ def equilibria(
     Raises
     ------
     ValueError
-        If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all but)
+        If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors are (all but)
         straight above each other, where the model has no solution; it names the row.
 
     Examples

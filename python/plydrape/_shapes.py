@@ -50,7 +50,7 @@ def ply(result: Result, step: int, intervals: int) -> Ply | None:
 
 
 def lines(result: Result, step: int) -> list[NDArray[np.float64]]:
-    """The catenaries of a step where these decide; none of the sheet."""
+    """The catenaries of a step where these decide; None for the sheet."""
     return result.lines(step) if result.model == "catenaries" else []
 
 
@@ -84,7 +84,7 @@ def radius(result: Result) -> float:
 
 
 def discs(result: Result, step: int, size: float, corners: int = 28) -> NDArray[np.float64]:
-    """The rims of the grippers' discs at a step (G, corners, 3) in m, tilted with the ply."""
+    """The edges of the grippers' discs at a step (G, corners, 3) in m, tilted with the ply."""
     angle = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
     arm = size * np.stack([np.cos(angle), np.sin(angle), np.zeros(corners)], axis=-1)
     middle = result.positions[step - 1][:, None, :]

@@ -61,7 +61,7 @@ def same(value: Any, other: object) -> Any:
 
 
 def hashed(value: Any) -> int:
-    """The same of values that hold the same."""
+    """A hash that is the same for values that hold the same."""
     return hash(_plydrape._state(value, False))
 
 

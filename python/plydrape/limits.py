@@ -112,7 +112,7 @@ class Limits(Mapping[str, Limit]):
     >>> limits["height"].kept, limits["height"].unit
     (False, 'mm')
     >>> [limit.name for limit in limits.values() if not limit.kept]
-    ['strain', 'fibre_angle', 'height', 'out_of_plane', 'position']
+    ['strain', 'fiber_angle', 'height', 'out_of_plane', 'position']
 
     """
 

@@ -17,7 +17,7 @@ from . import values
 
 
 class Odd(enum.Enum):
-    """What stands in a file's place without being a file with contents."""
+    """What is in a file's place without being a file with contents."""
 
     PIPE = "a named pipe that nobody writes"
     FOLDER = "a folder"
@@ -130,7 +130,7 @@ class Case:
 
 
 def place(path: Path, content: bytes | Odd) -> None:
-    """Puts a file, or what stands in its place."""
+    """Puts a file, or what is in its place."""
     match content:
         case bytes():
             path.write_bytes(content)

@@ -49,7 +49,7 @@ class Fault:
     detail: str
 
     def key(self, command: str) -> str:
-        """The same for faults that are alike: without numbers and quoted values."""
+        """A key that is the same for faults that are alike: without numbers and quoted values."""
         detail = re.sub(r'`[^`]*`|"[^"]*"|\'[^\']*\'', "…", self.detail.split("\n")[0])
         place = re.search(r"crates/\S+\.rs:\d+|[\w/]+\.(py|rs):\d+", self.detail)
         alike = place[0] if place else re.sub(r"[-+.\d]*\d", "#", detail)[:60]

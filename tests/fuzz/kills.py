@@ -448,7 +448,7 @@ class Kills:
         found = contents(out)
         listed = ".plydrape"
         for name in sorted(found.keys() | wanted.keys()):
-            # the rows of a study stand in as many parts as it had runs
+            # the rows of a study are in as many parts as it had runs
             apart = name.startswith("rows/") and not Path(name).name.startswith(".")
             if name != listed and not apart and found.get(name) != wanted.get(name):
                 is_there = "another" if name in found and name in wanted else "more or less"

@@ -149,7 +149,7 @@ def files(rng: Random) -> Files:
     table = {
         "ply": {"grippers": [3, 2], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
         "mold": {"kind": "mesh", "file": name, "unit": "mm"},
-        "grippers": {"spacing": ["98 mm", "98 mm"], "height": "60 mm", "origin": "centred"},
+        "grippers": {"spacing": ["98 mm", "98 mm"], "height": "60 mm", "origin": "centered"},
         "target": {"seed": "middle", "origin": ["150 mm", "150 mm"], "mesh": "25 mm"},
         "motion": {"kind": "straight", "steps": 3},
         "plan": scene.PLAN,

@@ -1,7 +1,7 @@
 """`scripts/fuzz picks`: many offsets answered by one `plydrape replan --json`, in constant memory.
 
 Offsets, pairs of points, lines that are refused and lines that are no JSON come in turn, and each
-gets its one line. The memory of the process is read after so many lines, each ten times as many.
+gets its one line. The memory of the process is read after this many lines, each ten times as many.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Results: written by the command, changed, and sealed again, so that their contents are judged.
 
-The check sum of a result file, its last value, is the CRC-32 of all that stands before it.
+The check sum of a result file, its last value, is the CRC-32 of all that precedes it.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def change(rng: Random, files: Files) -> str:
 
 
 def everywhere(rng: Random, files: Files) -> str:
-    """Changes the same key wherever it stands, and seals the result."""
+    """Changes a key wherever it occurs, and seals the result."""
     result = opened(files)
     if result is None:
         return "no result to change"

@@ -200,7 +200,7 @@ def ran(binary: Path, command: str, folder: Path, threads: int) -> tuple[int, by
 def differences(one: Contents, two: Contents) -> Iterator[str]:
     """Files that are not the same."""
     for name in sorted(one.keys() | two.keys()):
-        # rows of a study stand in as many parts as they took seconds
+        # rows of a study are in as many parts as they took seconds
         if "/rows/" in name or one.get(name) == two.get(name):
             continue
         if name not in one or name not in two:

@@ -15,19 +15,19 @@ Path = tuple[str | int, ...]
 
 
 def get(tree: Any, path: Path) -> Any:
-    """What stands at a path."""
+    """The value at a path."""
     for key in path:
         tree = tree[key]
     return tree
 
 
 def put(tree: Any, path: Path, value: Any) -> None:
-    """Puts a value where another stands."""
+    """Replaces a value."""
     get(tree, path[:-1])[path[-1]] = value
 
 
 def put_everywhere(tree: Any, key: str, value: Any) -> None:
-    """Puts a value wherever a key stands."""
+    """Replaces the value of a key wherever it occurs."""
     for at in tree if isinstance(tree, dict) else range(len(tree)):
         if at == key:
             tree[at] = value
@@ -80,7 +80,7 @@ def change(rng: Random, tree: Any) -> str:
 
 
 def change_number(rng: Random, tree: Any) -> str:
-    """Gives another size to a number, or to all that stand in the same place of a list's items."""
+    """Gives another size to a number, or to all in the same place of a list's items."""
     alike: dict[str, list[Path]] = {}
     for path in numbers(tree):
         alike.setdefault(name(tuple(key for key in path if isinstance(key, str))), []).append(path)

@@ -33,7 +33,7 @@ UNITS = (
 
 TEXTS = (
     *("", " ", "0", "1 mm", "1e999 mm", "-1 mm", "nan mm", "1,5 mm", "mm", "1 furlong", "middle"),
-    *("centred", "plane", "../x", "/", ".", "/dev/null", "con", "%s%n", "\x00", "\x1b[31mred\x07"),
+    *("centered", "plane", "../x", "/", ".", "/dev/null", "con", "%s%n", "\x00", "\x1b[31mred\x07"),
     *("\u202eback", "\ufeff", "</script><b>", "]]>", "a'\"b\\", "é\u0301", "\U0001f9f5", "l\nm"),
     *("x" * 300, "x" * 20_000, "\u2028", "scene.toml", "a,b;c\td", "=1+1", "\x7f\x85\x9b1m"),
 )

@@ -30,7 +30,7 @@ position = [0, 0, {-RADIUS}]
 [grippers]
 spacing = ["98 mm", "78 mm"]
 height = "50 mm"
-origin = "centred"
+origin = "centered"
 direction = "20 deg"
 [target]
 seed = "middle"

@@ -7,8 +7,8 @@
   took, and where of several equal places something is, may differ. A line `…` stands for lines that
   are left out. A command with nothing below it may print what it likes.
 - A block `{code-block}` with a `:caption:` is a file of that name.
-- Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those
-  that need a program which may be missing, or a module of Python, stand in a `console` block below
+- Commands that are not run are in a block `sh` below a comment `<!-- not run: why -->`. Those
+  that need a program which may be missing, or a module of Python, are in a `console` block below
   `<!-- needs: program python:module … -->`.
 
     PLYDRAPE=target/checked/plydrape .venv/bin/python tests/python/guide.py docs/guide/planning.md

@@ -3,7 +3,7 @@
     tests/python/notebooks.py [NAME…]     runs notebooks and records their outputs
 
 Pictures are recorded with few dots, since they are looked at and not measured. A page of a result
-is left out, because it is megabytes; a sentence stands in its place. Of texts the words are
+is left out, because it is megabytes; a sentence replaces it. Of texts the words are
 compared as they are and numbers nearly, as in the guide (`guide.agree`). Pictures are not compared.
 """
 

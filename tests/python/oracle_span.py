@@ -423,12 +423,12 @@ def stations(s: Spans, force: float, slopes: Real, count: int = 11) -> tuple[Rea
 
 def sag(s: Spans, force: float, slopes: Real) -> float:
     """Largest vertical distance below the chord (m) of one span."""
-    centre, width = 0.5, 0.5
+    center, width = 0.5, 0.5
     best = 0.0
     for _ in range(12):  # each pass narrows the window around the deepest of 201 stations tenfold
-        share = np.clip(np.linspace(centre - width, centre + width, 201), 0.0, 1.0)[None, :]
+        share = np.clip(np.linspace(center - width, center + width, 201), 0.0, 1.0)[None, :]
         depth = -np.real(solve(s, np.array([force]), slopes, share).height[0])
         deepest = int(np.argmax(depth))
         best = max(best, float(depth[deepest]))
-        centre, width = float(share[0, deepest]), width / 10.0
+        center, width = float(share[0, deepest]), width / 10.0
     return best

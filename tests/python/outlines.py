@@ -15,7 +15,7 @@ from ezdxf.math import rational_bspline_from_arc
 
 FOLDER = Path(__file__).resolve().parents[2] / "crates/plydrape-io/tests/it/outlines"
 
-# version, name of the unit, unit of the header, units in a millimetre
+# version, name of the unit, unit of the header, units in a millimeter
 VERSIONS = [
     ("R12", "none", 0, 1.0),
     ("R2000", "mm", 4, 1.0),

@@ -84,7 +84,7 @@ def catenaries(lines: list[Entry], columns: Entry, contacts: list[Entry | None])
         for key in ("points", "arc", "landing_error_mm"):
             values, kept = new[key], [] if old is None else old[key]
             contact[key] = None if values is None else values[:before] + kept + values[before:]
-        contact["fibre_angle_deg"] = new["fibre_angle_deg"]
+        contact["fiber_angle_deg"] = new["fiber_angle_deg"]
         contacts[n] = contact if contact["arc"] else None
     for line, held in zip(out, contacts, strict=True):
         line["contact"] = held

@@ -1,11 +1,11 @@
-"""The spelling of what a user reads: that of the United States.
+"""The spelling of what a user reads, that of the United States, and plain words.
 
-    python3 tests/python/spelling.py             lists other spellings
-    python3 tests/python/spelling.py --fix       changes them
+    python3 tests/python/spelling.py             lists other spellings, and phrases to replace
+    python3 tests/python/spelling.py --fix       changes the spellings
 
-Prose is what stands in Markdown outside of code; in the blocks of the guide what the program
-prints; in programs the texts of several words and the comments that become documentation. Keys and
-names in programs are code: `fibre_angle` is a key of the format and stays.
+Prose is Markdown outside of code; in the blocks of the guide what the program
+prints; in programs the texts of several words and the comments that become documentation. Names and
+keys in programs are listed too, and changed by hand.
 """
 
 from __future__ import annotations
@@ -68,6 +68,23 @@ STEMS = {
     "signalled": "signaled",
     "travelled": "traveled",
 }
+# what no name or key of a program has; a file of these is one that reads such words
+NAMED = re.compile(r"fibre|neighbour|colour|metre|centre|centring|centred|behaviour|licence", re.I)
+READS = re.compile(
+    r"scene/(choice|diagnostic|units|limits)\.rs$|measure/mod\.rs$|result/contact\.rs$"
+    r"|it/(scenes|books)\.rs$|_occ\.py$|opening\.ts$"
+)
+# phrases of a private meaning, and what an engineer writes
+PHRASES = {
+    r"\b(?:is|are|was|were) wanted\b": "must be, expected",
+    r"\bstands? (?:an|no|any) errors?\b": "tolerates",
+    r"\b(?:is|are|was|were) told(?! apart)\b": "has, reports, is called with",
+    r"\bby and by\b": "step by step",
+    r"\bstands? (?:here|over (?:it|them|the))\b": "is given here, overrides",
+    r"(?:///|//!|/\*\*|\"\"\") ?(?:Those of|The same (?:of|with|as|in|for))\b": "the noun itself",
+    r"\b(?:crumbs?|strands?|complaints?|unmet)\b": "short free segment, curve, diagnostic",
+}
+PRIVATE = [(re.compile(phrase), ours) for phrase, ours in PHRASES.items()]
 # words whose ending differs
 CENTRED = re.compile(r"\bcentred\b", re.I)
 PER_CENT = re.compile(r"\bper cent\b", re.I)
@@ -190,6 +207,17 @@ def changes(path: Path, text: str) -> Iterator[tuple[int, str, str]]:
             yield number, old, ours
 
 
+def private(path: Path, text: str) -> Iterator[tuple[int, str, str]]:
+    """Phrases of a private meaning and names of another spelling: line, as it is, what to write."""
+    is_code = path.suffix in GRAMMARS and not READS.search(path.as_posix())
+    for number, line in enumerate(text.split("\n"), start=1):
+        for phrase, ours in PRIVATE:
+            if found := phrase.search(line):
+                yield number, found[0], ours
+        if is_code and (found := NAMED.search(line)):
+            yield number, found[0], "the spelling of the United States"
+
+
 def documents() -> list[Path]:
     """All documents whose prose counts."""
     return sorted(path for name in FILES for path in ROOT.glob(name))
@@ -213,6 +241,9 @@ def main(arguments: list[str]) -> int:
             lines[number - 1] = ours
             words = set(re.findall(r"\w+", line)) - set(re.findall(r"\w+", ours))
             print(f"{path.relative_to(ROOT)}:{number}: {', '.join(sorted(words))}")
+        for number, found, ours in private(path, text):
+            wrong += 1
+            print(f"{path.relative_to(ROOT)}:{number}: {found}: {ours}")
         if arguments == ["--fix"]:
             path.write_text("\n".join(lines), encoding="utf-8")
     return int(wrong > 0 and arguments != ["--fix"])

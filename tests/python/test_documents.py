@@ -42,6 +42,32 @@ def test_the_readme_is_short() -> None:
     assert len(README.split()) <= 900
 
 
+def test_every_document_says_the_version_of_the_program() -> None:
+    """The workspace's, in README, guide, citation, changelog and page."""
+
+    def text(name: str) -> str:
+        return (ROOT / name).read_text(encoding="utf-8")
+
+    (version,) = re.findall(r'^version = "(.*)"$', text("Cargo.toml"), re.M)
+    assert plydrape.__version__ == version
+    assert f"[release {version}](docs/guide/install.md)" in README
+    assert f"\nversion: {version}\n" in text("CITATION.cff")
+    first = re.search(r"^## \[(?!Unreleased)(.*?)\]", text("CHANGELOG.md"), re.M)
+    assert first is not None and first[1] == version
+    named = r"plydrape[- ](\d+\.\d+\.\d+)\b"
+    for path in sorted((ROOT / "docs").rglob("*.md")):
+        found = set(re.findall(named, path.read_text(encoding="utf-8")))
+        assert found <= {version}, f"{path.name}: {found}"
+    page = text("crates/plydrape-io/src/lib.rs")
+    assert 'PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"))' in page
+
+
+def test_the_design_is_short() -> None:
+    """What a newcomer asks: 60 questions, 6 000 words."""
+    text = (ROOT / "DESIGN.md").read_text(encoding="utf-8")
+    assert len(text.split()) <= 6000 and len(re.findall(r"^###", text, re.M)) <= 60
+
+
 def test_the_quick_start_has_two_commands() -> None:
     """One plans a shipped example, one runs all tests."""
     (block,) = re.findall(r"## Quick start.*?```sh\n(.*?)```", README, re.S)
@@ -74,7 +100,7 @@ def test_the_readme_counts_the_random_scenes_as_the_benchmark_does() -> None:
 
 @pytest.mark.parametrize(("file", "name"), TESTS, ids=[name for _, name in TESTS])
 def test_a_comparison_is_a_test(file: str, name: str) -> None:
-    """What stands in the table of the validation can be run."""
+    """The cases in the table of the validation can be run."""
     text = (ROOT / file).read_text(encoding="utf-8")
     assert re.search(rf"\b(?:fn|def) {name}\(", text)
 
@@ -94,7 +120,7 @@ def test_every_table_of_a_scene_has_its_keys_on_the_page() -> None:
 
 
 def test_the_page_of_all_keys_is_made_from_the_schema() -> None:
-    """What stands in the sources is what `python docs/keys.py` writes."""
+    """The file in the sources is what `python docs/keys.py` writes."""
     made_now = made("keys").page()
     assert (ROOT / "docs" / "guide" / "keys.md").read_text(encoding="utf-8") == made_now
 
@@ -137,7 +163,7 @@ def test_examples_of_keys_are_what_a_scene_takes(tmp_path: Path) -> None:
 BASE: dict[str, dict[str, Any]] = {
     "ply": {"grippers": [4, 3], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
     "mold": {"kind": "cylinder", "radius": "0.5 m", "position": [0, 0, "-0.5 m"]},
-    "grippers": {"spacing": ["98 mm", "98 mm"], "height": "60 mm", "origin": "centred"},
+    "grippers": {"spacing": ["98 mm", "98 mm"], "height": "60 mm", "origin": "centered"},
     "target": {"seed": "middle"},
     "motion": {"kind": "straight"},
 }
@@ -190,7 +216,7 @@ def test_every_public_name_of_the_package_is_on_its_page() -> None:
         assert f"### `plydrape.study.{name}`" in page, name
 
 
-# How a program or a library that a test compares with stands in the table.
+# How a program or a library that a test compares with is named in the table.
 PEERS = {
     "calculix": "CalculiX",
     "ezdxf": "ezdxf",

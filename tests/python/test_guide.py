@@ -59,7 +59,7 @@ def test_a_chapter_does_what_it_says(chapter: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
 def test_no_command_escapes_the_test(chapter: Path) -> None:
-    """They stand in `console` blocks, or in `sh` blocks with the reason why they are not run."""
+    """They are in `console` blocks, or in `sh` blocks with the reason why they are not run."""
     for block in blocks_of(chapter):
         place = f"{chapter.name}, line {block.line}"
         if block.info.startswith("{code-block}"):

@@ -57,7 +57,7 @@ def test_vtk_reads_the_net_that_the_table_lists(folder: Path) -> None:
     assert np.array_equal(net.point_data["shear_deg"], [float(row["shear_deg"]) for row in rows])
 
 
-def test_cells_shear_as_their_fibres_stand(folder: Path) -> None:
+def test_cells_shear_as_their_fibers_stand(folder: Path) -> None:
     """Fiber directions are unit vectors; the angle between them is 90° less the signed shear.
 
     Both are of the cell's middle: chords there against tangents, equal up to the square of mesh
@@ -65,7 +65,7 @@ def test_cells_shear_as_their_fibres_stand(folder: Path) -> None:
     """
     net = pyvista.read(folder / "net.vtp")
     assert net.regular_faces.shape[1] == 4
-    u, v = (net.cell_data[name] for name in ("fibre_u", "fibre_v"))
+    u, v = (net.cell_data[name] for name in ("fiber_u", "fiber_v"))
     assert np.allclose(np.linalg.norm(u, axis=1), 1, atol=1e-14)
     assert np.allclose(np.linalg.norm(v, axis=1), 1, atol=1e-14)
     shear = np.degrees(np.arcsin(np.sum(u * v, axis=1)))

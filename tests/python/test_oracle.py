@@ -238,7 +238,7 @@ def test_equilibrium_is_the_same_from_another_start(case: Configuration) -> None
     np.testing.assert_allclose(again.forces, found.forces, rtol=1e-8, atol=1e-10)
 
 
-def test_min_force_is_a_minimum_among_neighbouring_slopes() -> None:
+def test_min_force_is_a_minimum_among_neighboring_slopes() -> None:
     """The full-space answer against the reduced one: hang the ply at random slopes nearby."""
     rng = np.random.default_rng(29)
     for case in CONFIGURATIONS:

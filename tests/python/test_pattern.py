@@ -71,7 +71,7 @@ def test_a_pattern_names_its_grippers_where_they_hold() -> None:
 def test_the_arrow_of_a_pattern_points_along_the_warp() -> None:
     """From its tail to its tip at 45 degrees."""
     drawing = sound(file("pattern.dxf"))
-    shaft, head = entities(drawing, 'LWPOLYLINE[layer=="FIBRE"]')
+    shaft, head = entities(drawing, 'LWPOLYLINE[layer=="FIBER"]')
     tip, tail = np.array(shaft.get_points("xy"))
     assert np.degrees(np.arctan2(*(tip - tail)[::-1])) == pytest.approx(45)
     assert np.array(head.get_points("xy"))[1] == pytest.approx(tip)

@@ -235,9 +235,9 @@ def test_mcap_ros2_support_decodes_the_same_by_the_schemas_in_the_bag(either: Ex
                 assert len(message.interface_groups) == len(either.result.ids)
             if channel.topic == "/plydrape/ply":
                 discs = [m for m in message.markers if m.ns == "grippers"]
-                spots = [[m.pose.position.x, m.pose.position.y, m.pose.position.z] for m in discs]
+                points = [[m.pose.position.x, m.pose.position.y, m.pose.position.z] for m in discs]
                 step = either.result.steps[seen[channel.topic] - 1]
-                assert spots == [g["position"] for g in step["grippers"]]
+                assert points == [g["position"] for g in step["grippers"]]
     frames = seen.pop("/tf")
     assert frames == len(table(either)[0])
     once = dict.fromkeys(LATCHED, 1)
@@ -248,7 +248,7 @@ def test_mcap_ros2_support_decodes_the_same_by_the_schemas_in_the_bag(either: Ex
 def test_another_encoder_writes_the_same_bytes(planned: Exported, distribution: str) -> None:
     """Decoded and encoded again by rosbags' own definitions, a message is what it was.
 
-    What stands in the padding is nobody's business; both write zeros.
+    The padding is nobody's business; both write zeros.
     """
     store = typestore(Stores[f"ROS2_{distribution}"])
     with Reader(planned.bag) as reader:
@@ -366,9 +366,9 @@ def test_markers_are_the_shape_of_the_step_at_its_time(either: Exported) -> None
 
         contacts = [line["contact"]["points"] for line, span in pieces(step) if span is None]
         touches = [points[0] for points in contacts if len(points) == 1]
-        spots = markers["contact", 1]
-        assert spots.type == 7 and spots.action == (0 if touches else 2)
-        assert np.array_equal(coordinates(spots.points), np.array(touches).reshape(-1, 3))
+        points = markers["contact", 1]
+        assert points.type == 7 and points.action == (0 if touches else 2)
+        assert np.array_equal(coordinates(points.points), np.array(touches).reshape(-1, 3))
         due = [point for line in contacts for pair in pairwise(line) for point in pair]
         touched |= bool(due)
         lying = markers["contact", 0]
@@ -397,7 +397,7 @@ def test_markers_are_the_shape_of_the_step_at_its_time(either: Exported) -> None
         sheet = markers["ply", 0]
         corners = coordinates(sheet.points)
         assert sheet.type == 11 and len(corners) % 3 == 0 and len(sheet.colors) == len(corners)
-        # where the mold has caught the ply it lies on the mold, its gripper as near as that counts
+        # where the ply is in contact it lies on the mold, its gripper as near as that counts
         near = either.result.content["scene"]["settings"]["contact"]["tolerance"]
         for gripper in step["grippers"]:
             assert np.linalg.norm(corners - gripper["position"], axis=1).min() <= near

@@ -205,7 +205,7 @@ def scene_of(ply: Any) -> plydrape.Scene:
 
 
 def ours(scene: plydrape.Scene) -> Drape:
-    """The same by plydrape."""
+    """The drape by plydrape."""
     sheet = plydrape.simulate(scene, model="sheet").sheet
     assert sheet is not None
     return Drape(sheet.places, sheet.positions)

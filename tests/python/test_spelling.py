@@ -5,19 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from spelling import ROOT, changes, documents, program, programs, prose, spelled
+from spelling import ROOT, changes, documents, private, program, programs, prose, spelled
 
 
 @pytest.mark.parametrize("path", documents(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_a_document_has_one_spelling(path: Path) -> None:
     """`python3 tests/python/spelling.py --fix` changes what is found."""
-    assert list(prose(path.read_text(encoding="utf-8"))) == []
+    text = path.read_text(encoding="utf-8")
+    assert list(prose(text)) == [] and list(private(path, text)) == []
 
 
 @pytest.mark.parametrize("path", programs(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_what_a_program_says_has_one_spelling(path: Path) -> None:
-    """As above; keys and names in programs keep their spelling."""
-    assert list(changes(path, path.read_text(encoding="utf-8"))) == []
+    """As above; keys and names are changed by hand."""
+    text = path.read_text(encoding="utf-8")
+    assert list(changes(path, text)) == [] and list(private(path, text)) == []
 
 
 def test_texts_of_a_program_are_changed_and_names_are_not() -> None:
@@ -31,6 +33,15 @@ def test_texts_of_a_program_are_changed_and_names_are_not() -> None:
     ).replace("a fibre,", "a fiber,")
     python = '"""Draws.\n\n    colour: The colour of a fibre.\n"""\nx(colour="grey")\n'
     assert program(python, ".py") == python.replace("The colour of a fibre", "The color of a fiber")
+
+
+def test_names_and_private_phrases_are_listed() -> None:
+    """Names of a program count, but where it reads such words; phrases count everywhere."""
+    text = "let fibre_angle = 1;\n/// Those of a net.\n// a length is wanted\n// told apart"
+    found = [(line, phrase) for line, phrase, _ in private(Path("a.rs"), text)]
+    assert found == [(1, "fibre"), (2, "/// Those of"), (3, "is wanted")]
+    assert [n for n, _, _ in private(Path("crates/plydrape-io/src/scene/units.rs"), text)] == [2, 3]
+    assert [n for n, _, _ in private(Path("a.md"), text)] == [2, 3]
 
 
 def test_words_are_changed_and_code_is_not() -> None:

@@ -188,7 +188,7 @@ def test_time_and_memory_are_those_of_the_program() -> None:
     assert 100.0 < done.memory_mb < 400.0
 
 
-def test_a_program_that_takes_too_long_is_told_to_end() -> None:
+def test_a_program_that_takes_too_long_is_ended() -> None:
     """Its row says so."""
     late = timed([sys.executable, "-c", "import time; time.sleep(100)"], 0.2)
     assert late.late and late.seconds < 50.0

@@ -235,7 +235,7 @@ def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
             [corner] = np.flatnonzero(np.linalg.norm(fabric - place, axis=1) < 1e-12)
             assert np.linalg.norm(poly.points[corner] - gripper["position"]) <= near
 
-        # quads: right-handed in the fabric, so their normals point up; fibres along their sides
+        # quads: right-handed in the fabric, so their normals point up; fibers along their sides
         quads = np.array(poly.polys)
         assert quads.shape[1] == 4
         a, b, c, d = (poly.points[quads[:, k]] for k in range(4))
@@ -245,10 +245,10 @@ def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
         assert (sides[1][:, 1] > 0).all() and (sides[1][:, 0] == 0).all()
         warp, weft = ("u", "v") if content["ply"]["warp"] == "u" else ("v", "u")
         for name, direction in [("warp", warp), ("weft", weft)]:
-            fibres = data[name]
-            assert np.abs(np.linalg.norm(fibres, axis=1) - 1).max() < 1e-14
+            fibers = data[name]
+            assert np.abs(np.linalg.norm(fibers, axis=1) - 1).max() < 1e-14
             chord = b - a if direction == "u" else d - a
-            along = np.einsum("ij,ij->i", fibres[quads[:, 0]], chord)
+            along = np.einsum("ij,ij->i", fibers[quads[:, 0]], chord)
             # a ruck of what slack there is stands up to 45 degrees steep within a quad
             assert (along > np.cos(np.pi / 4) * np.linalg.norm(chord, axis=1)).all()
 

@@ -13,7 +13,7 @@ import { linkHover } from "./page/hover";
 import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
 import { showLimit, showLimits, showVerdict } from "./page/limits";
-import { asked, colourOf, pointerOf, worst } from "./page/opening";
+import { asked, colorOf, pointerOf, worst } from "./page/opening";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
 import { showSample, showTolerance } from "./page/sample";
@@ -42,12 +42,12 @@ async function open(): Promise<void> {
   const model = wanted.model ?? data.drape.model;
   const first = worst(data);
   const known = fieldsOf(data, model).map(({ key }) => key);
-  const shows = wanted.colour ?? (first === null ? null : colourOf(data, first));
+  const shows = wanted.color ?? (first === null ? null : colorOf(data, first));
   const state = new State(
     {
       index: wanted.index ?? (first === null ? data.steps.length - 1 : nearest(data.steps, first.step)),
       model,
-      colour: known.find((key) => key === shows) ?? known[0] ?? "height",
+      color: known.find((key) => key === shows) ?? known[0] ?? "height",
       stepRange: false,
       orders: true,
       diagonals: true,
@@ -110,10 +110,10 @@ function openAtWorst(
     button.addEventListener("click", () => showLimit(state, data, limit));
   }
   addEventListener("hashchange", () => {
-    const { index, colour, model } = asked(data);
+    const { index, color, model } = asked(data);
     if (model !== null) chooseModel(state, data, model);
-    if (colour !== null && fieldsOf(data, state.now.model).some(({ key }) => key === colour))
-      state.set({ colour });
+    if (color !== null && fieldsOf(data, state.now.model).some(({ key }) => key === color))
+      state.set({ color });
     if (index !== null) state.goto(index);
   });
 }

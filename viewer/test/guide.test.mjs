@@ -62,11 +62,11 @@ describe("user guide", { skip: missing ?? false }, () => {
 
     const context = await browser.newContext({ viewport: PHONE });
     const page = await context.newPage();
-    const complaints = [];
-    page.on("pageerror", (error) => complaints.push(error.message));
+    const diagnostics = [];
+    page.on("pageerror", (error) => diagnostics.push(error.message));
     for (const path of pages) {
       await page.goto(`${origin}/${path}`);
-      found.set(path, { ...(await page.evaluate(look)), complaints: complaints.splice(0) });
+      found.set(path, { ...(await page.evaluate(look)), diagnostics: diagnostics.splice(0) });
     }
     await context.close();
   });
@@ -108,7 +108,7 @@ describe("user guide", { skip: missing ?? false }, () => {
   });
 
   test("no script fails", () => {
-    const failed = [...found].filter(([, { complaints }]) => complaints.length > 0);
+    const failed = [...found].filter(([, { diagnostics }]) => diagnostics.length > 0);
     assert.deepEqual(failed, []);
   });
 

@@ -47,7 +47,7 @@ describe("live page", { skip: missing ?? false, concurrency: 1 }, () => {
   test("it opens with the start of the paper's example", opensAtTheStart);
   test("a dragged gripper has the forces that the program finds", draggedForcesAreNative);
   test("on every mold, with every rule, a ply that touches has them too", touchingForcesAreNative);
-  test("a changed material stands in the saved scene", materialIsSaved);
+  test("a changed material is in the saved scene", materialIsSaved);
   test("where no ply can follow the gripper stays, and a sentence says why", overstretchIsSaid);
   test("an address brings back what was set, and a broken one the start", addressesLead);
   test("an answer is drawn in the frame in which it was asked for", drawnInTheSameFrame);
@@ -77,7 +77,7 @@ async function gripperAt(page, gripper) {
   return [view.x + x, view.y + y];
 }
 
-/** Drags a gripper by so many pixels, in some moves. */
+/** Drags a gripper by this many pixels, in some moves. */
 async function drag(page, gripper, [dx, dy], moves = 8) {
   const [x, y] = await gripperAt(page, gripper);
   await page.mouse.move(x, y);
@@ -148,12 +148,12 @@ async function agrees(page, name) {
 }
 
 async function opensAtTheStart() {
-  const { page, context, complaints, requests } = await open();
+  const { page, context, diagnostics, requests } = await open();
   const start = readFileSync(join(ROOT, "crates/plydrape-live/tests/start.toml"), "utf8");
   assert.equal(await page.evaluate(() => window.live.scene()), start);
   assert.match(await page.locator("#verdict").textContent(), /All \d+ limits kept by the catenaries/);
   assert.ok(await page.locator("#live-said").isHidden());
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   assert.ok(
     requests.every((url) => /^(file|data|blob):/.test(url)),
     requests.join(),
@@ -162,7 +162,7 @@ async function opensAtTheStart() {
 }
 
 async function draggedForcesAreNative() {
-  const { page, context, complaints } = await open();
+  const { page, context, diagnostics } = await open();
   const before = await page.evaluate(() => window.live.setup().grippers);
   const picture = await page.locator("#view").screenshot();
   await drag(page, 2, [-12, -40]);
@@ -204,7 +204,7 @@ async function draggedForcesAreNative() {
   await page.mouse.move(view.x + 90, view.y + 60, { steps: 3 });
   await page.mouse.up();
   assert.equal(await page.evaluate(() => window.live.scene()), scene);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -217,7 +217,7 @@ const TOUCHING = {
 };
 
 async function touchingForcesAreNative() {
-  const { page, context, complaints } = await open();
+  const { page, context, diagnostics } = await open();
   let largest = 0;
   for (const [name, hash] of Object.entries(TOUCHING)) {
     await page.evaluate((to) => (location.hash = to), hash);
@@ -230,12 +230,12 @@ async function touchingForcesAreNative() {
     largest = Math.max(largest, most);
   }
   console.log(`of plies that touch they differ by ${largest.toExponential(1)} at most`);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
 async function materialIsSaved() {
-  const { page, context, complaints } = await open();
+  const { page, context, diagnostics } = await open();
   await page.locator("#material").selectOption("cao2008_plain");
   await page.locator("#mass").fill("300");
   await page.locator("#rigidity").fill("100");
@@ -243,12 +243,12 @@ async function materialIsSaved() {
   const { scene } = await agrees(page, "material");
   assert.match(scene, /mass = "1486 g\/m\^2"/);
   assert.match(scene, /\[ply\.material\.shear_curve\]/);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
 async function overstretchIsSaid() {
-  const { page, context, complaints } = await open();
+  const { page, context, diagnostics } = await open();
   const [x, y] = await gripperAt(page, 3);
   await page.mouse.move(x, y);
   await page.mouse.down();
@@ -267,7 +267,7 @@ async function overstretchIsSaid() {
   const text = await page.locator("body").innerText();
   assert.doesNotMatch(text, /NaN|Infinity|undefined|null/);
   await agrees(page, "stretched");
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -290,9 +290,9 @@ async function addressesLead() {
     "g=1_2_3&kind=moon&mass=NaN&height=1e99x",
     "g=" + Array(24).fill("nonsense").join("_"),
   ]) {
-    const { page, context, complaints } = await open({ hash: broken });
+    const { page, context, diagnostics } = await open({ hash: broken });
     assert.equal(await page.evaluate(() => window.live.scene()), start);
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(diagnostics, []);
     await context.close();
   }
   // grippers that no ply joins: said, and the start is shown
@@ -307,7 +307,7 @@ async function addressesLead() {
 
 async function fingerDrags() {
   const size = { width: 390, height: 844 };
-  const { page, context, complaints } = await open({ ...size, touch: true });
+  const { page, context, diagnostics } = await open({ ...size, touch: true });
   await fitsScreen(page, size.width, "opened");
   const before = await page.evaluate(() => window.live.setup().grippers[6]);
   const [x, y] = await gripperAt(page, 6);
@@ -321,7 +321,7 @@ async function fingerDrags() {
   assert.ok(now[2] < before[2] - 0.003, `${now} from ${before}`);
   assert.equal(await page.evaluate(() => window.scrollY), 0);
   await agrees(page, "finger");
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -350,7 +350,7 @@ async function drawnInTheSameFrame() {
 }
 
 async function finerAtRest() {
-  const { page, context, complaints } = await open({ pixels: 2 });
+  const { page, context, diagnostics } = await open({ pixels: 2 });
   const ratio = () =>
     page.evaluate(() => {
       const canvas = document.querySelector("#picture");
@@ -413,7 +413,7 @@ async function finerAtRest() {
   assert.ok(Math.hypot(...after.map((c, n) => c - before[n])) < 0.001, `${after} from ${before}`);
   await page.evaluate(() => cancelAnimationFrame(window.slow));
   await fine();
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 

@@ -14,7 +14,7 @@ import { CHROMIUM, openReport, startBrowser } from "../browser.mjs";
 import { fitsScreen } from "./phone.mjs";
 import { distance, findReports, readColumns, readResult } from "./reports.mjs";
 
-const MICROMETRE = 1e-6;
+const MICROMETER = 1e-6;
 const reports = findReports();
 const missing =
   CHROMIUM === ""
@@ -62,7 +62,7 @@ describe("results page", { skip: missing ?? false }, () => {
   const sheet = reports.find((report) => hasSheet(report));
   const both = reports.find((report) => missing === null && JSON.parse(parts(report)[1]).also !== null);
   test(
-    "the other model stands behind a switch, is named so, and judges nothing",
+    "the other model is behind a switch, is named so, and judges nothing",
     { skip: both ? false : "no page of two models" },
     () => otherJudgesNothing(both),
   );
@@ -72,7 +72,7 @@ describe("results page", { skip: missing ?? false }, () => {
     () => sampleIsShown(sheet),
   );
   test("paths of the grippers tell what they have passed from what comes", () => pathsShow(surfaced()));
-  test("an address names step and colours", () => addressLeads(surfaced()));
+  test("an address names step and colors", () => addressLeads(surfaced()));
   test("heights have a scale of orders or an even one, of all steps or of one", () =>
     scalesChange(surfaced()));
   test("between catenaries the pointer reads the surface", () => surfaceIsRead(surfaced()));
@@ -109,7 +109,7 @@ async function cellShows(report, page) {
   await check.blur();
 }
 
-/** The catenaries of a page, whether they decide or stand beside; null where there are none. */
+/** The catenaries of a page, whether they decide or not; null where there are none. */
 function catenariesOf({ drape, also }) {
   return drape.catenaries ?? also?.catenaries ?? null;
 }
@@ -155,7 +155,7 @@ function shows(report, first) {
   });
   after(() => opened?.context.close());
   test("opens at the worst limit of the end, with its place marked", () => opensAtWorst(opened.page));
-  test("opens without a complaint and asks for nothing", () => opens(report, opened));
+  test("opens without a diagnostic and asks for nothing", () => opens(report, opened));
   test("shows nothing of a sample that the result does not have", () => saysNoSample(opened.page));
   test("bodies, obstacles and what the vacuum does are those of the result", () =>
     cellShows(report, opened.page));
@@ -166,18 +166,18 @@ function shows(report, first) {
     grippersMove(report, opened.page));
   test("the slider moves the ply to the result's positions", () => sliderMoves(report, opened.page));
   if (first) test("plays, stops, and steps by keyboard", () => playsAndSteps(opened.page));
-  test("every colour mode has its own legend", () => coloursHaveLegends(opened.page));
+  test("every color mode has its own legend", () => colorsHaveLegends(opened.page));
   test("a limit leads to its step and place", () => limitsLead(report, opened.page));
-  test("slack stands there as an angle", () => saysSlackAsAngle(opened.page));
+  test("slack is shown as an angle", () => saysSlackAsAngle(opened.page));
   test("a limit and the chart of its measure have one unit", () => unitsAgree(opened.page));
   test("a section shows ply and mold along a line of the fabric", () => sectionShows(report, opened.page));
   test("charts hold the numbers of steps.csv, and a click goes to a step", () =>
     chartsHold(report, opened.page));
   if (first) test("prints without controls, in light", () => prints(opened.page));
-  test("has complained of nothing in all this", () => assert.deepEqual(opened.complaints, []));
+  test("has reported nothing in all this", () => assert.deepEqual(opened.diagnostics, []));
 }
 
-/** Waits until so many frames were drawn. */
+/** Waits until this many frames were drawn. */
 async function frames(page, count) {
   await page.evaluate(async (n) => {
     for (let k = 0; k < n; k++) await new Promise(requestAnimationFrame);
@@ -195,9 +195,9 @@ async function eventually(check) {
   }
 }
 
-async function opens(report, { page, complaints, requests }) {
+async function opens(report, { page, diagnostics, requests }) {
   const title = await page.locator("#title").textContent();
-  const long = "A title that does not stand beside the verdict in a line, as real parts have them".repeat(2);
+  const long = "A title that does not fit beside the verdict in a line, as real parts have them".repeat(2);
   for (const [width, height, other] of [
     [1920, 1080],
     [1280, 720],
@@ -218,7 +218,7 @@ async function opens(report, { page, complaints, requests }) {
     assert.ok(overflow <= 0, `wider than the window by ${overflow}`);
   }
   await page.evaluate((text) => (document.querySelector("#title").textContent = text), title);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   assert.deepEqual(
     requests.filter((url) => !url.startsWith("data:")).map((url) => decodeURI(url)),
     [`file://${report.file}`],
@@ -270,7 +270,7 @@ async function grippersMove(report, page) {
     );
     positions.forEach((position, k) => {
       const off = Math.hypot(...position.map((x, c) => x - shown[k][c]));
-      assert.ok(off <= MICROMETRE, `step ${number}: gripper ${k} is off by ${off} m`);
+      assert.ok(off <= MICROMETER, `step ${number}: gripper ${k} is off by ${off} m`);
     });
     const index = given.steps.indexOf(Number(number));
     const drawn = given.drape.drawn[given.drape.pictures[index]];
@@ -308,14 +308,14 @@ async function sliderMoves(report, page) {
     );
     positions.forEach((position, k) => {
       const off = Math.hypot(...vertices[k].map((x, c) => x - position[c]));
-      assert.ok(off <= MICROMETRE, `step ${number}: gripper ${k} is off by ${off} m`);
+      assert.ok(off <= MICROMETER, `step ${number}: gripper ${k} is off by ${off} m`);
     });
     let k = wanted.length;
     for (const [edge, [from, to]] of edges.entries()) {
       for (let piece = 1; piece < n; piece++, k++) {
         const off = distance(vertices[k], lines[edge]);
         assert.ok(
-          off <= 2 * MICROMETRE,
+          off <= 2 * MICROMETER,
           `step ${number}: edge ${from}–${to} is off by ${off} m at ${piece}/${n}`,
         );
       }
@@ -341,7 +341,7 @@ async function sheetShows(report, page) {
     }, nodes.length);
     nodes.forEach((node, k) => {
       const off = Math.hypot(...shown[k].map((x, c) => x - node[c]));
-      assert.ok(off <= MICROMETRE, `step ${step}: node ${k} is off by ${off} m`);
+      assert.ok(off <= MICROMETER, `step ${step}: node ${k} is off by ${off} m`);
     });
     const most = Math.max(...forces.map((force) => Math.hypot(...force)));
     // the arrows are the loads along and across the ply
@@ -396,7 +396,7 @@ async function sheetShows(report, page) {
 
 /** Picture and charts become those of the other model, which is named; verdict and limits stay, and nothing of it has a limit. */
 async function otherJudgesNothing(report) {
-  const { page, context, complaints } = await openReport(browser, report.file);
+  const { page, context, diagnostics } = await openReport(browser, report.file);
   const data = await pageData(page);
   const result = resultOf(report, data);
   assert.deepEqual([data.drape.model, data.also.model], [result.model, result.also]);
@@ -426,11 +426,11 @@ async function otherJudgesNothing(report) {
   for (const list of [data.also.measures, data.also.fields, data.also.grippers.readings])
     assert.ok(list.every(({ limit }) => limit === null));
   assert.equal(await page.locator(".charts:not([hidden]) .chart-limit:not(:empty)").count(), 0);
-  await coloursHaveLegends(page);
+  await colorsHaveLegends(page);
   // a limit leads back to the model that it judges
   await page.locator("#limits tbody tr.linked button").first().click();
   assert.equal(await page.evaluate(() => window.plydrape.model), data.drape.model);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -527,13 +527,13 @@ async function playsThrough(report) {
   await context.close();
 }
 
-async function coloursHaveLegends(page) {
-  const order = await page.evaluate(() => window.plydrape.colours);
+async function colorsHaveLegends(page) {
+  const order = await page.evaluate(() => window.plydrape.colors);
   assert.equal(await page.locator("#legend").isVisible(), order.length > 0);
   const titles = new Set();
-  for (const [k, colour] of order.entries()) {
+  for (const [k, color] of order.entries()) {
     await page.keyboard.press(String(k + 1));
-    assert.equal(await page.evaluate(() => window.plydrape.colour), colour);
+    assert.equal(await page.evaluate(() => window.plydrape.color), color);
     const legend = await page.evaluate(() => window.plydrape.legend());
     const text = await page.locator("#legend").innerText();
     assert.ok(
@@ -704,7 +704,7 @@ async function chartsHold(report, page) {
     const expected = box.x + (box.width * (step - steps[0])) / (steps[steps.length - 1] - steps[0]);
     await eventually(async () => {
       const marker = await page.locator(`${shown} .chart-marker`).first().boundingBox();
-      assert.ok(Math.abs(marker.x + marker.width / 2 - expected) <= 1.5, "the marker stands on the step");
+      assert.ok(Math.abs(marker.x + marker.width / 2 - expected) <= 1.5, "the marker is on the step");
     });
   }
 }
@@ -801,13 +801,13 @@ async function fewerStepsAreSaid(report) {
     const changed = { ...JSON.parse(data), ...change };
     const file = join(scratch, `${name}.html`);
     writeFileSync(file, head + JSON.stringify(changed).replaceAll("<", "\\u003c") + tail);
-    const { page, context, complaints } = await openReport(browser, file, { width: 390, height: 800 });
+    const { page, context, diagnostics } = await openReport(browser, file, { width: 390, height: 800 });
     const verdict = await page.locator("#verdict").innerText();
     assert.ok(verdict.endsWith(said), verdict);
     assert.equal(/Stopped|Interrupted/.test(verdict), said !== "", verdict);
     // On a phone the sentence breaks, and nothing is wider than the window.
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(diagnostics, []);
     await context.close();
   }
 }
@@ -885,7 +885,7 @@ async function sampleIsShown(report) {
   };
   const file = join(scratch, "sample.html");
   writeFileSync(file, head + JSON.stringify(changed).replaceAll("<", "\\u003c") + tail);
-  const { page, context, complaints } = await openReport(browser, file);
+  const { page, context, diagnostics } = await openReport(browser, file);
   assert.match(await page.locator("#verdict").innerText(), /all \d+ limits are kept, in 61 of 63 cells/);
   assert.match(
     await page.locator("#tolerance").innerText(),
@@ -898,7 +898,7 @@ async function sampleIsShown(report) {
   );
   assert.match(text, /One cell has no end/);
 
-  // every cell with a height is in one bar, and those beyond the limit stand beyond its line
+  // every cell with a height is in one bar, and those beyond the limit are beyond its line
   const bars = await page.evaluate(() => {
     const number = (element, name) => Number(element.getAttribute(name));
     const line = number(document.querySelector("#sample line.limit"), "x1");
@@ -913,10 +913,10 @@ async function sampleIsShown(report) {
     bars.filter((bar) => bar.kept === kept && bar.beyond === beyond).reduce((all, bar) => all + bar.cells, 0);
   assert.deepEqual([sum(true, false), sum(true, true), sum(false, false), sum(false, true)], [61, 0, 0, 1]);
 
-  // its colours are about the end, where the highest place is marked and named
+  // its colors are about the end, where the highest place is marked and named
   await page.keyboard.press("Home");
   await page.keyboard.press("2");
-  assert.equal(await page.evaluate(() => window.plydrape.colour), "spread");
+  assert.equal(await page.evaluate(() => window.plydrape.color), "spread");
   const pointed = () => page.evaluate(() => ({ at: window.plydrape.pointer, step: window.plydrape.step }));
   await eventually(async () => assert.notEqual((await pointed()).at, null));
   const { at, step } = await pointed();
@@ -928,7 +928,7 @@ async function sampleIsShown(report) {
   await eventually(async () => assert.equal((await pointed()).at, null));
   await page.locator("#sample button.link").click();
   assert.deepEqual((await pointed()).at.place, at.place);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -1056,7 +1056,7 @@ async function sectionShows(report, page) {
   assert.equal(await line(), null);
 }
 
-/** How many pixels of the picture have a colour of the style sheet. */
+/** How many pixels of the picture have a color of the style sheet. */
 async function pixelsOf(page, variable) {
   await frames(page, 2);
   const shot = (await page.locator("#view").screenshot()).toString("base64");
@@ -1082,7 +1082,7 @@ async function pixelsOf(page, variable) {
 }
 
 async function pathsShow(report) {
-  const { page, context, complaints } = await openReport(browser, report.file);
+  const { page, context, diagnostics } = await openReport(browser, report.file);
   await page.keyboard.press("Escape");
   for (const id of ["#show-forces", "#show-diagonals", "#show-mold"]) {
     if (await page.locator(id).isVisible()) await page.locator(id).uncheck();
@@ -1097,7 +1097,7 @@ async function pathsShow(report) {
   await page.keyboard.press("Home");
   const atStart = await pixelsOf(page, "--path");
   assert.ok(atStart < 0.1 * passed, `${atStart} of ${passed} pixels are passed at the start`);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -1105,15 +1105,15 @@ async function addressLeads(report) {
   const { page, context } = await openReport(browser, report.file);
   const { steps } = await pageData(page);
   const step = steps[Math.floor(steps.length / 2)];
-  const colour = (await page.evaluate(() => window.plydrape.colours)).at(-1);
-  const address = `${page.url()}#step=${step}&colour=${colour}`;
+  const color = (await page.evaluate(() => window.plydrape.colors)).at(-1);
+  const address = `${page.url()}#step=${step}&color=${color}`;
   await page.goto("about:blank");
   await page.goto(address);
   await page.evaluate(() => window.plydrape.ready);
-  const now = () => page.evaluate(() => [window.plydrape.step, window.plydrape.colour]);
-  assert.deepEqual(await now(), [step, colour]);
+  const now = () => page.evaluate(() => [window.plydrape.step, window.plydrape.color]);
+  assert.deepEqual(await now(), [step, color]);
   await page.evaluate((first) => (location.hash = `step=${first}`), steps[0]);
-  await eventually(async () => assert.deepEqual(await now(), [steps[0], colour]));
+  await eventually(async () => assert.deepEqual(await now(), [steps[0], color]));
   await context.close();
 }
 
@@ -1122,9 +1122,9 @@ async function scalesChange(report) {
   const legend = () => page.evaluate(() => window.plydrape.legend());
   const { drape } = await pageData(page);
   const { sheet } = drape;
-  const colour = sheet === null ? "gap" : "over_mold";
-  if (!drape.fields.some(({ key }) => key === colour)) return context.close();
-  await page.evaluate((key) => (window.plydrape.colour = key), colour);
+  const color = sheet === null ? "gap" : "over_mold";
+  if (!drape.fields.some(({ key }) => key === color)) return context.close();
+  await page.evaluate((key) => (window.plydrape.color = key), color);
   assert.deepEqual(await legend().then(({ scale, low, high }) => [scale, low, high]), ["orders", 0.1, 10]);
   await page.keyboard.press("r");
   const own = await legend();
@@ -1150,7 +1150,7 @@ async function scalesChange(report) {
   assert.ok(all.scale === "even" && all.low <= even.low && all.high >= even.high && all.high > 1);
   await page.locator("#orders").check();
   assert.equal((await legend()).high, 10);
-  await page.evaluate(() => (window.plydrape.colour = "shear"));
+  await page.evaluate(() => (window.plydrape.color = "shear"));
   assert.ok(!(await page.locator("#orders").isVisible()), "angles have an even scale");
   await context.close();
 }
@@ -1160,7 +1160,7 @@ async function surfaceIsRead(report) {
   const { grid, divisions, pitch } = catenariesOf(await pageData(page));
   await page.evaluate(() => {
     window.plydrape.model = "catenaries";
-    window.plydrape.colour = "height";
+    window.plydrape.color = "height";
   });
   await page.keyboard.press("Escape");
   await page.keyboard.press("t");
@@ -1172,13 +1172,13 @@ async function surfaceIsRead(report) {
   const text = await hoverOver(page, place);
   const uv = pitch.map((side) => Number(((side * middle) / divisions).toPrecision(4)));
   assert.ok(text.startsWith(`u ${uv[0]}, v ${uv[1]}`), text);
-  const coloured = await page.locator("#view .hover dd.coloured").innerText();
-  assert.ok(Math.abs(parseFloat(coloured.replace("−", "-")) - 1e3 * place[2]) < 2e-2, coloured);
+  const colored = await page.locator("#view .hover dd.colored").innerText();
+  assert.ok(Math.abs(parseFloat(colored.replace("−", "-")) - 1e3 * place[2]) < 2e-2, colored);
   await context.close();
 }
 
 async function pagesCompare(first, second) {
-  const { page, context, complaints } = await openReport(browser, first.file, { width: 1440, height: 900 });
+  const { page, context, diagnostics } = await openReport(browser, first.file, { width: 1440, height: 900 });
   const a = await pageData(page);
   const b = JSON.parse(parts(second)[1]);
   const before = await pictureOf(page);
@@ -1198,7 +1198,7 @@ async function pagesCompare(first, second) {
   const number = a.steps[Math.min(2, a.steps.length - 1)];
   await page.evaluate((step) => window.plydrape.goto(step), number);
   assert.equal(await page.evaluate(() => window.plydrape.otherStep), b.steps[indexOf(b, number)]);
-  // every limit that both have stands in the table with its difference
+  // every limit that both have is in the table with its difference
   const rows = await page
     .locator("#comparison tbody tr")
     .evaluateAll((all) => all.map((tr) => [...tr.children].map((cell) => cell.textContent)));
@@ -1254,13 +1254,13 @@ async function pagesCompare(first, second) {
   await page.reload();
   await page.evaluate(() => window.plydrape.ready);
   assert.deepEqual(await pictureOf(page), before);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
 async function numbersCompare(report) {
   const file = join(report.folder, "result.json");
-  const { page, context, complaints } = await openReport(browser, report.file);
+  const { page, context, diagnostics } = await openReport(browser, report.file);
   const data = await pageData(page);
   await page.locator("#other-file").setInputFiles(file);
   await page.locator("#comparison").waitFor();
@@ -1270,12 +1270,12 @@ async function numbersCompare(report) {
   const differences = await page.locator("#comparison tbody tr td:last-child").allTextContents();
   assert.equal(differences.length, data.limits.length + 2);
   for (const text of differences.slice(2)) assert.equal(text, "–");
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
 async function saves(report) {
-  const { page, context, complaints } = await openReport(browser, report.file);
+  const { page, context, diagnostics } = await openReport(browser, report.file);
   const file = async (id) => {
     const waiting = page.waitForEvent("download", { timeout: 60_000 });
     await page.locator(id).click();
@@ -1288,8 +1288,8 @@ async function saves(report) {
   const view = await page.locator("#view").boundingBox();
   const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
   assert.ok(width >= 2 * Math.floor(view.width) && height > 2 * view.height, `${width} × ${height}`);
-  // scale, title and verdict are in it: outside of the picture there is more than one colour
-  const colours = await page.evaluate(async (bytes) => {
+  // scale, title and verdict are in it: outside of the picture there is more than one color
+  const colors = await page.evaluate(async (bytes) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))]));
     const pen = new OffscreenCanvas(image.width, image.height).getContext("2d", {
       willReadFrequently: true,
@@ -1301,7 +1301,7 @@ async function saves(report) {
     };
     return { title: of(0, 0, 900, 80), scale: of(image.width - 230, 100, 26, image.height - 200) };
   }, png.toString("base64"));
-  assert.ok(colours.title > 4 && colours.scale > 40, JSON.stringify(colours));
+  assert.ok(colors.title > 4 && colors.scale > 40, JSON.stringify(colors));
 
   const before = await page.evaluate(() => window.plydrape.step);
   await page.locator("#speed").selectOption("4");
@@ -1333,18 +1333,18 @@ async function saves(report) {
     return most;
   }, video.toString("base64"));
   assert.ok(moves > 2, `its pictures differ by ${moves} of 255`);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
 async function saysNoRecorder(report) {
-  const { page, context, complaints } = await openReport(browser, report.file);
+  const { page, context, diagnostics } = await openReport(browser, report.file);
   await page.evaluate(() => delete window.MediaRecorder);
   await page.locator("#save-video").click();
   assert.match(await page.locator("#told").innerText(), /cannot record a video.*PNG/);
   await page.locator("#told-close").click();
   assert.ok(!(await page.locator("#told").isVisible()));
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
@@ -1353,7 +1353,7 @@ async function fitsPhone(report) {
     [360, 740],
     [390, 844],
   ]) {
-    const { page, context, complaints } = await openReport(browser, report.file, {
+    const { page, context, diagnostics } = await openReport(browser, report.file, {
       width,
       height,
       touch: true,
@@ -1398,7 +1398,7 @@ async function fitsPhone(report) {
     await narrow("comparison");
     await page.locator("#compare-shown label").first().tap();
     await narrow("both");
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(diagnostics, []);
     await context.close();
   }
 }
@@ -1418,13 +1418,13 @@ async function damagedDataIsSaid(report) {
     assert.notEqual(broken, data);
     const file = join(scratch, `${name}.html`);
     writeFileSync(file, head + broken + tail);
-    const { page, context, complaints } = await openReport(browser, file, { wait: false });
+    const { page, context, diagnostics } = await openReport(browser, file, { wait: false });
     await page.locator("#failure").waitFor({ state: "visible", timeout: 10_000 });
     const sentence = await page.locator("#failure").innerText();
     assert.match(sentence, reason);
     assert.match(sentence, /plydrape report/);
     assert.ok(!(await page.locator("#page").isVisible()));
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(diagnostics, []);
     await context.close();
   }
 }
@@ -1436,7 +1436,7 @@ async function sceneIsShown() {
   const scene = join(root, "examples", "17_robot", "scene.toml");
   const folder = join(scratch, "check");
   execFileSync(program, ["check", "--html", scene, "-o", folder], { stdio: "pipe" });
-  const { page, context, complaints } = await openReport(browser, join(folder, "check.html"));
+  const { page, context, diagnostics } = await openReport(browser, join(folder, "check.html"));
   assert.match(await page.locator("#verdict").innerText(), /^Not draped yet/);
   for (const id of ["limits", "courses", "timeline", "sample", "worst"])
     assert.ok(!(await page.locator(`#${id}`).isVisible()), id);
@@ -1445,13 +1445,13 @@ async function sceneIsShown() {
   await page.locator("#show-mold").uncheck();
   await page.waitForTimeout(200);
   assert.notDeepEqual(await page.locator("#view").screenshot(), shown);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await context.close();
 }
 
 async function worksWithoutWebgl(report) {
   const plain = await startBrowser({ webgl: false });
-  const { page, complaints } = await openReport(plain, report.file);
+  const { page, diagnostics } = await openReport(plain, report.file);
   assert.equal(await page.evaluate(() => window.plydrape.webgl), false);
   assert.ok(await page.locator("#no-webgl").isVisible());
   assert.match(await page.locator("#no-webgl").innerText(), /cannot draw in 3D/);
@@ -1460,6 +1460,6 @@ async function worksWithoutWebgl(report) {
   const steps = await page.evaluate(() => window.plydrape.steps);
   await page.keyboard.press("Home");
   assert.equal(await page.evaluate(() => window.plydrape.step), steps[0]);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(diagnostics, []);
   await plain.close();
 }

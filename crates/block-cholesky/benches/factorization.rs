@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --manifest-path crates/block-cholesky/benches/Cargo.toml`
 
-use block_cholesky::{Cholesky, Tuning};
+use block_cholesky::{Cholesky, CholeskyTuning};
 use block_cholesky_benches::{blocks, columns};
 use divan::{Bencher, black_box};
 use dyn_stack::{MemBuffer, MemStack};
@@ -27,7 +27,7 @@ fn main() {
 /// A matrix and its analysis by this crate, on one thread.
 fn own((across, along): (u32, u32)) -> (block_cholesky::BlockMatrix, Cholesky) {
     let matrix = blocks(across, along).expect("the springs join nodes of the grid");
-    let tuning = Tuning { thread_nodes: usize::MAX, ..Tuning::default() };
+    let tuning = CholeskyTuning { thread_nodes: usize::MAX, ..CholeskyTuning::default() };
     let cholesky = Cholesky::with_tuning(&matrix, &tuning);
     (matrix, cholesky)
 }

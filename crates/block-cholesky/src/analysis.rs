@@ -22,7 +22,7 @@ pub struct Front {
     pub entries: Vec<Entry>,
     /// Update rows as places in the order of elimination, ascending.
     pub rows: Vec<u32>,
-    /// Its children, and the rows of this front that the update rows of each have.
+    /// Children, and the rows of this front that the update rows of each have.
     pub children: Vec<(usize, Vec<u32>)>,
 }
 

@@ -11,9 +11,9 @@ use pulp::{Simd, WithSimd};
 pub struct Entry {
     /// Index of the block in the matrix.
     pub block: u32,
-    /// Its row of the front, in nodes.
+    /// Row of the front, in nodes.
     pub row: u32,
-    /// Its pivot.
+    /// Pivot.
     pub pivot: u32,
     /// The transpose of the block is what belongs there.
     pub transposed: bool,

@@ -10,7 +10,7 @@ use crate::kernel::{self, Column};
 use crate::restriction::{OUT, Restriction};
 use crate::substitution::{Backward, Forward};
 use crate::supernode::{PANEL_NODES, Supernodes};
-use crate::tuning::Tuning;
+use crate::tuning::CholeskyTuning;
 use std::sync::Arc;
 
 /// A factorization `P A Pᵀ = L Lᵀ` whose order P and storage are found once for a pattern.
@@ -45,12 +45,12 @@ impl Cholesky {
     /// Finds order and storage for the pattern of a matrix; its numbers do not matter.
     #[must_use]
     pub fn new(matrix: &BlockMatrix) -> Self {
-        Self::with_tuning(matrix, &Tuning::default())
+        Self::with_tuning(matrix, &CholeskyTuning::default())
     }
 
     /// As [`Self::new`], with other tuning constants.
     #[must_use]
-    pub fn with_tuning(matrix: &BlockMatrix, tuning: &Tuning) -> Self {
+    pub fn with_tuning(matrix: &BlockMatrix, tuning: &CholeskyTuning) -> Self {
         let n = matrix.nodes();
         let graph = Graph::new(n, matrix.pairs());
         let supernodes = Supernodes::new(&graph, &graph.minimum_degree_order(), tuning);

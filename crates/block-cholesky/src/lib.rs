@@ -37,4 +37,4 @@ mod tests;
 pub use block_matrix::{Block, BlockMatrix, Slot};
 pub use cholesky::Cholesky;
 pub use error::Error;
-pub use tuning::Tuning;
+pub use tuning::CholeskyTuning;

@@ -7,7 +7,7 @@
 
 use crate::graph::Graph;
 use crate::kernel::{COLUMNS, ROWS};
-use crate::tuning::Tuning;
+use crate::tuning::CholeskyTuning;
 
 /// Nodes in a row panel.
 pub const PANEL_NODES: usize = ROWS / 3;
@@ -29,7 +29,7 @@ impl Supernodes {
     /// Supernodes of an order of elimination: nodes that are cheaper together than apart are merged.
     ///
     /// The order of the result is another one with the same or a little more fill.
-    pub fn new(graph: &Graph, order: &[u32], tuning: &Tuning) -> Self {
+    pub fn new(graph: &Graph, order: &[u32], tuning: &CholeskyTuning) -> Self {
         let single: Vec<Vec<u32>> = order.iter().map(|&node| vec![node]).collect();
         let merged = Self::analyze(graph, &single).merge(single, tuning);
         // the stack of updates needs a supernode directly after its descendants
@@ -102,7 +102,7 @@ impl Supernodes {
     }
 
     /// The groups after every supernode has taken in those of its children that are cheaper that way.
-    fn merge(&self, mut groups: Vec<Vec<u32>>, tuning: &Tuning) -> Vec<Vec<u32>> {
+    fn merge(&self, mut groups: Vec<Vec<u32>>, tuning: &CholeskyTuning) -> Vec<Vec<u32>> {
         let n = self.len();
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
         for s in 0..n {
@@ -130,8 +130,8 @@ impl Supernodes {
     }
 }
 
-/// Time to eliminate the pivots of a front and to add what remains to its parent, in the units of [`Tuning`].
-fn front_cost(pivots: usize, rows: usize, tuning: &Tuning) -> usize {
+/// Time to eliminate the pivots of a front and to add what remains to its parent, in the units of [`CholeskyTuning`].
+fn front_cost(pivots: usize, rows: usize, tuning: &CholeskyTuning) -> usize {
     let columns = (3 * pivots).next_multiple_of(COLUMNS);
     let (pivot_panels, panels) = (pivots.div_ceil(PANEL_NODES), rows.div_ceil(PANEL_NODES));
     // Σ of the lengths of the products up to each tile of a row

@@ -2,7 +2,7 @@
 
 use crate::front::Shape;
 use crate::kernel::Column;
-use crate::{Block, BlockMatrix, Cholesky, Error, Slot, Tuning, assembly, front};
+use crate::{Block, BlockMatrix, Cholesky, CholeskyTuning, Error, Slot, assembly, front};
 use proptest::prelude::*;
 
 /// Numbers between −1 and 1, the same in every run.
@@ -219,7 +219,7 @@ proptest! {
         let matrix = positive_definite(nodes, &pairs, &mut random);
         let b = random.vector(3 * nodes);
         let mut x = b.clone();
-        let tuning = Tuning { front_cost, tile_cost, block_cost, ..Tuning::default() };
+        let tuning = CholeskyTuning { front_cost, tile_cost, block_cost, ..CholeskyTuning::default() };
         let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
         prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
         cholesky.solve(&mut x).expect("it is factorized");
@@ -327,7 +327,7 @@ fn threads_do_not_change_a_solution() {
     let matrix = positive_definite(900, &grid(30, 30), &mut random);
     let b = random.vector(3 * 900);
     let [one, many] = [usize::MAX, 0].map(|thread_nodes| {
-        let tuning = Tuning { thread_nodes, split_rows: 8, ..Tuning::default() };
+        let tuning = CholeskyTuning { thread_nodes, split_rows: 8, ..CholeskyTuning::default() };
         let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
         cholesky.factorize(&matrix).expect("the matrix is positive definite");
         let mut x = b.clone();

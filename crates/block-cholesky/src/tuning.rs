@@ -6,7 +6,7 @@
 /// trial on grids of 133 to 2 576 nodes, each coupled to its eight neighbors and to two along each line. Half of any of them changes the time by some percent, twice of
 /// `tile_cost` by 10 %.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct CholeskyTuning {
     /// Cost of a front apart from its arithmetic.
     pub front_cost: usize,
     /// Cost of a tile apart from its multiply-adds: it is read, divided and written.
@@ -20,7 +20,7 @@ pub struct Tuning {
     pub split_rows: usize,
 }
 
-impl Default for Tuning {
+impl Default for CholeskyTuning {
     fn default() -> Self {
         Self { front_cost: 50, tile_cost: 6, block_cost: 1, thread_nodes: 2000, split_rows: 32 }
     }

@@ -30,7 +30,7 @@ pub enum Error {
     StripRange {
         /// What quantity.
         what: &'static str,
-        /// Its value (SI).
+        /// Value (SI).
         value: f64,
         /// What it may be.
         range: &'static str,

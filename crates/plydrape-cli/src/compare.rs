@@ -31,7 +31,7 @@ pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: b
     let folder = Folder::claim(&results.folder("compare"), "plan --compare", &scene.files)?;
     folder.refuse_taken(&[NAME])?;
 
-    let mut search = Search::of(StrategyName::ALL.len(), "strategies", None, interrupt, quiet);
+    let mut search = Search::counted(StrategyName::ALL.len(), "strategies", None, interrupt, quiet);
     let compared = compare(scene, &mut |progress| search.watch(progress));
     let (took, _) = search.finish();
     let compared = compared?;

@@ -38,7 +38,7 @@ pub fn judge(
 
 /// What is printed below a verdict after which somebody broke off; a drape that was broken off says so itself.
 pub fn left_out(result: &ResultFile, broken_off: bool, interrupt: &Interrupt) -> &'static str {
-    match (broken_off && !result.summary.interrupted(), interrupt.is_signalled()) {
+    match (broken_off && !result.summary.interrupted(), interrupt.is_signaled()) {
         (false, _) => "",
         (true, true) => {
             "interrupted after the verdict was found: what comes after it is left out\n"

@@ -105,7 +105,7 @@ enum Format {
 }
 
 impl Format {
-    fn of(self) -> export::Format {
+    fn format(self) -> export::Format {
         match self {
             Format::Csv => export::Format::Csv,
             Format::Inp => export::Format::Inp,
@@ -153,9 +153,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let result = read::read(&file)?;
     let beside = || file.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let made = export::files(&result, arguments.to.of(), &options)?;
+    let made = export::files(&result, arguments.to.format(), &options)?;
     let names: Vec<String> = made.iter().map(|(name, _)| name.clone()).collect();
-    let files = export::to_write(made, arguments.to.of(), &options, &folder);
+    let files = export::to_write(made, arguments.to.format(), &options, &folder);
     let written = |name: &String| files.iter().any(|(file, _)| file == name);
     let stays: Vec<String> = names.into_iter().filter(|name| !written(name)).collect();
     let read = [&result.files[..], &arguments.template].concat();
@@ -171,7 +171,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 }
 
 fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
-    let is_robot = matches!(arguments.to.of(), export::Format::Robot(_));
+    let is_robot = matches!(arguments.to.format(), export::Format::Robot(_));
     if !is_robot && !arguments.template.is_empty() {
         return Err(Failure::Refused {
             message: format!("there are no templates for {}", arguments.to.folder()),

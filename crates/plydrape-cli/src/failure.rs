@@ -31,7 +31,7 @@ pub enum Failure {
     /// One ply of a book could not be planned.
     #[error("ply {name}: {cause}")]
     Ply {
-        /// Its name.
+        /// Name.
         name: String,
         /// Why.
         cause: Box<Failure>,

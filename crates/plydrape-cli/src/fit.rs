@@ -160,13 +160,13 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 impl Kind {
     fn request(&self) -> Result<Request, Failure> {
         let length = |option: &str, text: &Option<String>| {
-            let help = "a length from 1 um to 10 km is wanted, e.g. \"100 mm\"";
+            let help = "expected a length from 1 um to 10 km, e.g. \"100 mm\"";
             text.as_ref()
                 .map(|text| value(option, text, Measured::Length, &usual::COUPON, LENGTHS, help))
                 .transpose()
         };
         let areal = |text: &Option<String>| {
-            let help = "a mass per area from 1 mg/m^2 to 1000 kg/m^2 is wanted, e.g. \"314 g/m^2\"";
+            let help = "expected a mass per area from 1 mg/m^2 to 1000 kg/m^2, e.g. \"314 g/m^2\"";
             text.as_ref()
                 .map(|text| {
                     value(
@@ -199,7 +199,7 @@ impl Kind {
                 titles: [displacement.clone(), force.clone()],
             },
             Kind::Overhang { strips, mass, angle, overhang } => {
-                let help = "an angle from 1 to 89 deg is wanted, e.g. \"41.5 deg\"";
+                let help = "expected an angle from 1 to 89 deg, e.g. \"41.5 deg\"";
                 let range = [1.0_f64, 89.0].map(f64::to_radians);
                 let angle = value("--angle", angle, Measured::Angle, &usual::ANGLE, range, help)?;
                 strips

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 /// List the presets of `[limits]` and of `[cell]`, each figure with its source.
 ///
-/// `preset = "NAME"` in the table `[limits]` or `[cell]` of a scene sets them; other keys of the scene stand over it.
+/// `preset = "NAME"` in the table `[limits]` or `[cell]` of a scene sets them; other keys of the scene override it.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print one JSON object on standard output instead of a list.
@@ -52,14 +52,14 @@ const WIDTH: usize = 99;
 /// Prints the presets.
 pub fn run(arguments: &Arguments) -> Done {
     let text = match arguments.json {
-        true => json::of(&presets())?,
+        true => json::to_text(&presets())?,
         false => text(),
     };
     results::print(&text, &[])?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// All presets, their keys with the table that they stand in.
+/// All presets, their keys with their tables.
 fn presets() -> Printed {
     let limits = Preset::ALL.iter().map(|preset| {
         let figures = preset.figures().iter().map(|figure| {

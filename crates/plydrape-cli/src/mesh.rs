@@ -8,7 +8,7 @@ const SHAPED: f64 = 0.02;
 /// Share of a triangle's normal along z below which it is a wall.
 const WALL: f64 = 0.1;
 
-/// Every warning about the mesh of a mold, in a sentence; none of another mold.
+/// Every warning about the mesh of a mold, in a sentence; none for another mold.
 pub fn warnings(mold: Option<&Mold>, report: Option<&MeshReport>) -> Vec<String> {
     let (Some(Mold::Mesh(mesh)), Some(report)) = (mold, report) else { return Vec::new() };
     upside_down(mesh, report).into_iter().chain(report.warnings()).collect()

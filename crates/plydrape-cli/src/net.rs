@@ -42,8 +42,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let time_ms = start.elapsed().as_secs_f64() * 1e3;
     debug_assert_eq!(again.as_ref(), Ok(net));
 
-    let findings = Findings::of(net, mold, ideal.wanted.as_ref(), ideal.seeds.clone());
-    let summary = Summary::of(net, &findings, Some(ideal.shear_limit));
+    let findings = Findings::new(net, mold, ideal.wanted.as_ref(), ideal.seeds.clone());
+    let summary = Summary::new(net, &findings, Some(ideal.shear_limit));
     let (title, dir) = (&ideal.title, results.folder("net"));
     let files = whole(|| write_all(net, mold, &findings, title, &dir, &ideal.files))?;
     let text = format!("{}\n\n{}", ideal.title, summary.table());

@@ -22,8 +22,8 @@ pub fn written(value: f64, unit: Unit) -> String {
 }
 
 /// Millimeters, of meters.
-pub fn millimetres(metres: f64) -> String {
-    short(without_noise(metres * 1e3))
+pub fn millimeters(meters: f64) -> String {
+    short(without_noise(meters * 1e3))
 }
 
 /// Degrees, of radians.

@@ -33,7 +33,7 @@ pub struct Printed<'a> {
 
 impl<'a> Printed<'a> {
     /// Of a finished drape whose model took a time.
-    pub fn of(result: &'a ResultFile, took: Duration) -> Self {
+    pub fn new(result: &'a ResultFile, took: Duration) -> Self {
         let summary = &result.summary;
         let mean = |equilibria: usize| took.as_secs_f64() * 1e6 / equilibria.max(1) as f64;
         Printed {

@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments) -> Done {
     let result = read::read(&read::file_of(&arguments.result))?;
     let comparison = peer::compare(&result, &peer::read(&arguments.folder)?)?;
     let text = match arguments.json {
-        true => json::of(&comparison)?,
+        true => json::to_text(&comparison)?,
         false => format!("{}\n\n{}", result.scene.title, peer::table(&comparison, PEER)),
     };
     results::print(&text, &[])?;

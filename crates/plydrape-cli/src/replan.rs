@@ -1,7 +1,7 @@
 //! `plydrape replan`: the motion of a plan for a ply that does not lie where it was planned.
 
 use crate::failure::{Done, Failure};
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, millimeters, short};
 use crate::outcome::{code, is_unsolved};
 use crate::results;
 use crate::watch::whole;
@@ -149,7 +149,7 @@ fn once(
     let output = arguments.output.clone().unwrap_or_else(beside);
     let replanned = planned.replan(replanner, &seen)?;
     let answer = match arguments.json {
-        true => json::of(&Answer::of(planned, replanner, &replanned, arguments.rate)?)?,
+        true => json::to_text(&Answer::new(planned, replanner, &replanned, arguments.rate)?)?,
         false => String::new(),
     };
     let said = said(&seen, &replanned);
@@ -209,7 +209,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
             }
             Err(refusal) => {
                 refused = true;
-                json::of(&refusal)?
+                json::to_text(&refusal)?
             }
         };
         // nobody asks for what nobody reads
@@ -252,15 +252,15 @@ fn answer(
     let Request { id, seen } = json_offset(text, planned.tolerance());
     let answer = || {
         let found = planned.replan(replanner, &seen?.also_far(arguments.far))?;
-        let answer = Answer::of(planned, replanner, &found, arguments.rate)?;
+        let answer = Answer::new(planned, replanner, &found, arguments.rate)?;
         let answer = Answer { id: id.clone(), ..answer };
-        Ok((json::of(&answer)?, answer.accepted))
+        Ok((json::to_text(&answer)?, answer.accepted))
     };
     answer().map_err(|error: Error| Refusal { id: id.clone(), ..error.into() })
 }
 
 impl<'a> Answer<'a> {
-    fn of(
+    fn new(
         planned: &PlannedResult,
         replanner: &'a Replanner,
         replanned: &'a Replanned,
@@ -308,10 +308,10 @@ impl<'a> Answer<'a> {
 /// What is said of the correction.
 fn said(seen: &SeenOffset, replanned: &Replanned) -> String {
     let offset = replanned.record.picked_up.as_ref().map_or(seen.offset, |picked| picked.offset);
-    let [x, y] = offset.shift.map(millimetres);
+    let [x, y] = offset.shift.map(millimeters);
     let mut text = format!("the ply lies off by x {x} mm, y {y} mm, yaw {}°", degrees(offset.yaw));
     if let Some(residual) = seen.residual {
-        text += &format!("; points fit to {} mm", millimetres(residual));
+        text += &format!("; points fit to {} mm", millimeters(residual));
     }
     let duration = replanned.motion.duration();
     text += &match replanned.longer > 1.0 {

@@ -130,7 +130,7 @@ impl Results {
         files: &[PathBuf],
     ) -> Result<(), Failure> {
         let text = match self.json {
-            true => json::of(object)?,
+            true => json::to_text(object)?,
             false if quiet => return Ok(()),
             false => format!("{text}\n{}", list(files)),
         };

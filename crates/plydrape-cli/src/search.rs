@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 pub enum Ended {
     /// By Ctrl-C or SIGTERM.
     Interrupted,
-    /// Its time was over.
+    /// By the end of its time.
     TimeOver,
 }
 
@@ -85,11 +85,11 @@ impl<'a> Search<'a> {
         };
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
         let cells = errors.map_or(0, |errors| errors.samples);
-        Search { cells, ..Self::of(most, unit, time, interrupt, quiet) }
+        Search { cells, ..Self::counted(most, unit, time, interrupt, quiet) }
     }
 
-    /// The same of at most `most` of what is counted in a `unit`.
-    pub fn of(
+    /// Watches work of at most `most` pieces, counted in a `unit`.
+    pub fn counted(
         most: usize,
         unit: &'static str,
         time: Option<Duration>,
@@ -109,7 +109,7 @@ impl<'a> Search<'a> {
         Search { interrupt, time, began, ended, unit, cells, bar, lines, kept }
     }
 
-    /// The same with its state put by in a folder now and then.
+    /// Writes the state of the search to a folder now and then.
     pub fn kept_in(self, folder: &'a Folder, scene: &Scene) -> Self {
         let due = Duration::from_secs_f64(KEPT[0]);
         let scene = SceneEcho::new(scene, None);
@@ -128,8 +128,8 @@ impl<'a> Search<'a> {
         }
         let ended = if progress.finishing {
             let late = self.interrupt.is_late().then_some(Ended::TimeOver);
-            if self.interrupt.is_signalled_again() { Some(Ended::Interrupted) } else { late }
-        } else if self.interrupt.is_signalled() {
+            if self.interrupt.is_signaled_again() { Some(Ended::Interrupted) } else { late }
+        } else if self.interrupt.is_signaled() {
             Some(Ended::Interrupted)
         } else {
             self.time.filter(|time| elapsed >= *time).map(|_| Ended::TimeOver)
@@ -280,7 +280,7 @@ mod tests {
     }
 
     fn height(value: f64) -> Verdict {
-        Verdict::of(Name::Height, Worst { value, at: String::new(), place: None }, 0.5, Some(30))
+        Verdict::new(Name::Height, Worst { value, at: String::new(), place: None }, 0.5, Some(30))
     }
 
     fn progress(best: &[Verdict], accepted: bool) -> Progress<'_> {

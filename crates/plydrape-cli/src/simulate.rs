@@ -48,6 +48,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let interrupt = Interrupt::listen();
     let [model, also] = [arguments.model, arguments.also].map(|name| name.map(Into::into));
     let scene = scene::read_for(&asked.scene, model, also)?;
+    warn(&scene.notices);
     warn(&mesh::warnings(scene.layup.mold.as_ref(), scene.mesh.as_ref()));
     let folder = Folder::claim(&asked.folder("results"), "simulate", &scene.files)?;
     folder.refuse_taken(&names(&scene, false))?;
@@ -70,6 +71,6 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 
     let mut text = asked.text(&result, &table::draped(&result, took));
     text += errors::left_out(&result, interrupted, &interrupt);
-    asked.print(quiet, &Printed::of(&result, took), &text, &files)?;
+    asked.print(quiet, &Printed::new(&result, took), &text, &files)?;
     Ok(exit_code(&result, interrupted))
 }

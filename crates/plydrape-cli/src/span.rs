@@ -126,8 +126,8 @@ pub fn run(arguments: &Arguments) -> Done {
         Theory::Exact => Solved::exact(span, curve)?,
     };
     let text = match arguments.json {
-        true => json::of(&solved.printed())?,
-        false => text::of(&solved),
+        true => json::to_text(&solved.printed())?,
+        false => text::text(&solved),
     };
     results::print(&text, &[])?;
     Ok(ExitCode::SUCCESS)
@@ -136,7 +136,7 @@ pub fn run(arguments: &Arguments) -> Done {
 impl Arguments {
     /// The span, each value held against its dimension and range, and its moment (N·m) where that is a table.
     fn span(&self) -> Result<(Span, Option<MomentCurve>), Failure> {
-        let length = "a length from 1 um to 10 km is wanted, e.g. \"98 mm\"";
+        let length = "expected a length from 1 um to 10 km, e.g. \"98 mm\"";
         let run = value("--run", &self.run, Measured::Length, &usual::SPAN, LENGTHS, length)?;
         let steepest = STEEPEST * run;
         let rise = value(
@@ -145,7 +145,7 @@ impl Arguments {
             Measured::Length,
             &usual::SPAN,
             [-steepest, steepest],
-            "small-sag theory is for ends side by side: a rise of at most 1000 runs is wanted",
+            "small-sag theory is for ends side by side: expected a rise of at most 1000 runs",
         )?;
         let length =
             value("--length", &self.length, Measured::Length, &usual::SPAN, LENGTHS, length)?;
@@ -156,7 +156,7 @@ impl Arguments {
             Measured::Force,
             &usual::AXIAL,
             [1e-3, f64::INFINITY],
-            "a force from 1 mN is wanted, e.g. \"100 kN\", or inf for a ply that does not stretch",
+            "expected a force from 1 mN, e.g. \"100 kN\", or inf for a ply that does not stretch",
         )?;
         if self.theory == Theory::Exact && axial_stiffness.is_finite() {
             return Err(refused(
@@ -192,9 +192,9 @@ impl Arguments {
             Measured::ForcePerLength,
             &usual::WEIGHT,
             WEIGHTS,
-            "a weight per length from 1e-9 to 1e9 N/m is wanted, e.g. 3.08 or \"3.08 N/m\"",
+            "expected a weight per length from 1e-9 to 1e9 N/m, e.g. 3.08 or \"3.08 N/m\"",
         )?;
-        let rigidity = "a flexural rigidity from 1e-18 to 1e12 N m^2 is wanted, or 0 for a ply \
+        let rigidity = "expected a flexural rigidity from 1e-18 to 1e12 N m^2, or 0 for a ply \
                         that does not resist bending";
         let flexural_rigidity = value(
             "--rigidity",
@@ -210,7 +210,7 @@ impl Arguments {
         Ok((weight, flexural_rigidity, None))
     }
 
-    /// The same of a strip of a material.
+    /// Weight, rigidity and moment curve of a strip of a material.
     fn of_material(&self, name: &str) -> Result<(f64, f64, Option<MomentCurve>), Failure> {
         let material = read_material(name)?;
         let along = usize::from(self.along == Along::Weft);
@@ -229,7 +229,7 @@ impl Arguments {
                 help: "add --width, as in --width \"50 mm\"".into(),
             }),
             (Section::Areal { mass, warp_rigidity, weft_rigidity }, Some(width)) => {
-                let help = "a width from 1 um to 10 km is wanted, e.g. \"50 mm\"";
+                let help = "expected a width from 1 um to 10 km, e.g. \"50 mm\"";
                 let width = value("--width", width, Measured::Length, &usual::SPAN, LENGTHS, help)?;
                 let curve = material.moment[along].as_ref().map(|curve| curve.times(width));
                 Ok((GRAVITY * mass * width, [warp_rigidity, weft_rigidity][along] * width, curve))
@@ -261,7 +261,7 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
 struct Solved {
     span: Span,
     root: Root,
-    /// Its shape.
+    /// Shape.
     curve: Curve,
     /// Whether the moment is a table of which only the first slope was used.
     at_rest: bool,

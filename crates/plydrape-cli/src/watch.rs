@@ -50,7 +50,7 @@ impl Interrupt {
         interrupt
     }
 
-    /// The same for work that ends after a time too, counted from now.
+    /// An interrupt that also comes after a time, counted from now.
     pub fn within(&self, time: Option<Duration>) -> Self {
         let until = time.and_then(|time| Instant::now().checked_add(time));
         Interrupt { signals: Arc::clone(&self.signals), until }
@@ -58,19 +58,19 @@ impl Interrupt {
 
     /// Whether to go on.
     pub fn asked(&self) -> ControlFlow<()> {
-        match self.is_signalled() || self.is_late() {
+        match self.is_signaled() || self.is_late() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
     }
 
     /// Whether there was a signal.
-    pub fn is_signalled(&self) -> bool {
+    pub fn is_signaled(&self) -> bool {
         self.signals.load(Ordering::Relaxed) > 0
     }
 
     /// Whether there was a second signal, which ends what is finished after the first one.
-    pub fn is_signalled_again(&self) -> bool {
+    pub fn is_signaled_again(&self) -> bool {
         self.signals.load(Ordering::Relaxed) > 1
     }
 

@@ -13,7 +13,7 @@ use plydrape::outcome::forecast::CONSTANTS;
 use plydrape::outcome::{Effort, Forecast, Pace, Robustness, Watch};
 use plydrape::planner::{self, Progress};
 use plydrape::scene::Scene;
-use plydrape::sheet::{self, Tuning, coarsest_mesh, pitch};
+use plydrape::sheet::{self, SheetTuning, coarsest_mesh, pitch};
 use scenes::{array, dome, example, examples, is_asked};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
@@ -117,7 +117,7 @@ fn row(name: &str, scene: &Scene, measured: &mut Measured) -> Vec<Compared> {
 
     // the sample, by the drape without errors
     let drape = &mut planned.outcome.drape;
-    let effort = drape.sheet.as_ref().map(|sheet| Effort::of(&sheet.drape)).expect("a sheet");
+    let effort = drape.sheet.as_ref().map(|sheet| Effort::new(&sheet.drape)).expect("a sheet");
     let cells = scene.errors.map_or(0, |errors| errors.samples);
     let robustness = Robustness::of_planned(scene, planned.motion.steps());
     let began = Instant::now();
@@ -151,9 +151,9 @@ impl Measured {
     /// Drapes once more along a plan, one drape at once: with the mesh of the search, with that of the scene, and with steps half-way.
     fn add(&mut self, scene: &Scene, motion: &TimedMotion, decided: Effort, sample: Option<f64>) {
         let drape = |layup: &Layup| {
-            let go = |_: &sheet::Sheet, _: &sheet::State, _| ControlFlow::Continue(());
-            let drape = sheet::drape(layup, Tuning::default(), 0.5e-3, &|| false, go);
-            Effort::of(&drape.expect("it was draped before"))
+            let go = |_: &sheet::Sheet, _: &sheet::ClothState, _| ControlFlow::Continue(());
+            let drape = sheet::drape(layup, SheetTuning::default(), 0.5e-3, &|| false, go);
+            Effort::new(&drape.expect("it was draped before"))
         };
         let own = planner::along(scene, motion).layup;
         let mut coarse = own.clone();

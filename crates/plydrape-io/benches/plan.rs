@@ -1,5 +1,5 @@
 //! How long a plan takes to the verdict of the fine sheet, and how the ply lies then: the table of benches/README.md, in
-//! markdown. Beside each plan stands the drape of the same sheet along straight paths.
+//! markdown. Beside each plan is the drape of the same sheet along straight paths.
 //!
 //! Each is made once, on all cores. `cargo bench -p plydrape-io --bench plan -- dome` makes those whose name holds a text.
 

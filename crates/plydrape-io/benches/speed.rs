@@ -54,7 +54,7 @@ fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     )
 }
 
-/// An edge of the example, free at the rim.
+/// An edge of the example, free at the boundary.
 const SPAN: Span = Span {
     run: 0.098,
     rise: 0.0,
@@ -142,7 +142,7 @@ fn array_min_force_cold(bencher: Bencher, side: usize) {
     });
 }
 
-/// The same with the moments balanced.
+/// A square array from scratch, with the moments balanced.
 #[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
 fn array_moment_balance_cold(bencher: Bencher, side: usize) {
     let (mut solver, positions, catenaries) = array(side, SlopeRule::MomentBalance);
@@ -160,7 +160,7 @@ fn example_30_steps(bencher: Bencher) {
     bencher.bench(|| followed(black_box(&scene), Model::Catenaries));
 }
 
-/// 4 × 4 grippers over curved molds, 30 steps cut where they dip, without writing files: a sphere in closed
+/// 4 × 4 grippers over curved molds, 30 steps cut where they penetrate, without writing files: a sphere in closed
 /// form, a formula, and a mesh of 3 872 triangles.
 #[divan::bench(args = ["04_dome", "07_cubic", "08_stl_mold"], sample_count = 5, sample_size = 1)]
 fn curved_example(bencher: Bencher, name: &str) {
@@ -168,7 +168,7 @@ fn curved_example(bencher: Bencher, name: &str) {
     bencher.bench_local(|| followed(black_box(&scene), Model::Catenaries));
 }
 
-/// A scene with lines of its sheet every so many millimetres.
+/// A scene with lines of its sheet every `mesh` millimeters.
 fn meshed(mut scene: Scene, mesh_mm: f64) -> Scene {
     scene.layup.settings.sheet.mesh = Some(mesh_mm * 1e-3);
     scene
@@ -236,7 +236,7 @@ fn sheet_wide_dome(bencher: Bencher, side: usize) {
     sheet_to_rest(bencher, &meshed(wide_dome([side; 2]), 20.0));
 }
 
-/// The same with 12 × 10 grippers: 2 576 nodes.
+/// The sheet on the wide dome with 12 × 10 grippers: 2 576 nodes.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn sheet_wide_dome_12x10(bencher: Bencher) {
     sheet_to_rest(bencher, &meshed(wide_dome([12, 10]), 20.0));

@@ -8,7 +8,7 @@ use plydrape::measure::{Name, Observation};
 use plydrape::motion::Motion;
 use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
 use plydrape::scene::Scene;
-use plydrape::sheet::{Drape, HandOver, Status, Tuning, drape};
+use plydrape::sheet::{Drape, HandOver, SheetTuning, Status, drape};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -32,25 +32,25 @@ fn main() {
 }
 
 /// What is varied, the mesh (mm), and the solver's constants.
-fn variants() -> Vec<(String, f64, Tuning)> {
-    let usual = Tuning::default();
+fn variants() -> Vec<(String, f64, SheetTuning)> {
+    let usual = SheetTuning::default();
     let mut variants: Vec<_> =
         [20.0, 10.0, 5.0].map(|mesh| (format!("mesh {mesh} mm"), mesh, usual)).into();
     for share in [0.5, 0.25] {
-        let tuning = Tuning { contact_way: share * usual.contact_way, ..usual };
+        let tuning = SheetTuning { contact_way: share * usual.contact_way, ..usual };
         variants.push((format!("time step × {share}"), 10.0, tuning));
     }
     for share in [0.1, 10.0] {
-        let tuning = Tuning { contact_depth: usual.contact_depth / share, ..usual };
+        let tuning = SheetTuning { contact_depth: usual.contact_depth / share, ..usual };
         variants.push((format!("contact stiffness × {share}"), 10.0, tuning));
     }
-    let tuning = Tuning { step_tolerance: 0.1 * usual.step_tolerance, ..usual };
+    let tuning = SheetTuning { step_tolerance: 0.1 * usual.step_tolerance, ..usual };
     variants.push(("tolerance × 0.1".to_owned(), 10.0, tuning));
     variants
 }
 
 /// Prints one row.
-fn row(name: &str, varied: &str, scene: &Scene, tuning: Tuning) {
+fn row(name: &str, varied: &str, scene: &Scene, tuning: SheetTuning) {
     let layup = &scene.layup;
     let low = scene.limits.most(Name::Height);
     let draped = drape(layup, tuning, low, &|| false, |_, _, _| ControlFlow::Continue(()));

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// Why something could not be read, made or written.
 ///
-/// Its text says what is wrong and where; [`Error::help`] says what would help, where the text does not.
+/// The text says what is wrong and where; [`Error::help`] says what would help, where the text does not.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A scene, a file that it names, or a value as in a scene was refused.
@@ -124,7 +124,7 @@ pub enum Error {
 pub struct Diagnostic {
     /// The file at fault, as the user named it.
     pub file: String,
-    /// Its text; empty where it could not be read.
+    /// Text; empty where it could not be read.
     pub text: Arc<str>,
     /// The bytes of `text` at fault, where there is a place to point at.
     pub span: Option<Range<usize>>,

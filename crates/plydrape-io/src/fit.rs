@@ -547,7 +547,7 @@ impl Fitted {
         text
     }
 
-    /// The same as an object, all numbers in SI units.
+    /// The fitted values as a JSON object, in SI units.
     #[must_use]
     pub fn json(&self) -> Value {
         let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };

@@ -44,7 +44,7 @@ use plydrape::layup::Model;
 use plydrape::scene::Scene;
 use std::path::{Path, PathBuf};
 
-/// Name and version of this program, as it stands in what it writes.
+/// Name and version of this program, as it is written into its files.
 pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));
 
 /// Writes `result.json`, `steps.csv`, `trajectory.csv`, for a plan `motion.csv`, and `report.html` into a folder, all or
@@ -70,7 +70,7 @@ pub const NAMES: [&str; 7] = [
     "plan.json",
 ];
 
-/// Those of [`NAMES`] that a drape of a scene will have, or a plan of it.
+/// The files among [`NAMES`] that a drape of a scene writes, or a plan of it.
 #[must_use]
 pub fn names(scene: &Scene, planned: bool) -> Vec<&'static str> {
     let draped = scene.also || scene.layup.settings.model == Model::Sheet;
@@ -90,7 +90,7 @@ pub fn write_into(
     stage_into(folder, result, more)?.write()
 }
 
-/// The same, but the files only stand ready, see [`Staged`].
+/// Writes the files without putting them in place, see [`Staged`].
 ///
 /// # Errors
 /// As [`write_all`].

@@ -1,6 +1,6 @@
 //! The files of a plan: those of its drape, the motion, and `plan.json`, the checkpoint from which a later search continues.
 //!
-//! While a search runs, its checkpoint stands in `search.json` now and then, with all that it has judged: from there one that was cut off goes
+//! While a search runs, its checkpoint is written to `search.json` now and then, with all that it has judged: from there one that was cut off goes
 //! on to the end that it would have had. The files of the plan take its place.
 
 use crate::result::SceneEcho;
@@ -62,13 +62,13 @@ fn checksum(scene: &SceneEcho) -> Result<u32, Error> {
 /// [`Error`] if a number is not finite.
 pub fn text(search: &Checkpoint, scene: &SceneEcho) -> Result<String, Error> {
     let scene = search.is_unfinished().then(|| checksum(scene)).transpose()?;
-    json::of(&Written { format: FORMAT, version: VERSION, scene, search })
+    json::to_text(&Written { format: FORMAT, version: VERSION, scene, search })
 }
 
 /// Reads the text of a plan file for a search of a scene. Of a search of another one that was cut off only its best plan is left.
 ///
 /// # Errors
-/// [`Error::File`] if it is none of this version.
+/// [`Error::File`] if it is of another version.
 pub fn read(text: &str, scene: &SceneEcho) -> Result<Checkpoint, Error> {
     let refused = |message: String| Error::file(FILE, message, "plan anew");
     let json = |fault: serde_json::Error| refused(fault.to_string());
@@ -96,7 +96,7 @@ pub fn write_all(
     write_into(Folder::claim(dir, "plan", &result.files)?, result, search)
 }
 
-/// The same into a folder that is claimed already.
+/// Writes a plan into a folder that is claimed already.
 ///
 /// # Errors
 /// As [`write_all`].
@@ -108,7 +108,7 @@ pub fn write_into(
     stage_into(folder, result, search)?.write()
 }
 
-/// The same, but the files only stand ready, see [`Staged`].
+/// Writes the files without putting them in place, see [`Staged`].
 ///
 /// # Errors
 /// As [`write_all`].

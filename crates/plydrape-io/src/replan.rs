@@ -9,14 +9,14 @@ use crate::text::table::significant;
 use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::pick_up::Offset;
-use plydrape::planner::replan::{Plan, Replanned, Replanner, SheetShapes};
+use plydrape::planner::replan::{KnownPlan, Replanned, Replanner, SheetShapes};
 use plydrape::scene::{self, Scene};
 use std::path::Path;
 use std::sync::OnceLock;
 
 /// How far a ply lies from where it was planned at most (m), unless somebody says that it does lie there.
 const FAR_SHIFT: f64 = 0.05;
-/// The same as an angle (°).
+/// How far a ply is turned from where it was planned at most (°), unless somebody says that it is.
 const FAR_YAW_DEG: f64 = 10.0;
 
 /// A planned result and what its correction needs.
@@ -39,10 +39,10 @@ impl PlannedResult {
             title: echo.title.clone(),
             layup: result.layup(),
             limits: echo.limits.clone(),
-            plan: scene::Plan {
+            plan: scene::PlanSettings {
                 method: record.method,
                 rate: record.rate,
-                ..scene::Plan::default()
+                ..scene::PlanSettings::default()
             },
             errors: echo.errors,
             also: false,
@@ -59,7 +59,7 @@ impl PlannedResult {
         &self.result
     }
 
-    /// Its scene, as it was understood, with the motion of the plan.
+    /// Scene, as it was understood, with the motion of the plan.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -78,7 +78,7 @@ impl PlannedResult {
     pub fn replanner(&self) -> Result<Replanner<'_>, Error> {
         let ResultFile { plan, steps, summary, .. } = &self.result;
         let Some(record) = plan else { return Err(not_planned()) };
-        let plan = Plan { scene: &self.scene, record, steps, summary };
+        let plan = KnownPlan { scene: &self.scene, record, steps, summary };
         Ok(Replanner::new(plan, self.sheet.as_ref())?)
     }
 
@@ -174,7 +174,7 @@ impl PlannedResult {
 /// A result that was simulated.
 fn not_planned() -> Error {
     Error::not_possible(
-        "the result is none of a plan: its motion is the scene's",
+        "the result is not that of a plan: its motion is the scene's",
         "give the result.json of `plydrape plan`; of a scene's own motion, change the scene",
     )
 }

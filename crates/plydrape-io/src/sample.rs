@@ -181,7 +181,7 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
                 arc: (a..=b).map(arc).collect(),
                 points: shape[a..=b].iter().map(|p| [p[0], p[1], mold.unwrap_or(p[2])]).collect(),
                 landing_error_mm: None,
-                fibre_angle_deg: None,
+                fiber_angle_deg: None,
             };
             (free.map(|(segment, a, b)| span(segment, a, b)).collect(), Some(segment))
         }

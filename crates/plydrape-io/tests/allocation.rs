@@ -2,7 +2,7 @@
 
 use plydrape::equilibrium::Solver;
 use plydrape::layup::SlopeRule;
-use plydrape::sheet::{Status, Tuning, drape};
+use plydrape::sheet::{SheetTuning, Status, drape};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::cell::Cell;
@@ -63,7 +63,7 @@ fn a_time_step_of_a_sheet_allocates_nothing() {
         }
         false
     };
-    let draped = drape(&scene.layup, Tuning::default(), 5e-4, &stop, |_, _, _| {
+    let draped = drape(&scene.layup, SheetTuning::default(), 5e-4, &stop, |_, _, _| {
         began.set(None);
         ControlFlow::Continue(())
     });

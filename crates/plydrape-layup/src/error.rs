@@ -112,7 +112,7 @@ pub enum Error {
     MeshSideways {
         /// What the surface is made of in this format.
         noun: &'static str,
-        /// Its first one, as numbered in the file.
+        /// First one, as numbered in the file.
         number: u64,
         /// How many triangles it has.
         triangles: usize,
@@ -128,7 +128,7 @@ pub enum Error {
     OutlineTooFew {
         /// The ring: 0 for the boundary, n for the n-th hole.
         ring: usize,
-        /// Its points.
+        /// Points.
         points: usize,
     },
     /// A coordinate of an outline is no number.
@@ -170,7 +170,7 @@ pub enum Error {
     /// There are more or fewer positions than grippers.
     #[error("there are {found} positions{}; the ply has {expected} grippers: give each of them one position", in_step(.step))]
     GripperCount {
-        /// Counts from 1; none of positions that belong to no step.
+        /// Counts from 1; `None` for positions that belong to no step.
         step: Option<usize>,
         /// Positions given.
         found: usize,
@@ -180,7 +180,7 @@ pub enum Error {
     /// A coordinate of a gripper is NaN, infinite or farther than any robot reaches.
     #[error("gripper {} is at {position:?} m{}: coordinates are finite numbers up to {most:e} m", gripper_name(*gripper), in_step(.step))]
     GripperFar {
-        /// Counts from 1; none of positions that belong to no step.
+        /// Counts from 1; `None` for positions that belong to no step.
         step: Option<usize>,
         /// The gripper.
         gripper: GripperId,
@@ -195,7 +195,7 @@ pub enum Error {
         gripper_name(*a), gripper_name(*b), run * 1e3, in_step(.step), length * 1e3
     )]
     GripperSteep {
-        /// Counts from 1; none of positions that belong to no step.
+        /// Counts from 1; `None` for positions that belong to no step.
         step: Option<usize>,
         /// One gripper.
         a: GripperId,
@@ -221,7 +221,7 @@ pub enum Error {
     StepTime {
         /// Counts from 1.
         step: usize,
-        /// Its time (s).
+        /// Time (s).
         time: f64,
         /// Time of the step before (s).
         before: Option<f64>,
@@ -243,8 +243,10 @@ pub enum Error {
         /// Along v (m).
         dv: f64,
     },
-    /// The seed of a net is none of its nodes.
-    #[error("the seed node [{i}, {j}] is none of the {nu} × {nv} nodes, which count from [0, 0]")]
+    /// The seed of a net is not one of its nodes.
+    #[error(
+        "the seed node [{i}, {j}] is not one of the {nu} × {nv} nodes, which count from [0, 0]"
+    )]
     NetSeedNode {
         /// Of the seed, along u.
         i: usize,
@@ -276,14 +278,14 @@ pub enum Error {
         /// Heading (degrees).
         heading_deg: f64,
     },
-    /// A wanted boundary has fewer than three points.
-    #[error("the wanted boundary has {points} different points: a closed line needs three or more")]
+    /// A target boundary has fewer than three points.
+    #[error("the target boundary has {points} different points: a closed line needs three or more")]
     BoundaryTooFew {
         /// How many.
         points: usize,
     },
-    /// A point of a wanted boundary is not on the mold.
-    #[error("point {} of the wanted boundary lies {:.3} mm off the mold", point + 1, distance * 1e3)]
+    /// A point of a target boundary is not on the mold.
+    #[error("point {} of the target boundary lies {:.3} mm off the mold", point + 1, distance * 1e3)]
     BoundaryOffMold {
         /// Which, counted from 0.
         point: usize,
@@ -350,7 +352,7 @@ pub enum Error {
         /// Largest value (SI).
         most: f64,
     },
-    /// The recorded time law of a motion is none of its recorded path.
+    /// The recorded time law of a motion does not fit its recorded path.
     #[error("the recorded time law does not belong to the recorded path: plan again")]
     MotionLaw,
     /// The rate at which a motion is sampled is no number above zero.

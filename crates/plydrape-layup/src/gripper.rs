@@ -1,6 +1,6 @@
 //! The name of a gripper: `g2_0` is that of the third along u in the first row along v.
 //!
-//! It is one word of letters, digits and `_` that begins with a letter, so that it can stand as it is in a table, as a joint
+//! It is one word of letters, digits and `_` that begins with a letter, so that it can be written as it is in a table, as a joint
 //! of ROS 2, as a set of a deck and as a variable of a robot program. Earlier versions wrote it in other ways, which are
 //! still read.
 

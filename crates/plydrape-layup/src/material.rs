@@ -66,7 +66,7 @@ fn are_none(curves: &[Option<MomentCurve>; 2]) -> bool {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
 pub enum Section {
-    /// The same for every catenary, as in the paper.
+    /// Mass and rigidity per length, equal for every catenary, as in the paper.
     Line {
         /// Mass per length m (kg/m).
         mass: f64,
@@ -131,7 +131,7 @@ impl TensionLaw {
 
 /// Mass per length and flexural rigidity of one catenary.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct LineSection {
     /// Mass per length m (kg/m).
     pub mass: f64,
     /// Flexural rigidity EI (N·m²).

@@ -25,7 +25,7 @@ pub enum Mold {
     Known,
 }
 
-/// What the page is told.
+/// The answer for the page.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
     /// The ply was solved: JSON with `program`, `found`, `status`, `catenaries` and, as `page`, the data of a results page with one step.
@@ -35,7 +35,7 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// Its JSON text.
+    /// JSON text.
     #[must_use]
     pub fn text(&self) -> &str {
         match self {
@@ -71,7 +71,7 @@ struct Catenary {
     shearing: bool,
     /// Whether the mold holds a part of it: its force is then that of its axial stiffness.
     touches: bool,
-    /// Its middle (m).
+    /// Middle (m).
     middle: [f64; 3],
 }
 
@@ -103,7 +103,7 @@ pub fn answer(scene: &str, mold: Mold) -> Answer {
 }
 
 fn refused(message: &str, help: &str) -> Answer {
-    Answer::Refused(json::of(&Refused { refused: message, help }).unwrap_or_default())
+    Answer::Refused(json::to_text(&Refused { refused: message, help }).unwrap_or_default())
 }
 
 fn hanging(result: &ResultFile, form: Form) -> Result<String, Error> {
@@ -111,7 +111,7 @@ fn hanging(result: &ResultFile, form: Form) -> Result<String, Error> {
     let steps = result.steps.first().and_then(|step| Some((step, step.catenaries.as_ref()?)));
     let own = steps.map(|(step, hanging)| {
         let curves = result.curves(step);
-        json::of(&Hanging {
+        json::to_text(&Hanging {
             program: PROGRAM,
             found: hanging.solver.found(),
             status: [hanging.solver.status.name(), hanging.solver.contact.name()],

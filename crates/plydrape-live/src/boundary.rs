@@ -1,6 +1,6 @@
 //! The functions that the page calls, over the memory that it shares with this module.
 //!
-//! The page asks for [`room`] for the text of a scene, writes it there, calls [`solve`] and reads the answer, so many bytes from
+//! The page asks for [`room`] for the text of a scene, writes it there, calls [`solve`] and reads the answer, this many bytes from
 //! where [`told`] points. Texts are all that passes, so three functions of numbers are enough, and no tool has to
 //! write glue code for them. Their names must stay as they are in the compiled module; Rust counts an attribute for that as unsafe,
 //! because two functions of one name could be exchanged. That is the only exception from the lint, there is no unsafe block.
@@ -15,7 +15,7 @@ thread_local! {
     static TOLD: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Room for a scene of so many bytes; the page writes it there.
+/// Room for a scene of this many bytes; the page writes it there.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize) -> *mut u8 {
     ASKED.with_borrow_mut(|asked| {

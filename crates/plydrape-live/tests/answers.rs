@@ -1,4 +1,4 @@
-//! What the live page is told is what `plydrape` computes of the same scene, and no setting of it ends in a panic.
+//! What the live page shows is what `plydrape` computes of the same scene, and no setting of it ends in a panic.
 
 use plydrape::layup::Model;
 use plydrape_live::{Answer, Mold, answer};

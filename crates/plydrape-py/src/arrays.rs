@@ -168,7 +168,7 @@ impl Numbers<'_> {
         keywords.set_item("dtype", name)?;
         let none = |said: &str| {
             format!(
-                "{what} is no array of numbers ({said}); numbers of the shape {wanted} are wanted"
+                "{what} is no array of numbers ({said}); expected numbers of the shape {wanted}"
             )
         };
         let array = self.array(name == "int64").and_then(|array| match array {
@@ -249,7 +249,7 @@ fn shapes(ply: &Ply, before: &str) -> String {
 }
 
 impl Read {
-    /// The positions of a number of steps; none if the shape of a step is no other.
+    /// The positions of a number of steps; `None` if the shape of a step is no other.
     fn steps(&self, ply: &Ply, steps: usize) -> Option<Vec<Vec<[f64; 3]>>> {
         let (count, grid) = (ply.grippers(), ply.grid);
         let points = self.values.as_chunks::<3>().0;
@@ -282,7 +282,7 @@ impl Read {
             format!("{what}[{}]", place.join(", "))
         };
         Err(PyValueError::new_err(format!(
-            "{place} is {}; finite numbers are wanted",
+            "{place} is {}; expected finite numbers",
             self.values[at]
         )))
     }
@@ -293,7 +293,7 @@ fn wrong_shape(what: &str, wanted: &str, found: &[usize]) -> PyErr {
     let found: Vec<String> = found.iter().map(ToString::to_string).collect();
     let comma = if found.len() == 1 { "," } else { "" };
     PyValueError::new_err(format!(
-        "{what} has the shape ({}{comma}); {wanted} is wanted",
+        "{what} has the shape ({}{comma}); expected {wanted}",
         found.join(", ")
     ))
 }

@@ -201,7 +201,7 @@ impl Equilibria {
 /// Raises
 /// ------
 /// ValueError
-///     If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all but)
+///     If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors are (all but)
 ///     straight above each other, where the model has no solution; it names the row.
 ///
 /// Examples
@@ -253,7 +253,7 @@ pub fn equilibria(
             }
             found
         };
-        // told and asked once a stretch: a single equilibrium takes microseconds
+        // reported and asked once a stretch: a single equilibrium takes microseconds
         const STRETCH: usize = 256;
         let most = positions.len();
         pool.install(|| {

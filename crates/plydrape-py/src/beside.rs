@@ -67,8 +67,8 @@ impl Drape {
     #[getter]
     fn summary(&self) -> PyResult<Json> {
         match self.beside {
-            true => Json::of(&Unjudged(Cow::Borrowed(self.summarized()))),
-            false => Json::of(self.summarized()),
+            true => Json::new(&Unjudged(Cow::Borrowed(self.summarized()))),
+            false => Json::new(self.summarized()),
         }
     }
 

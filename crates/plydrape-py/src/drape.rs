@@ -227,7 +227,7 @@ pub fn plan(
         Some("path") => scene.plan.method = PlanMethod::Path,
         Some("stepwise") => scene.plan.method = PlanMethod::Stepwise,
         Some(other) => {
-            let text = format!("method is {other:?}; \"path\" or \"stepwise\" is wanted");
+            let text = format!("method is {other:?}; expected \"path\" or \"stepwise\"");
             return Err(PyValueError::new_err(text));
         }
     }
@@ -308,7 +308,7 @@ fn no_plan(cause: plydrape::Error) -> PyErr {
 fn duration(time: &Amount) -> PyResult<Duration> {
     let seconds = time.si("time", Measured::Time, &usual::ANY)?;
     Duration::try_from_secs_f64(seconds).ok().filter(|time| !time.is_zero()).ok_or_else(|| {
-        let text = format!("time is {seconds} s; a time above zero is wanted, e.g. \"5 min\"");
+        let text = format!("time is {seconds} s; expected a time above zero, e.g. \"5 min\"");
         PyValueError::new_err(text)
     })
 }
@@ -385,7 +385,7 @@ impl Plan {
     /// which it is that for the longest as [i, j], None of the frame of a tool.
     #[getter]
     fn limited_by(&self) -> PyResult<Vec<Json>> {
-        self.record.limited_by.iter().map(Json::of).collect()
+        self.record.limited_by.iter().map(Json::new).collect()
     }
 
     /// Time of each planned step (s), shape (steps,).

@@ -206,7 +206,7 @@ impl Equilibrium {
                 (vec![2], ["u", "v"].map(String::from).to_vec(), directions)
             }
             "material" => {
-                let properties = Property::of(&ply.material);
+                let properties = Property::of_material(&ply.material);
                 let names: Vec<_> = properties.iter().map(|p| p.key().to_owned()).collect();
                 let directions: Option<Vec<_>> =
                     properties.iter().map(|p| Direction::property(&ply, *p)).collect();
@@ -222,9 +222,8 @@ impl Equilibrium {
                 (vec![properties.len()], names, directions)
             }
             other => {
-                let text = format!(
-                    "wrt is {other:?}; \"grippers\", \"lengths\" or \"material\" is wanted"
-                );
+                let text =
+                    format!("wrt is {other:?}; expected \"grippers\", \"lengths\" or \"material\"");
                 return Err(PyValueError::new_err(text));
             }
         };

@@ -17,7 +17,7 @@ fn raise(py: Python<'_>, name: &str, text: &dyn Display, fields: &Bound<'_, PyDi
     made().unwrap_or_else(|error| error)
 }
 
-/// The same about a file that the file system refused: also the exception that Python has for that.
+/// The error about a file that the file system refused, which is also the exception that Python has for that.
 fn of_file(py: Python<'_>, error: PyErr, path: &Path, kind: io::ErrorKind) -> PyErr {
     let kind = match kind {
         io::ErrorKind::NotFound => "FileNotFoundError",

@@ -112,11 +112,11 @@ pub fn fit(
         "moments" => (Test::Moments, [curvature, moment]),
         other => {
             return Err(PyValueError::new_err(format!(
-                "test is {other:?}; bias, rate, frame, overhang, hang or moments is wanted"
+                "test is {other:?}; expected bias, rate, frame, overhang, hang or moments"
             )));
         }
     };
     let fitted = plydrape_io::fit::fit(&Request { test, warp, weft, titles })
         .map_err(|fault| error::value(&fault))?;
-    Json::of(&fitted.json())
+    Json::new(&fitted.json())
 }

@@ -11,8 +11,8 @@ pub struct Json(String);
 
 impl Json {
     /// Anything that can be written.
-    pub fn of<T: Serialize>(value: &T) -> PyResult<Self> {
-        json::of(value).map(Json).map_err(|fault| error::output(&fault))
+    pub fn new<T: Serialize>(value: &T) -> PyResult<Self> {
+        json::to_text(value).map(Json).map_err(|fault| error::output(&fault))
     }
 }
 

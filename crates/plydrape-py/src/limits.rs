@@ -11,7 +11,7 @@ pub struct Limits(Vec<Json>);
 impl Limits {
     /// Some verdicts, each of another measure.
     pub fn of<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> PyResult<Self> {
-        verdicts.into_iter().map(Json::of).collect::<PyResult<_>>().map(Limits)
+        verdicts.into_iter().map(Json::new).collect::<PyResult<_>>().map(Limits)
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Measure(Name);
 
 #[pymethods]
 impl Measure {
-    /// Its key in `Result.measures` and in each step of a result, the unit at its end where it has one.
+    /// Key in `Result.measures` and in each step of a result, the unit at its end where it has one.
     #[getter]
     pub fn key(&self) -> &'static str {
         self.0.measure().key()

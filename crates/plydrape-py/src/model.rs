@@ -25,7 +25,7 @@ fn named(name: &str, argument: &str) -> PyResult<Model> {
         "sheet" => Ok(Model::Sheet),
         "catenaries" => Ok(Model::Catenaries),
         other => {
-            let text = format!("{argument} is {other:?}; \"sheet\" or \"catenaries\" is wanted");
+            let text = format!("{argument} is {other:?}; expected \"sheet\" or \"catenaries\"");
             Err(PyValueError::new_err(text))
         }
     }
@@ -71,7 +71,7 @@ fn fault(file: &SceneFile, decides: Model, beside: Option<Model>) -> Option<Diag
     }
     for model in [Some(decides), beside].into_iter().flatten() {
         let sound = check_model(&file.layup, model).map_err(Error::from);
-        let sheet = || (model == Model::Sheet).then(|| SheetSize::of(file)).transpose();
+        let sheet = || (model == Model::Sheet).then(|| SheetSize::new(file)).transpose();
         if let Err(error) = sound.and_then(|()| sheet()) {
             return Some(error::refused(&error, error.help()));
         }

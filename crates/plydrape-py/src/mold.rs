@@ -123,7 +123,7 @@ impl Mold {
         Ok(Mold(mold::Mold::Mesh(Arc::new(mesh))))
     }
 
-    /// Its kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
+    /// Kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
     /// of a scene laid waves on it.
     #[getter]
     fn kind(&self) -> &'static str {
@@ -248,7 +248,7 @@ impl Mold {
         Ok(triangles(parallel(py, || patch(&self.0, low, high, most))))
     }
 
-    /// Its surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
+    /// Surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
     ///
     /// Parameters
     /// ----------

@@ -53,7 +53,7 @@ struct Rows {
 }
 
 impl Rows {
-    fn of(quantities: &[Option<Quantity>], grippers: usize) -> Self {
+    fn new(quantities: &[Option<Quantity>], grippers: usize) -> Self {
         let width = 3 * grippers;
         let value = |quantity: &Option<Quantity>| quantity.as_ref().map_or(f64::NAN, |q| q.value);
         let gradient = |quantity: &Option<Quantity>| match quantity {
@@ -123,7 +123,7 @@ pub fn outcome(
     let (found, result) = found.map_err(|fault| error::scene(&fault))?;
     let [overstretch, tilt] = [found.last_step.overstretch, found.last_step.tilt]
         .map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
-    let rows = |quantities: &[Option<Quantity>]| Rows::of(quantities, grippers);
+    let rows = |quantities: &[Option<Quantity>]| Rows::new(quantities, grippers);
     let quantities = Quantities {
         grippers,
         overstretch: rows(&overstretch),
@@ -149,7 +149,7 @@ impl Outcome {
         self.quantities.overstretch.values()
     }
 
-    /// Its derivatives to the grippers' positions, shape (catenaries, grippers, 3).
+    /// Derivatives to the grippers' positions, shape (catenaries, grippers, 3).
     #[getter]
     fn overstretch_jacobian(&self) -> Array<f64> {
         self.quantities.overstretch.gradients(self.quantities.grippers)
@@ -161,7 +161,7 @@ impl Outcome {
         self.quantities.force.values()
     }
 
-    /// Its derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
+    /// Derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
     #[getter]
     fn forces_jacobian(&self) -> Array<f64> {
         self.quantities.force.gradients(self.quantities.grippers)
@@ -173,7 +173,7 @@ impl Outcome {
         self.quantities.shear.values()
     }
 
-    /// Its derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
+    /// Derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
     #[getter]
     fn shear_jacobian(&self) -> Array<f64> {
         self.quantities.shear.gradients(self.quantities.grippers)
@@ -185,7 +185,7 @@ impl Outcome {
         self.quantities.tilt.values()
     }
 
-    /// Its derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
+    /// Derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
     #[getter]
     fn tilts_jacobian(&self) -> Array<f64> {
         self.quantities.tilt.gradients(self.quantities.grippers)

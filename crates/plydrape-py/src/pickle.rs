@@ -66,42 +66,42 @@ pub fn state<'py>(
         let checkpoint = text(plan_file::text(&plan.checkpoint, &plan.result.scene))?;
         let Plan { decisions, time_over, .. } = *plan;
         let state = PlanState { result, checkpoint, decisions, time_over };
-        return Ok((text(json::of(&state))?, file));
+        return Ok((text(json::to_text(&state))?, file));
     }
     if let Ok(outcome) = value.cast::<Outcome>() {
         let Outcome { result, quantities } = outcome.get();
         let (result, file) = of_result(py, &result.0, whole)?;
         let state = OutcomeState { result, quantities: quantities.clone() };
-        return Ok((text(json::of(&state))?, file));
+        return Ok((text(json::to_text(&state))?, file));
     }
     let state = if let Ok(scene) = value.cast::<Scene>() {
-        text(json::of(&SceneState::of(scene.get(), whole)))?
+        text(json::to_text(&SceneState::new(scene.get(), whole)))?
     } else if let Ok(ply) = value.cast::<Ply>() {
-        text(json::of(&ply.get().0))?
+        text(json::to_text(&ply.get().0))?
     } else if let Ok(material) = value.cast::<Material>() {
-        text(json::of(&material.get().0))?
+        text(json::to_text(&material.get().0))?
     } else if let Ok(mold) = value.cast::<Mold>() {
-        text(json::of(&MoldState::of(Some(&mold.get().0))))?
+        text(json::to_text(&MoldState::new(Some(&mold.get().0))))?
     } else if let Ok(net) = value.cast::<Net>() {
-        text(json::of(&*net.get().0))?
+        text(json::to_text(&*net.get().0))?
     } else if let Ok(sample) = value.cast::<Sample>() {
-        text(json::of(&sample.get().0))?
+        text(json::to_text(&sample.get().0))?
     } else if let Ok(measure) = value.cast::<Measure>() {
         measure.get().key().to_owned()
     } else if let Ok(surface) = value.cast::<Surface>() {
         let surface::Surface { size, vertices, gap } = surface.get().0.clone();
-        text(json::of(&SurfaceState { size, vertices, gap }))?
+        text(json::to_text(&SurfaceState { size, vertices, gap }))?
     } else if let Ok(closest) = value.cast::<ClosestPoints>() {
-        text(json::of(&ClosestState::of(closest.get())))?
+        text(json::to_text(&ClosestState::new(closest.get())))?
     } else if let Ok(span) = value.cast::<Span>() {
-        text(json::of(&SpanState::of(span.get())))?
+        text(json::to_text(&SpanState::new(span.get())))?
     } else if let Ok(solver) = value.cast::<Solver>() {
         let solver = solver.get();
         let state = solver.state();
-        text(json::of(&SolverState { ply: (*state.ply).clone(), settings: state.settings }))?
+        text(json::to_text(&SolverState { ply: (*state.ply).clone(), settings: state.settings }))?
     } else if let Ok(equilibria) = value.cast::<Equilibria>() {
         let Equilibria { ply, found } = equilibria.get();
-        text(json::of(&EquilibriaState { ply, found }))?
+        text(json::to_text(&EquilibriaState { ply, found }))?
     } else {
         return Err(PyTypeError::new_err(format!(
             "cannot pickle plydrape.{}: it holds the state of its solver; keep its arrays, pickle the Solver and solve again, or solve many with plydrape.batch.equilibria, whose result can be pickled",
@@ -245,7 +245,7 @@ struct WavesState {
 }
 
 impl MoldState {
-    fn of(mold: Option<&molds::Mold>) -> Self {
+    fn new(mold: Option<&molds::Mold>) -> Self {
         match mold {
             Some(molds::Mold::Wavy(wavy)) => {
                 let Waves { amplitude, wavelength, headings, phases } = wavy.relief;
@@ -275,7 +275,7 @@ struct SceneState {
     mold: MoldState,
     times: Vec<f64>,
     positions: Vec<Vec<[f64; 3]>>,
-    plan: scenes::Plan,
+    plan: scenes::PlanSettings,
     also: bool,
     thickness: Option<f64>,
     origin: Option<Origin>,
@@ -284,11 +284,11 @@ struct SceneState {
 
 impl SceneState {
     /// What a scene is; as a whole also the text that it came from.
-    fn of(scene: &Scene, whole: bool) -> Self {
+    fn new(scene: &Scene, whole: bool) -> Self {
         let Scene(file, origin) = scene;
         let SceneFile { scene, input, thickness, plan_refusal, .. } = &**file;
         SceneState {
-            mold: MoldState::of(scene.layup.mold.as_ref()),
+            mold: MoldState::new(scene.layup.mold.as_ref()),
             scene: SceneEcho {
                 mold: None,
                 ..SceneEcho::new(scene, input.clone().filter(|_| whole))
@@ -342,6 +342,7 @@ impl SceneState {
             drawn: None,
             cell: None,
             thickness: self.thickness,
+            notices: Vec::new(),
             plan_refusal: self.refusal,
         };
         Scene(Arc::new(file), self.origin.unwrap_or_default())
@@ -362,7 +363,7 @@ struct ClosestState {
 }
 
 impl ClosestState {
-    fn of(closest: &ClosestPoints) -> Self {
+    fn new(closest: &ClosestPoints) -> Self {
         let found = closest.found.iter().map(|p| (p.point, p.normal, p.distance, p.beyond));
         ClosestState { axes: closest.axes.clone(), found: found.collect() }
     }
@@ -391,7 +392,7 @@ struct SpanState {
 }
 
 impl SpanState {
-    fn of(solved: &Span) -> Self {
+    fn new(solved: &Span) -> Self {
         let slope = |end: EndCondition| match end {
             EndCondition::Free => None,
             EndCondition::Slope(slope) => Some(slope),

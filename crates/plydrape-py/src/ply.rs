@@ -213,7 +213,7 @@ impl Material {
     /// Raises
     /// ------
     /// ValueError
-    ///     If there is none of that name.
+    ///     If there is no such name.
     ///
     /// Examples
     /// --------
@@ -242,7 +242,7 @@ impl Material {
     /// Raises
     /// ------
     /// ValueError
-    ///     If there is none of that name.
+    ///     If there is no such name.
     ///
     /// Examples
     /// --------
@@ -259,7 +259,7 @@ impl Material {
         })
     }
 
-    /// Its name for reports.
+    /// Name for reports.
     #[getter]
     fn name(&self) -> &str {
         &self.0.name

@@ -57,7 +57,7 @@ impl Result {
         Drape { result: Arc::clone(&self.0), beside: false }
     }
 
-    /// The steps of the catenaries, which decide or stand beside.
+    /// The steps of the catenaries, whether they decide or not.
     fn hanging(&self) -> PyResult<&[Step]> {
         self.0.steps_of(Model::Catenaries).ok_or_else(|| {
             PyValueError::new_err(
@@ -192,7 +192,7 @@ impl Result {
         self.0.scene.ply.cell.into()
     }
 
-    /// Its mold, if any.
+    /// Mold, if any.
     #[getter]
     fn mold(&self) -> Option<Mold> {
         self.0.scene.mold.clone().map(Mold)
@@ -292,13 +292,13 @@ impl Result {
     /// asked for.
     #[getter]
     fn tolerance(&self) -> PyResult<Option<Json>> {
-        self.0.summary.tolerance.as_ref().map(Json::of).transpose()
+        self.0.summary.tolerance.as_ref().map(Json::new).transpose()
     }
 
     /// The outcome by the model that decides: the `summary` of result.json.
     #[getter]
     fn summary(&self) -> PyResult<Json> {
-        Json::of(&self.0.summary)
+        Json::new(&self.0.summary)
     }
 
     /// When the pads grip, press and let go, in the order of time; empty where they hold the ply from first to last.
@@ -307,7 +307,7 @@ impl Result {
     /// [i, j]. The last release comes later than the last step where pads dwell.
     #[getter]
     fn events(&self) -> PyResult<Vec<Json>> {
-        self.0.events().iter().map(Json::of).collect()
+        self.0.events().iter().map(Json::new).collect()
     }
 
     /// Every limit, judged by the model that decides, by its name.
@@ -337,7 +337,7 @@ impl Result {
     /// >>> sorted(result.to_dict())
     /// ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
-        Json::of(&*self.0)
+        Json::new(&*self.0)
     }
 
     /// The text of result.json, with its check sum.
@@ -529,7 +529,7 @@ impl Result {
         Ok(lines.into_iter().map(|line| Array::rows(&[line.len(), 3], line)).collect())
     }
 
-    /// The ply between the catenaries of a step as a surface with so many intervals along each side of a cell.
+    /// The ply between the catenaries of a step as a surface with this many intervals along each side of a cell.
     ///
     /// Parameters
     /// ----------
@@ -960,7 +960,7 @@ impl Result {
 
     /// Everything over the steps as one labeled data set. Needs xarray.
     ///
-    /// Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array) and `xyz`, and where
+    /// The dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array) and `xyz`, and where
     /// catenaries were draped `catenary`, `cell_u` and `cell_v`; every variable has its `units` and `long_name`. Names and units are
     /// those of the properties.
     ///
@@ -1059,7 +1059,7 @@ impl Points<'_> {
                 Ok(pairs.collect())
             }
             _ => Err(PyValueError::new_err(
-                "points are wanted in the shape (n, 2, 2): where each was planned, and where it was seen",
+                "expected points of the shape (n, 2, 2): where each was planned, and where it was seen",
             )),
         }
     }

@@ -43,7 +43,7 @@ impl Sample {
         self.0.needed
     }
 
-    /// Whether so many do, or as many without a failure as give 95 % confidence.
+    /// Whether this many do, or as many without a failure as give 95 % confidence.
     #[getter]
     fn ok(&self) -> bool {
         self.0.ok
@@ -91,7 +91,7 @@ impl Sample {
     /// gripper. None of catenaries.
     #[getter]
     fn highest(&self) -> PyResult<Option<Json>> {
-        self.0.highest.as_ref().map(Json::of).transpose()
+        self.0.highest.as_ref().map(Json::new).transpose()
     }
 
     /// The height at each node of the sheet that the share of the cells keeps (mm), shape (nodes,), in four digits; empty of

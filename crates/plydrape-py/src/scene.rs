@@ -11,11 +11,12 @@ use plydrape::errors::{Draw, Errors};
 use plydrape::motion::Motion;
 use plydrape_io::scene::{self, SceneFile, slow_in_seconds};
 use plydrape_io::store::{shown, size};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyFutureWarning, PyTypeError, PyValueError};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::{Deserialize, Serialize};
+use std::ffi::CString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Value;
@@ -86,7 +87,7 @@ pub struct Scene(pub Arc<SceneFile>, pub Origin);
 /// What a scene was made from.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Origin {
-    /// The text of its tables; none where no tables say it.
+    /// The text of its tables; `None` where no tables say it.
     pub tables: Option<Arc<str>>,
     /// Folder of the files that they name.
     pub base: PathBuf,
@@ -98,7 +99,7 @@ pub struct Origin {
 
 impl Origin {
     /// Tables with the folder of their files.
-    fn of(scene: &SceneFile, base: &Path) -> Self {
+    fn new(scene: &SceneFile, base: &Path) -> Self {
         Origin { tables: scene.input.clone(), base: base.into(), ..Origin::default() }
     }
 }
@@ -162,7 +163,7 @@ impl Scene {
                 }
             },
         }
-        let way = motion.map(Way::of).transpose()?.flatten();
+        let way = motion.map(Way::new).transpose()?.flatten();
         if way.is_some() {
             let hold = Map::from_iter([("kind".into(), Value::String("hold".into()))]);
             keys.insert("motion".into(), Value::Table(hold));
@@ -195,6 +196,7 @@ impl Scene {
         let mold = given.is_some();
         let scene = parallel(py, || scene::parse_for(&text, &base, "scene", given, None, None));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
+        warn_of_old_keys(py, &scene)?;
         let tables = Some(text.as_str().into());
         let origin = Origin { tables, base, mold, motion: false };
         let scene = Scene(Arc::new(scene), origin);
@@ -230,8 +232,9 @@ impl Scene {
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let scene =
             parallel(py, || scene::read(&path)).map_err(|refused| error::scene(&refused))?;
+        warn_of_old_keys(py, &scene)?;
         let whole = std::path::absolute(&path).unwrap_or(path);
-        let origin = Origin::of(&scene, whole.parent().unwrap_or(Path::new("")));
+        let origin = Origin::new(&scene, whole.parent().unwrap_or(Path::new("")));
         Ok(Scene(Arc::new(scene), origin))
     }
 
@@ -263,6 +266,7 @@ impl Scene {
     fn read_book(py: Python<'_>, path: PathBuf) -> PyResult<Vec<(String, Self)>> {
         let book = parallel(py, || scene::read_book(&path));
         let book = book.map_err(|refused| error::scene(&refused))?;
+        book.plies.iter().try_for_each(|ply| warn_of_old_keys(py, &ply.scene))?;
         let made = |scene| Scene(Arc::new(scene), Origin::default());
         Ok(book.plies.into_iter().map(|ply| (ply.name, made(ply.scene))).collect())
     }
@@ -297,7 +301,8 @@ impl Scene {
     fn parse(py: Python<'_>, text: &str, base: PathBuf, name: &str) -> PyResult<Self> {
         let scene = parallel(py, || scene::parse(text, &base, name));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
-        let origin = Origin::of(&scene, &base);
+        warn_of_old_keys(py, &scene)?;
+        let origin = Origin::new(&scene, &base);
         Ok(Scene(Arc::new(scene), origin))
     }
 
@@ -383,7 +388,7 @@ impl Scene {
         Ok(out)
     }
 
-    /// The same scene with other values: keyword arguments as those of a scene, in which only what changes must stand.
+    /// The same scene with other values: keyword arguments as those of a scene, of which only those that change are needed.
     ///
     /// A dict is merged into the table of that name, key by key; None takes a table or a key away. A table with another `kind` is
     /// taken whole. The scene itself stays as it is, and comments of its file are not in the `text` of the new one.
@@ -437,7 +442,7 @@ impl Scene {
         scene::TEMPLATE
     }
 
-    /// Its name for reports.
+    /// Name for reports.
     #[getter]
     fn title(&self) -> &str {
         &self.0.title
@@ -512,7 +517,7 @@ impl Scene {
     /// ------
     /// ValueError
     ///     If the shapes do not fit, times do not ascend from 0, a coordinate is not a number up to 10⁶ m, or
-    ///     neighbors stand (all but) straight above each other, where the model has no solution.
+    ///     neighbors are (all but) straight above each other, where the model has no solution.
     ///
     /// Examples
     /// --------
@@ -542,7 +547,7 @@ impl Scene {
         size::drape(&self.0.layup.ply, motion.times.len()).map_err(|fault| error::value(&fault))?;
         if let Some(found) = title.as_deref().and_then(shown::control) {
             return Err(PyValueError::new_err(format!(
-                "title holds the control character {}: remove it, one line of plain text is wanted",
+                "title holds the control character {}; expected one line of plain text",
                 found.escape_unicode()
             )));
         }
@@ -569,7 +574,7 @@ impl Scene {
     /// {'deviation': 0.0001}
     #[getter]
     fn errors(&self) -> PyResult<Option<Json>> {
-        self.0.errors.as_ref().map(Json::of).transpose()
+        self.0.errors.as_ref().map(Json::new).transpose()
     }
 
     /// The error of every quantity in one sample of the scene's `errors`, in SI units.
@@ -603,7 +608,7 @@ impl Scene {
     /// True
     #[pyo3(signature = (sample, factor = 1.0))]
     fn draw(&self, sample: usize, factor: f64) -> PyResult<Json> {
-        Json::of(&self.drawn(sample, factor)?)
+        Json::new(&self.drawn(sample, factor)?)
     }
 
     /// The scene of one real cell: the same commands, with every error that `draw` gives for the sample.
@@ -626,7 +631,7 @@ impl Scene {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the scene has no errors, the factor is not finite, or neighbors would stand (all but)
+    ///     If the scene has no errors, the factor is not finite, or neighbors would be (all but)
     ///     straight above each other.
     ///
     /// Examples
@@ -672,11 +677,18 @@ impl Scene {
         })?;
         if !factor.is_finite() {
             return Err(PyValueError::new_err(format!(
-                "factor is {factor}: a finite number is wanted"
+                "factor is {factor}: expected a finite number"
             )));
         }
         Ok(errors.draw(sample, self.0.layup.ply.grippers()).scaled(factor))
     }
+}
+
+/// Warns of keys that have a new name.
+fn warn_of_old_keys(py: Python<'_>, scene: &SceneFile) -> PyResult<()> {
+    scene.notices.iter().try_for_each(|notice| {
+        PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &CString::new(notice.as_str())?, 1)
+    })
 }
 
 /// A motion that a program has made.
@@ -687,7 +699,7 @@ struct Way<'py> {
 
 impl<'py> Way<'py> {
     /// The motion of a table that has positions.
-    fn of(table: &Bound<'py, PyDict>) -> PyResult<Option<Self>> {
+    fn new(table: &Bound<'py, PyDict>) -> PyResult<Option<Self>> {
         if !table.contains("positions")? {
             return Ok(None);
         }
@@ -712,7 +724,7 @@ fn both<'py>(
     match (table.get_item(a)?, table.get_item(b)?, table.len()) {
         (Some(first), Some(second), 2) => Ok([first, second]),
         _ => Err(PyValueError::new_err(format!(
-            "{name} has the keys {}; where one of them is {a:?} or {b:?}, these two are wanted and no other one",
+            "{name} has the keys {}; with {a:?} or {b:?} among them, expected these two alone",
             table.keys()
         ))),
     }

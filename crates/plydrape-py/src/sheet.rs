@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The whole ply as a sheet: its states over the steps that were kept. Measures and the verdict are those of its result.
 ///
-/// Nodes stand where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
+/// Nodes lie where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
 /// Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
 ///
 /// Examples
@@ -217,7 +217,7 @@ impl Sheet {
     #[getter]
     fn summary(&self) -> PyResult<Json> {
         let summary = self.result.summary_of(Model::Sheet);
-        Json::of(&summary.and_then(|summary| summary.sheet.as_ref()))
+        Json::new(&summary.and_then(|summary| summary.sheet.as_ref()))
     }
 
     /// Whether every step was solved and the ply is at rest at the end.
@@ -229,7 +229,7 @@ impl Sheet {
 
     /// All states as one labeled data set. Needs xarray.
     ///
-    /// Its dimensions are `state`, `node`, `segment`, `cell`, `gripper` and `xyz`; every variable has its `units` and `long_name`.
+    /// The dimensions are `state`, `node`, `segment`, `cell`, `gripper` and `xyz`; every variable has its `units` and `long_name`.
     /// Names and units are those of the properties.
     ///
     /// Returns

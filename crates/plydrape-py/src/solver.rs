@@ -94,7 +94,7 @@ impl Solver {
             "min-force" => SlopeRule::MinForce,
             other => {
                 let text =
-                    format!("slopes is {other:?}; \"moment-balance\" or \"min-force\" is wanted");
+                    format!("slopes is {other:?}; expected \"moment-balance\" or \"min-force\"");
                 return Err(PyValueError::new_err(text));
             }
         };
@@ -105,7 +105,7 @@ impl Solver {
         ] {
             if !(value > 0.0 && value <= most) {
                 let below = if name == "max_tilt" { " below π/2" } else { "" };
-                let text = format!("{name} is {value}; a positive number{below} is wanted");
+                let text = format!("{name} is {value}; expected a positive number{below}");
                 return Err(PyValueError::new_err(text));
             }
         }
@@ -167,7 +167,7 @@ impl Solver {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all
+    ///     If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors are (all
     ///     but) straight above each other, where the model has no solution.
     /// SolveError
     ///     If no equilibrium was found.
@@ -196,7 +196,7 @@ impl Solver {
         }
         let state = state.clone();
         let shape =
-            spans::Equilibrium::of(&state.ply, &state.solver, outcome, &positions, &contacts);
+            spans::Equilibrium::new(&state.ply, &state.solver, outcome, &positions, &contacts);
         Ok(Equilibrium { state: Mutex::new(state), positions, shape })
     }
 }

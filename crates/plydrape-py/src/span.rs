@@ -107,7 +107,7 @@ impl Span {
             "exact" => true,
             other => {
                 return Err(PyValueError::new_err(format!(
-                    "theory is {other:?}; \"small-sag\" or \"exact\" is wanted"
+                    "theory is {other:?}; expected \"small-sag\" or \"exact\""
                 )));
             }
         };
@@ -125,7 +125,7 @@ impl Span {
         let curve = moment.map(|(curvature, moment)| MomentCurve { curvature, moment });
         if !curve.as_ref().is_none_or(MomentCurve::is_sound) {
             return Err(PyValueError::new_err(
-                "moment is no table: as many curvatures as moments, two or more, both rising from 0, are wanted",
+                "moment is no table: expected as many curvatures as moments, two or more, both rising from 0",
             ));
         }
         let flexural_rigidity = curve.as_ref().map_or(flexural_rigidity, MomentCurve::rigidity);
@@ -138,11 +138,11 @@ impl Span {
         let fault = |text: String| Err(PyValueError::new_err(text));
         for (name, value, finite) in positive {
             if !(value > 0.0 && finite) {
-                return fault(format!("{name} is {value}; a positive number is wanted"));
+                return fault(format!("{name} is {value}; expected a positive number"));
             }
         }
         if !(flexural_rigidity >= 0.0 && flexural_rigidity.is_finite()) {
-            return fault(format!("flexural_rigidity is {flexural_rigidity}; 0 or more is wanted"));
+            return fault(format!("flexural_rigidity is {flexural_rigidity}; expected 0 or more"));
         }
         let given = [slopes.0, slopes.1];
         if flexural_rigidity == 0.0 && given.iter().any(Option::is_some) {
@@ -240,7 +240,7 @@ impl Span {
     fn heights(&self, x: Numbers<'_>) -> PyResult<Array<f64>> {
         let (x, run) = (x.any("x")?, self.span.run);
         if let Some(x) = x.values.iter().find(|x| !(0.0..=run).contains(*x)) {
-            let text = format!("x holds {x} m; 0 to the run of {run} m is wanted");
+            let text = format!("x holds {x} m; expected 0 to the run of {run} m");
             return Err(PyValueError::new_err(text));
         }
         if let Some(shape) = &self.shape {
@@ -283,7 +283,7 @@ impl Span {
     #[pyo3(signature = (n = 101))]
     fn points(&self, n: usize) -> PyResult<Array<f64>> {
         if n < 2 {
-            return Err(PyValueError::new_err(format!("n is {n}; 2 or more places are wanted")));
+            return Err(PyValueError::new_err(format!("n is {n}; expected 2 or more places")));
         }
         let share = |k: usize| k as f64 / (n - 1) as f64;
         let points: Vec<f64> = match (&self.shape, &self.profile) {

@@ -53,7 +53,7 @@ impl Surface {
         Array::rows(&[self.0.vertices.len(), 3], self.0.vertices.iter().copied())
     }
 
-    /// Corners of its triangles, shape (triangles, 3); none of a strip.
+    /// Corners of its triangles, shape (triangles, 3); none for a strip.
     #[getter]
     fn triangles(&self) -> Array<u32> {
         let corners = self.0.triangles();

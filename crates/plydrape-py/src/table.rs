@@ -55,9 +55,7 @@ fn dict_at(dict: &Bound<'_, PyDict>, place: &str, depth: usize) -> PyResult<Map<
     let mut out = Map::new();
     for (key, value) in dict {
         let Ok(key) = key.extract::<String>() else {
-            return Err(PyTypeError::new_err(format!(
-                "{place} has the key {key}; a str is wanted"
-            )));
+            return Err(PyTypeError::new_err(format!("{place} has the key {key}; expected a str")));
         };
         if !value.is_none() {
             let value = value_at(&value, &format!("{place}[{key:?}]"), depth)?;
@@ -96,7 +94,7 @@ fn value_at(value: &Bound<'_, PyAny>, place: &str, depth: usize) -> PyResult<Val
     }
     let Ok(items) = value.try_iter() else {
         return Err(PyTypeError::new_err(format!(
-            "{place} is of type {}; a number, str, bool, dict, list or array is wanted",
+            "{place} is of type {}; expected a number, str, bool, dict, list or array",
             value.get_type().name()?
         )));
     };

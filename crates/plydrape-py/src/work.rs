@@ -1,4 +1,4 @@
-//! Long work beside the interpreter: other Python threads run on, Ctrl-C ends it, a callback is told.
+//! Long work beside the interpreter: other Python threads run on, Ctrl-C ends it, a callback reports progress.
 //!
 //! The work has a thread of its own, and the caller's waits for it without the interpreter's lock. It wakes
 //! [`OFTEN`] to let Python handle signals, so an interrupt does not wait for the work to notice.
@@ -81,7 +81,7 @@ impl Watch {
 /// The threads for parallel work, and the process that they belong to.
 static THREADS: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// The threads of this process for parallel work; none if the system gives no more.
+/// The threads of this process for parallel work; `None` if the system gives no more.
 fn threads() -> Option<Arc<ThreadPool>> {
     let mut known = THREADS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -107,7 +107,7 @@ pub fn parallel<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
 /// Does the work and returns what it found; `progress(done, most, stage)` is called when that has changed.
 ///
 /// # Errors
-/// What a signal handler or `progress` raises, at once; the work is told to end and left to do so by itself.
+/// What a signal handler or `progress` raises, at once; the work is asked to end and left to do so by itself.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

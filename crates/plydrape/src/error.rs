@@ -13,7 +13,7 @@ pub enum Error {
     Layup(#[from] LayupError),
 
     /// A specimen, or a test, has too few points.
-    #[error("{what} has {found} points; {wanted} are wanted")]
+    #[error("{what} has {found} points; expected {wanted}")]
     FitTooFew {
         /// Which specimen or test.
         what: String,
@@ -50,7 +50,7 @@ pub enum Error {
     FitRange {
         /// What quantity.
         what: &'static str,
-        /// Its value (SI).
+        /// Value (SI).
         value: f64,
         /// The unit of the value.
         unit: &'static str,
@@ -130,7 +130,7 @@ pub enum Error {
     },
     /// A pad between lines of nodes of a sheet holds too few of them.
     #[error(
-        "the pad of gripper {}, of {radius_mm:.3} mm radius, holds no three nodes of a mesh of {mesh_mm:.3} mm: grippers that do not stand in rows along the yarns need pads larger than the mesh",
+        "the pad of gripper {}, of {radius_mm:.3} mm radius, holds no three nodes of a mesh of {mesh_mm:.3} mm: grippers that are not in rows along the yarns need pads larger than the mesh",
         gripper_name(*gripper)
     )]
     SheetPadSmall {
@@ -155,7 +155,7 @@ pub enum Error {
     SheetRange {
         /// What quantity.
         what: &'static str,
-        /// Its value (SI).
+        /// Value (SI).
         value: f64,
         /// What it may be.
         range: &'static str,
@@ -192,9 +192,9 @@ pub enum Error {
         stiffness(*.lateral, *.axial)
     )]
     CatenariesMounts {
-        /// Stiffness of the mounts along the ply (N/m); none if rigid.
+        /// Stiffness of the mounts along the ply (N/m); `None` if rigid.
         lateral: Option<f64>,
-        /// Stiffness of the mounts across the ply (N/m); none if rigid.
+        /// Stiffness of the mounts across the ply (N/m); `None` if rigid.
         axial: Option<f64>,
     },
 
@@ -206,7 +206,7 @@ pub enum Error {
     },
     /// The points of an offset lie too close together.
     #[error(
-        "the planned points are all within {:.3} mm of their middle, and points are trusted to {:.3} mm: how the ply is turned cannot be told from them",
+        "the planned points are all within {:.3} mm of their middle, and points are trusted to {:.3} mm: they do not say how the ply is turned",
         1e3 * .reach, 1e3 * .tolerance
     )]
     OffsetTooClose {

@@ -65,9 +65,9 @@
 //! # Settings
 //!
 //! Every setting is a public field: rules of the models in [`layup::Settings`] (`scene.layup.settings.contact.friction`, `.pad.radius`,
-//! `.sheet.mesh`, `.model`), the search in [`scene::Plan`] (`scene.plan.seed`, `.evaluations`), errors in [`errors::Errors`]. Limits are
+//! `.sheet.mesh`, `.model`), the search in [`scene::PlanSettings`] (`scene.plan.seed`, `.evaluations`), errors in [`errors::Errors`]. Limits are
 //! a map from measures to bounds, [`measure::Limits`]: `scene.limits.set(Name::Tilt, Some(0.5))`; without a bound of the scene each
-//! measure has its usual one, with its reason. The numerical settings of the sheet are in [`sheet::Tuning`].
+//! measure has its usual one, with its reason. The numerical settings of the sheet are in [`sheet::SheetTuning`].
 //!
 //! SI units throughout, z up, gravity along −z. Equations are numbered in `docs/theory` of the project. This crate reads and writes no
 //! files, `plydrape-io` does; with the feature `serde` its types can be written by serde.
@@ -94,4 +94,4 @@ pub use plydrape_layup::{
     Error as LayupError, Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance,
     geometry, layup, material, mold, motion, net, ply, state, stopwatch, tool,
 };
-pub use scene::{Plan, Scene};
+pub use scene::{PlanSettings, Scene};

@@ -98,7 +98,7 @@ def _names(axes: Axes3D, stage: Stage, k: int, edge: NDArray[np.float64]) -> Non
             text = f"{tick:g}".replace("-", "\u2212")
             longest = max(longest, len(text))
             axes.annotate(text, _flat(axes, at), reach * away, fontsize=6.5, gid="tick", **style)
-    # the name of z stands on top of its edge, where no other panel is
+    # the name of z is on top of its edge, where no other panel is
     beyond = reach + (9.0 if side == "center" else 5.0 + 3.6 * longest * abs(away[0]))
     place, shift = (edge[1], np.array([0.0, 7.0])) if k == 2 else (edge.mean(axis=0), beyond * away)
     style["ha"] = "center" if k == 2 else side

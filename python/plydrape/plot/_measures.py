@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 ROW, LOW = 32.0, 26.0
 """Height of a row of panels (mm), and how low it gets to fit a page."""
 HEAD = 2.0
-"""More height where the limit stands below the name (mm)."""
+"""More height where the limit is below the name (mm)."""
 PAGE = 285.0
 """Height of a page between its margins (mm)."""
 LARGE, SMALL = 8.0, 6.5
@@ -60,7 +60,7 @@ def figure(
     x = np.arange(1, len(result.times) + 1, dtype=float) if against == "step" else result.times
 
     with style():
-        # what the marks mean stands in the free cells of the last row, else in a strip below
+        # what the marks mean is in the free cells of the last row, else in a strip below
         free = rows * across - len(chosen)
         inside = free * wide / across > 60.0
         room = wide / across - BESIDE
@@ -127,7 +127,7 @@ def _wide(shown: Measure, limits: Limits) -> float:
 
 
 def _length(text: str, size: float) -> float:
-    """How long a text of so many points is (mm)."""
+    """How long a text of this many points is (mm)."""
     return float(TextPath((0, 0), text, size=size).get_extents().width) / 72.0 / MM
 
 

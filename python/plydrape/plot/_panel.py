@@ -62,10 +62,10 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
     edges = _shapes.edges(result.grid)
     _lines(axes, stage, lines[:edges], RED, 1.0 * stage.fine, 3, "edges")
     _lines(axes, stage, lines[edges:], RED, 0.5 * stage.fine, 3, "diagonals")
-    parts, spots = _touching(stage, step)
+    parts, dots = _touching(stage, step)
     _lines(axes, stage, parts, RED, 1.5 * stage.fine, 4, "touching")
-    if len(spots) > 0:
-        x, y, z = spots[~stage.hides(spots)].T * 1e3
+    if len(dots) > 0:
+        x, y, z = dots[~stage.hides(dots)].T * 1e3
         size = {"markersize": 2.8 * stage.fine, "markeredgewidth": 0.7 * stage.fine}
         axes.plot(x, y, z, "o", mfc="white", mec=RED, zorder=5, gid="contact", **size)
 
@@ -83,13 +83,13 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
 
 
 def _touching(stage: Stage, step: int) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
-    """Touching parts, and a spot (N, 3) in each that is too short to be seen as a line; in m."""
+    """Touching parts, and a point (N, 3) in each that is too short to be seen as a line; in m."""
     if stage.result.model != "catenaries":
         return [], np.zeros((0, 3))
     parts = stage.result.contact_lines(step)
     short = SHORT * min(stage.result.cell)
-    spots = [_shapes.middle(part) for part in parts if _shapes.length(part) < short]
-    return [part for part in parts if len(part) > 1], np.array(spots).reshape(-1, 3)
+    dots = [_shapes.middle(part) for part in parts if _shapes.length(part) < short]
+    return [part for part in parts if len(part) > 1], np.array(dots).reshape(-1, 3)
 
 
 def _lines(

@@ -95,7 +95,7 @@ def breadth(width: Width) -> float:
     wide = 1e3 * _si(width, "length", "width")
     if not 40.0 <= wide <= 1000.0:
         raise ValueError(
-            f'a figure can be 40 to 1000 mm wide, not {wide:g} mm; a length is wanted, as "120 mm"'
+            f'a figure can be 40 to 1000 mm wide, not {wide:g} mm; expected a length, as "120 mm"'
         )
     return wide
 

@@ -73,11 +73,11 @@ def stage(
     fabric = [ply.points for ply in plies]
     every = np.concatenate([*lines, *around, *fabric, *_shapes.outline(net)]) * 1e3
     low, high = every.min(axis=0), every.max(axis=0)
-    ground = result.mold_surface(most=1200)
+    surface = result.mold_surface(most=1200)
     patch = screen = None
     reach = float(np.linalg.norm((high - low)[:2]))
-    if ground is not None and len(ground[1]) > 0:
-        points, triangles = np.asarray(ground[0], float), np.asarray(ground[1], np.int64)
+    if surface is not None and len(surface[1]) > 0:
+        points, triangles = np.asarray(surface[0], float), np.asarray(surface[1], np.int64)
         # a mold that falls far away is shown as far as the picture goes
         floor, roof = low[2] - DEEP * reach, high[2] + DEEP * reach
         z = points[triangles, 2] * 1e3

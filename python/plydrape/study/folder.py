@@ -249,7 +249,7 @@ def read_manifest(path: Path) -> dict[str, Any]:
     Raises
     ------
     StudyError
-        There is none, or it is none of plydrape.
+        There is none, or plydrape did not write it.
 
     """
     try:

@@ -22,7 +22,7 @@ class Outcome:
     title
         Of the study.
     folder
-        Where it stands, or None if it is in memory only.
+        Its folder, or None if it is in memory only.
     ran
         Number of scenarios that the run had left; 0 where the study was finished before.
     written

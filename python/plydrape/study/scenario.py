@@ -170,7 +170,7 @@ def measures(result: plydrape.Result) -> Line:
 
 
 def plain(values: dict[str, Any], model: str) -> Line:
-    """Those of a summary's values that a row can hold and does not have already."""
+    """The values of a summary that a row can hold and does not have already."""
     return {
         f"{model}{key}": value
         for key, value in values.items()
@@ -204,7 +204,7 @@ def unit(column: str, inputs: Iterable[Input]) -> str:
 
 
 def message(error: BaseException) -> str:
-    """An error's text; a refused scene without its line, which is none of a file's."""
+    """An error's text; that of a refused scene without its line, because no file has it."""
     if isinstance(error, plydrape.SceneError):
         return f"{error.message}; {error.help}" if error.help else error.message
     return str(error)

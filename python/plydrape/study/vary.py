@@ -65,7 +65,7 @@ class Input:
         return not any(isinstance(number, str | bool) for number in self.numbers)
 
     def at(self, u: Any) -> list[Value]:
-        """Its values at probabilities u, shape (N,).
+        """Values at probabilities u, shape (N,).
 
         Examples
         --------
@@ -89,7 +89,7 @@ class Input:
         return list(values.tolist())
 
     def grid(self) -> list[Value]:
-        """Its numbers on a grid: evenly from end to end, none twice.
+        """Numbers on a grid: evenly from end to end, none twice.
 
         Examples
         --------

@@ -90,7 +90,7 @@ def uses(found: cad.Triangles) -> Counter[int]:
 
 
 def ways(found: cad.Triangles) -> Counter[int]:
-    """The same with the way round: where all triangles face one side, each way is used once."""
+    """How often edges are used in a direction: once where all triangles face one side."""
     t = found.triangles
     edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
     return Counter(np.unique(edges, axis=0, return_counts=True)[1].tolist())
@@ -265,7 +265,7 @@ def test_a_converted_mold_drapes_as_the_exact_one(tmp_path: Path, ending: str) -
         scene = plydrape.Scene(
             ply={"grippers": [3, 3], "cell": [0.1, 0.1], "material": "krogh2018"},
             mold=mold,
-            grippers={"spacing": [0.098, 0.098], "height": 0.05, "origin": "centred"},
+            grippers={"spacing": [0.098, 0.098], "height": 0.05, "origin": "centered"},
             target={"seed": "middle"},
             motion={"kind": "straight", "steps": 8},
             model={"kind": "catenaries"},

@@ -38,7 +38,7 @@ def test_the_card_of_a_scene_says_what_is_laid_on_what() -> None:
 
 
 def test_the_card_of_a_result_begins_with_its_verdict(result: plydrape.Result) -> None:
-    """What is exceeded stands in a table, with value, limit, step and place."""
+    """What is exceeded is in a table, with value, limit, step and place."""
     card = words(card_of(result))
     slack = result.limits["slack_ratio"]
     assert "not accepted" in card and not slack.kept
@@ -48,7 +48,7 @@ def test_the_card_of_a_result_begins_with_its_verdict(result: plydrape.Result) -
 
 
 def test_the_card_of_a_material_says_where_its_rigidity_ends() -> None:
-    """One whose moment is a curve is not told by its rigidity at rest alone."""
+    """A material whose moment is a curve is not described by its rigidity at rest alone."""
     straight = words(card_of(plydrape.Material.shipped("cao2008_plain")))
     curved = plydrape.Material.shipped("broberg2022_strip")
     assert "at rest" not in straight and "moment" not in straight.split("source")[0]

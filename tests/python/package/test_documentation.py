@@ -43,7 +43,7 @@ def nouns(module: ModuleType) -> Iterator[tuple[str, Any]]:
 
 
 def documented() -> dict[str, tuple[str, ModuleType]]:
-    """Documentation by name, and where it stands; what stands in two modules is taken once."""
+    """Documentation by name, and its place; what is in two modules is taken once."""
     out: dict[str, tuple[str, ModuleType]] = {}
     seen = set()
     for module in modules():

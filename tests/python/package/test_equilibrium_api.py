@@ -79,7 +79,7 @@ def test_an_equilibrium_says_how_it_was_found(
     equilibrium = solve(base, places, rule)
     lines = np.diff(equilibrium.points(4001), axis=1)
     lengths = np.linalg.norm(lines, axis=2).sum(axis=1)
-    # the fabric stretches by H/EA, and a polyline of so many parts is 1e-8 short
+    # the fabric stretches by H/EA, and a polyline of this many parts is 1e-8 short
     assert np.abs(lengths / 0.1 - 1.0).max() < 1e-5
     assert equilibrium.status == "converged"
     assert 0.0 <= equilibrium.length_residual < 1e-9 and equilibrium.residual < 1e-6

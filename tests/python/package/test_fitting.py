@@ -13,7 +13,7 @@ import fit_rigidity as example
 
 @pytest.mark.parametrize("rigidity", [2e-6, 9e-6, 1.5e-5])
 def test_a_rigidity_comes_back_from_an_exact_shape(rigidity: float) -> None:
-    """Without noise, from guesses to both sides; far stiffer strips stand as arches."""
+    """Without noise, from guesses to both sides; far stiffer strips arch upwards."""
     for guess in (rigidity / 20, rigidity * 3):
         found = example.fit(example.heights(rigidity), guess)
         assert found.rigidity == pytest.approx(rigidity, rel=1e-6)

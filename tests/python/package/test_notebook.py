@@ -134,7 +134,7 @@ def seen(html: str, folder: Path, name: str) -> np.ndarray[Any, np.dtype[np.floa
 
 
 def test_the_page_lives_in_the_html_made_of_a_notebook(executed: Any, tmp_path: Path) -> None:
-    """Red catenaries, drawn by its script in 3D; none of them if scripts are forbidden."""
+    """Red catenaries, drawn by its script in 3D; none if scripts are forbidden."""
     html, _ = nbconvert.HTMLExporter().from_notebook_node(executed)  # type: ignore[no-untyped-call]
     # what it would load from elsewhere is not needed
     html = re.sub(r'<script src="https?://[^"]*"></script>', "", html)

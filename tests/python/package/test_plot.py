@@ -282,7 +282,7 @@ def test_measures_run_over_time(dome: plydrape.Result) -> None:
 
 
 def test_measure_titles_do_not_overlap(flat: plydrape.Result) -> None:
-    """Name and limit stand beside each other, or above each other if they are too long."""
+    """Name and limit are beside each other, or above each other if they are too long."""
     for width in ("single", 0.12, "double", "30 cm"):
         figure = plot.measures(flat, width=cast(Any, width))
         renderer = painter(figure)

@@ -29,7 +29,7 @@ LOOSE: dict[str, Any] = {
     "out_of_plane": "89 deg",
     "position": "1 m",
     "strain": "100 %",
-    "fibre_angle": "89 deg",
+    "fiber_angle": "89 deg",
 }
 
 
@@ -112,7 +112,7 @@ def test_a_plan_is_accepted_only_with_its_sample() -> None:
 
 
 def test_a_cell_gives_the_errors_and_mounts_that_a_scene_leaves_out() -> None:
-    """As if they were written out; what the scene says itself stands over them."""
+    """As if they were written out; keys of the scene override them."""
     named = scene(cell={"preset": "usual"})
     written = scene(
         grippers={

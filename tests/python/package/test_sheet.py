@@ -38,7 +38,7 @@ def result(scene: plydrape.Scene) -> plydrape.Result:
 
 
 def sheet_of(result: plydrape.Result) -> plydrape.Sheet:
-    """Its sheet, which it has."""
+    """Sheet, which it has."""
     assert result.sheet is not None
     return result.sheet
 

@@ -115,7 +115,7 @@ def scene(request: pytest.FixtureRequest) -> plydrape.Scene:
 
 @pytest.fixture(scope="module")
 def result(scene: plydrape.Scene) -> plydrape.Result:
-    """Its drape here."""
+    """Drape here."""
     return plydrape.simulate(scene)
 
 

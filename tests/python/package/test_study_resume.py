@@ -307,7 +307,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
 
 
 def test_two_cannot_run_in_one_folder(tmp_path: Path) -> None:
-    """The second is told so; the first is not disturbed."""
+    """The second is refused; the first is not disturbed."""
     first = Folder(tmp_path / "out")
     first.begin(study(2))
     with pytest.raises(StudyError, match="another process is running"):

@@ -64,7 +64,7 @@ def test_a_followed_plan_is_the_motion_of_its_result(tmp_path: Path) -> None:
     assert {f"worst_{key}" for key in worst} == {key for key in same if key.startswith("worst_")}
     for key, value in worst.items():
         assert same[f"worst_{key}"] == pytest.approx(value, rel=1e-6, abs=1e-9), key
-    # Half a millimetre more fabric in each edge along u stays as slack.
+    # Half a millimeter more fabric in each edge along u stays as slack.
     assert same["final_slack_mm"] < 0.1 < other["final_slack_mm"]
 
 

@@ -44,8 +44,8 @@ def test_a_planted_driver_is_found(seed: int) -> None:
     assert outcome.correlations["value_slack"]["b"] > 0.85  # type: ignore[operator]
     assert outcome.correlations["accepted"]["b"] < -0.7  # type: ignore[operator]
     assert abs(outcome.correlations["value_slack"]["a"]) < 0.2  # type: ignore[arg-type]
-    wanted = stats.spearmanr(outcome.table()["b"], outcome.table()["value_slack"]).statistic
-    assert outcome.correlations["value_slack"]["b"] == pytest.approx(wanted, abs=1e-11)
+    expected = stats.spearmanr(outcome.table()["b"], outcome.table()["value_slack"]).statistic
+    assert outcome.correlations["value_slack"]["b"] == pytest.approx(expected, abs=1e-11)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
@@ -73,7 +73,7 @@ def test_a_value_that_is_not_finite_is_not_accepted(value: float) -> None:
 def test_a_row_with_a_value_that_is_not_finite_is_not_accepted(value: float) -> None:
     """Even where the drape says that it keeps the limit."""
     limit = {"name": "tilt", "limit": 40.0, "unit": "°", "ok": True}
-    for given, wanted in ((30.0, True), (value, False)):
+    for given, expected in ((30.0, True), (value, False)):
         result = SimpleNamespace(
             accepted=True,
             converged=True,
@@ -86,7 +86,7 @@ def test_a_row_with_a_value_that_is_not_finite_is_not_accepted(value: float) -> 
             },
         )
         row = measures(result)  # type: ignore[arg-type]
-        assert row["ok_tilt"] is wanted and row["accepted"] is wanted
+        assert row["ok_tilt"] is expected and row["accepted"] is expected
 
 
 def test_the_largest_numbers_have_a_mean() -> None:
@@ -108,8 +108,8 @@ def test_noise_has_a_driver_about_as_often_as_chance_has_it() -> None:
 def test_the_interval_is_wilsons() -> None:
     """Against SciPy's, without continuity correction."""
     for hits, of in ((0, 10), (3, 10), (10, 10), (512, 10000), (1, 1)):
-        wanted = stats.binomtest(hits, of).proportion_ci(method="wilson")
-        assert wilson(hits, of) == pytest.approx((wanted.low, wanted.high), abs=1e-12)
+        expected = stats.binomtest(hits, of).proportion_ci(method="wilson")
+        assert wilson(hits, of) == pytest.approx((expected.low, expected.high), abs=1e-12)
     assert wilson(0, 0) is None
 
 

@@ -21,7 +21,7 @@ export function full(value: number): string {
   return minus(String(value));
 }
 
-/** How units are written, and the amount below which a number of that unit is no longer told from zero. */
+/** How units are written, and the amount below which a number of that unit is shown as zero. */
 const UNITS: Record<string, { sign: string; least: number }> = {
   mm: { sign: "mm", least: 1e-3 },
   "°": { sign: "°", least: 1e-3 },
@@ -41,7 +41,7 @@ export function quantity(value: number, unit: string): string {
   return withUnit(short(value), unit);
 }
 
-/** A value with its unit; the unit 1 is silent and a degree stands close. */
+/** A value with its unit; the unit 1 is left out and a degree sign follows directly. */
 export function withUnit(text: string, unit: string): string {
   const sign = signOf(unit);
   if (sign === "") return text;

@@ -20,7 +20,7 @@ export interface Other {
   motion: Motion | null;
 }
 
-/** What stands around the data in a page. */
+/** What surrounds the data in a page. */
 const START = /<script type="application\/json" id="plydrape-data">/;
 const END = "</script>";
 
@@ -87,7 +87,7 @@ function ofResult(text: string, version: number): Other {
     // names are those of files: gripper_load
     limits: limits.map((limit) => ({
       ...limit,
-      name: limit.name.replaceAll("_", " ").replace("fibre", "fiber"),
+      name: limit.name.replaceAll("_", " "),
     })),
     steps: times.length,
     duration: (times[times.length - 1] ?? 0) - (times[0] ?? 0),

@@ -27,7 +27,7 @@ export interface Limit {
   /** Key of the measure that it limits. */
   key: string;
   name: string;
-  /** The same in other units, where it is slack. */
+  /** The value in other units, where it is slack. */
   note: string | null;
   value: number;
   limit: number;
@@ -215,7 +215,7 @@ export interface SampleData {
 
 /** What is drawn of a scene before anything is draped on its mold (m). */
 export interface Look {
-  /** The boundary of the ply and of its holes where they are wanted on the mold. */
+  /** The boundary of the ply and of its holes where they must end on the mold. */
   outline: Place[][];
   /** Arrows along the warp from the middle of the ply, on the table and on the mold. */
   warp: Place[][];
@@ -308,7 +308,7 @@ export function checked(found: Partial<PageData> | null): PageData {
   return data;
 }
 
-/** Whether a block has so many items in so many steps; none is as it should be. */
+/** Whether a block has this many items in this many steps; none is as it should be. */
 const fits = (block: Block | null | undefined, steps: number, count: number): boolean =>
   block === null || (block?.data !== undefined && block.steps === steps && block.count === count);
 

@@ -15,7 +15,7 @@ export interface Ranging {
   /** Index of the step. */
   index: number;
   model: Model;
-  colour: FieldKey;
+  color: FieldKey;
   stepRange: boolean;
   /** Scales of orders, where a color mode can have one. */
   orders: boolean;
@@ -26,7 +26,7 @@ export interface Ranging {
 
 /** Ends of the colors of heights on a scale of orders (mm): what touches, and what lies clear of the mold. */
 const HEIGHTS: [number, number] = [0.1, 10];
-/** Over so many orders a scale spans the values of one step, down from the largest. */
+/** Over this many orders a scale spans the values of one step, down from the largest. */
 const ORDERS = 100;
 /** No value on a scale of orders is smaller: heights in mm, strains in %. */
 const LEAST = 1e-3;
@@ -38,7 +38,7 @@ export function hasOrders(field: Field): boolean {
 
 /** The color mode in force, with the scale and range in force. */
 export function fieldInForce(motion: Motion, now: Ranging): Field | undefined {
-  const find = (drape: Drape) => drape.data.fields.find(({ key }) => key === now.colour);
+  const find = (drape: Drape) => drape.data.fields.find(({ key }) => key === now.color);
   const drape = motion.drape(now.model);
   const own = find(drape);
   if (own === undefined) return undefined;

@@ -1,5 +1,5 @@
 /**
- * Asks the solver, one setup after the other: the newest one that is wanted, once a frame.
+ * Asks the solver, one setup after the other: the newest one that was asked for, once a frame.
  *
  * A scene that is refused leaves the ply as it was. A gripper that is dragged to where no ply can follow goes as far as it can.
  */
@@ -52,14 +52,14 @@ export class Asker {
     private readonly tell: (told: Told) => Promise<void>,
   ) {}
 
-  /** Wants the ply of a setup; one that was wanted before and has not begun is forgotten. */
+  /** Asks for the ply of a setup; one that was asked for before and has not begun is forgotten. */
   ask(wanted: Wanted): void {
     const mold = wanted.mold || (this.wanted?.mold ?? false);
     this.wanted = { ...wanted, mold };
     this.running ??= this.run().finally(() => (this.running = null));
   }
 
-  /** Resolves when nothing is wanted any more. */
+  /** Resolves when nothing is left to solve. */
   async idle(): Promise<void> {
     while (this.running !== null) await this.running;
   }

@@ -66,7 +66,7 @@ const HELP: [string, string][] = [
 /** Below this height of an even scale (in its unit) colors would show rounding. */
 const LEAST_RANGE = 0.5;
 
-/** Words and numbers beside the picture are written once in so many milliseconds: the browser lays the page out anew each time. */
+/** Words and numbers beside the picture are written once in this many milliseconds: the browser lays the page out anew each time. */
 const WRITTEN = 200;
 
 /** Ranges that grow with what was seen, so that colors stay while a gripper moves. */
@@ -110,7 +110,7 @@ async function open(): Promise<void> {
     {
       index: 0,
       model: "catenaries",
-      colour: "gap",
+      color: "gap",
       stepRange: false,
       orders: false,
       diagonals: true,
@@ -149,7 +149,7 @@ async function open(): Promise<void> {
   const controls = linkControls(
     () => wanted,
     (next) => want(next, null),
-    () => void settle(),
+    () => void finish(),
   );
   const written = byId<HTMLDetailsElement>("scene");
   const showScene = () => {
@@ -198,8 +198,8 @@ async function open(): Promise<void> {
     wanted = next;
     asker.ask({ setup: next, dragged, mold, again: false });
   };
-  /** What was wanted and refused is forgotten, the mold under the grippers is drawn anew, and the address says what is set. */
-  const settle = async () => {
+  /** What was asked for and refused is forgotten, the mold under the grippers is drawn anew, and the address says what is set. */
+  const finish = async () => {
     await asker.idle();
     wanted = setup;
     asker.ask({ setup, dragged: null, mold: true, again: true });
@@ -239,7 +239,7 @@ async function open(): Promise<void> {
     moved: (gripper, to, dragWay) => want(moved(setup, gripper, to), { gripper, way: dragWay }),
     dropped: () => {
       held = null;
-      void settle();
+      void finish();
     },
   });
 
@@ -248,7 +248,7 @@ async function open(): Promise<void> {
     fit = true;
     wanted = start();
     asker.ask({ setup: wanted, dragged: null, mold: true, again: false });
-    void settle();
+    void finish();
   };
   byId("again").addEventListener("click", again);
   byId("save-scene").addEventListener("click", () =>
@@ -256,7 +256,7 @@ async function open(): Promise<void> {
   );
   addEventListener("hashchange", () => {
     want(ofHash(location.hash), null);
-    void settle();
+    void finish();
   });
   linkKeys(HELP, state, motion.data, scene.eye, () => ({
     n: () => numbers.click(),

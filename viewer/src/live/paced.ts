@@ -1,10 +1,10 @@
-/** Something that is wanted in every frame and done less often. */
+/** Something that every frame asks for and that is done less often. */
 
 export class Paced {
   private last = -Infinity;
   private timer: number | null = null;
 
-  /** Does `act` at most once in so many milliseconds; what is wanted in between is done when they have passed. */
+  /** Does `act` at most once in `apart` milliseconds; a call in between is done when they have passed. */
   constructor(
     private readonly act: () => void,
     private readonly apart: number,

@@ -34,10 +34,10 @@ export function withinReach(grippers: Place[], gripper: number, to: Place, kept:
   let place = to;
   for (let round = 0; round < ROUNDS; round++) {
     const before = place;
-    for (const centre of around) {
-      const away = distance(place, centre);
+    for (const center of around) {
+      const away = distance(place, center);
       if (away > most)
-        place = centre.map((c, n) =>
+        place = center.map((c, n) =>
           kept[n] === true ? to[n]! : c + (place[n]! - c) * (most / away),
         ) as Place;
     }

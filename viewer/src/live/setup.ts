@@ -61,7 +61,7 @@ export function fit({ low, high, digits }: Range, value: number): number {
   return Math.min(Math.max(Number(value.toFixed(digits)), low), high);
 }
 
-const micrometres = (place: Place): Place => place.map((c) => Math.round(c * 1e6) / 1e6) as Place;
+const micrometers = (place: Place): Place => place.map((c) => Math.round(c * 1e6) / 1e6) as Place;
 
 /** A place for each gripper, by its column and row. */
 function each(at: (i: number, j: number) => Place): Place[] {
@@ -74,7 +74,7 @@ function each(at: (i: number, j: number) => Place): Place[] {
 export function along(share: number): Place[] {
   const between = (a: number, b: number) => a + share * (b - a);
   return each((i, j) =>
-    micrometres([
+    micrometers([
       between(i * SPACING, i * CELL + j * CELL * Math.sin(SHEAR)),
       between(j * SPACING, j * CELL * Math.cos(SHEAR)),
       between(HEIGHT, 0),
@@ -97,9 +97,9 @@ export function start(): Setup {
   };
 }
 
-/** The same with a gripper elsewhere. */
+/** The setup with a gripper elsewhere. */
 export function moved(setup: Setup, gripper: number, to: Place): Setup {
-  const grippers = setup.grippers.map((place, k) => (k === gripper ? micrometres(to) : place));
+  const grippers = setup.grippers.map((place, k) => (k === gripper ? micrometers(to) : place));
   return { ...setup, grippers };
 }
 
@@ -201,7 +201,7 @@ export function ofHash(hash: string): Setup {
   const places = said.get("g")?.split("_").map(Number) ?? [];
   if (places.length === 3 * GRID[0] * GRID[1] && places.every((c) => Math.abs(c) < 1e7)) {
     setup.grippers = setup.grippers.map((_, k) =>
-      micrometres(places.slice(3 * k, 3 * k + 3).map((c) => c / 1e6) as Place),
+      micrometers(places.slice(3 * k, 3 * k + 3).map((c) => c / 1e6) as Place),
     );
   }
   for (const range of Object.values(RANGES)) {

@@ -13,7 +13,7 @@ export interface Catenary {
   shearing: boolean;
   /** Whether the mold holds a part of it: its force is then that of its axial stiffness. */
   touches: boolean;
-  /** Its middle (m). */
+  /** Middle (m). */
   middle: Place;
 }
 

@@ -48,7 +48,7 @@ export function showNumbers({ page }: Hanging): void {
     make("tr", { class: limit.ok ? "pass" : "fail" }, ...limitCells(limit)),
   );
   renew(byId("limits-body"), rows);
-  // what has a limit stands in the table
+  // what has a limit is in the table
   const others = page.drape.measures.filter(({ limit }) => limit === null);
   const told = others.flatMap(({ label, unit, values: [value = null], where: [at = null] }) =>
     value === null
@@ -66,7 +66,7 @@ const ENDS: Record<string, string> = {
   "round-limit": "the contact with the mold goes on changing",
 };
 
-/** Says over the picture why the ply is not where it was wanted, or that its numbers do not count; nothing if neither. */
+/** Says over the picture why the ply is not where it was asked for, or that its numbers do not count; nothing if neither. */
 export function say(refused: Refused | null, hanging: Hanging | null): void {
   const note = byId("live-said");
   const parts: (Node | string)[] = [];

@@ -9,10 +9,10 @@
 import uPlot from "uplot";
 import { full, quantity, short, ticks, withUnit } from "../data/number";
 import { drapeOf, isBeside, modelText, type Measure, type Model, type PageData } from "../data/page_data";
-import { byId, make, themeColour } from "./dom";
+import { byId, make, themeColor } from "./dom";
 import type { State } from "./state";
 
-/** A second result in the charts: its measures, and where along the steps of this one its steps stand. */
+/** A second result in the charts: its measures, and where along the steps of this one its steps are. */
 export interface Beside {
   data: PageData;
   at: (index: number) => number;
@@ -141,8 +141,8 @@ class Chart {
 
   private options(): uPlot.Options {
     const axis: uPlot.Axis = {
-      stroke: () => themeColour("text-quiet"),
-      grid: { stroke: () => themeColour("chart-grid"), width: 1 },
+      stroke: () => themeColor("text-quiet"),
+      grid: { stroke: () => themeColor("chart-grid"), width: 1 },
       ticks: { show: false },
       font: "11px system-ui, 'Liberation Sans', Arial, sans-serif",
       gap: 4,
@@ -173,7 +173,7 @@ class Chart {
       series: [
         {},
         {
-          stroke: () => themeColour("chart-line"),
+          stroke: () => themeColor("chart-line"),
           width: 1.6,
           spanGaps: false,
           points: { show: this.steps.length === 1, size: 5 },
@@ -219,7 +219,7 @@ class Chart {
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
-    ctx.strokeStyle = themeColour("other");
+    ctx.strokeStyle = themeColor("other");
     ctx.lineWidth = 1.6 * devicePixelRatio;
     ctx.setLineDash([5 * devicePixelRatio, 3 * devicePixelRatio]);
     ctx.beginPath();
@@ -242,7 +242,7 @@ class Chart {
     const { ctx, bbox } = u;
     const y = Math.round(u.valToPos(limit, "y", true)) + 0.5;
     ctx.save();
-    ctx.strokeStyle = themeColour("red");
+    ctx.strokeStyle = themeColor("red");
     ctx.lineWidth = 1.25 * devicePixelRatio;
     ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
     ctx.beginPath();
@@ -297,7 +297,7 @@ class Chart {
     this.card.classList.toggle("hovered", hovered);
   }
 
-  /** The value of a second result that stands beside a step. */
+  /** The value of a second result at a step. */
   private besides(index: number): string | null {
     if (this.other === null) return null;
     const away = this.other.x.map((x) => Math.abs(x - this.steps[index]!));

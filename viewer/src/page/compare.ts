@@ -183,14 +183,14 @@ export class Comparison {
       input.checked = input.value === shown;
   }
 
-  /** Index of the step of the other result that stands beside one of this result. */
+  /** Index of the step of the other result that is compared with one of this result. */
   private partner({ data }: Motion, index: number): number {
     const { steps, times } = this.motion.data;
     if (this.link === "step") return nearest(data.steps, steps[index]!);
     return nearest(shares(data.times), shares(times)[index]!);
   }
 
-  /** Where along the steps of this result one of the other stands. */
+  /** Position of a step of the other result along the steps of this one. */
   private back({ data }: Motion, index: number): number {
     const { steps, times } = this.motion.data;
     if (this.link === "step") return data.steps[index]!;

@@ -43,6 +43,6 @@ export function measureHead(): void {
 }
 
 /** A CSS color variable of the theme in force. */
-export function themeColour(name: string): string {
+export function themeColor(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }

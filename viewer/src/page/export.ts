@@ -2,13 +2,13 @@
  * The picture as it is, as PNG, and the whole motion as a video: with title, verdict, step, and the scale of the colors.
  */
 
-import { colourAt, mapOf, shareOf } from "../data/colour_map";
+import { colorAt, mapOf, shareOf } from "../data/color_map";
 import type { Motion } from "../data/motion";
 import { bracketed, quantity, short } from "../data/number";
 import { modelText, type Field } from "../data/page_data";
 import { fieldInForce } from "../data/ranges";
 import { tell, type Comparison } from "./compare";
-import { byId, themeColour } from "./dom";
+import { byId, themeColor } from "./dom";
 import { beyond, legendOf } from "./legend";
 import type { Player } from "./player";
 import { save } from "./save";
@@ -141,7 +141,7 @@ export class Exporter {
     return fieldInForce(this.motion, this.state.now) ?? null;
   }
 
-  /** Pictures, scale and words on one sheet, so many pixels for one of CSS. */
+  /** Pictures, scale and words on one sheet, this many pixels for one of CSS. */
   private compose(ratio: number): HTMLCanvasElement {
     const { data } = this.motion;
     const { now } = this.state;
@@ -152,12 +152,12 @@ export class Exporter {
     sheet.height = Math.round((HEAD + tall + FOOT) * ratio);
     const pen = sheet.getContext("2d")!;
     pen.scale(ratio, ratio);
-    pen.fillStyle = themeColour("surface");
+    pen.fillStyle = themeColor("surface");
     pen.fillRect(0, 0, this.width(), HEAD + tall + FOOT);
     pen.textBaseline = "middle";
-    const write = (text: string, x: number, y: number, font: string, colour: string) => {
+    const write = (text: string, x: number, y: number, font: string, color: string) => {
       pen.font = `${font} ${FONT}`;
-      pen.fillStyle = themeColour(colour);
+      pen.fillStyle = themeColor(color);
       pen.fillText(text, x, y);
       return pen.measureText(text).width;
     };
@@ -196,7 +196,7 @@ export class Exporter {
   ): void {
     const facts = legendOf(field);
     pen.font = `12px ${FONT}`;
-    pen.fillStyle = themeColour("text");
+    pen.fillStyle = themeColor("text");
     const words = `${field.label}${bracketed(field.unit)}`.replace(/^./, (c) => c.toUpperCase()).split(" ");
     const lines: string[] = [];
     for (const word of words) {
@@ -209,26 +209,26 @@ export class Exporter {
     lines.forEach((line, k) => pen.fillText(line, left, first - 18 - 15 * (lines.length - 1 - k)));
     const map = mapOf(field);
     for (let y = 0; y < height; y++) {
-      pen.fillStyle = `rgb(${colourAt(map, 1 - y / (height - 1)).join(" ")})`;
+      pen.fillStyle = `rgb(${colorAt(map, 1 - y / (height - 1)).join(" ")})`;
       pen.fillRect(left, first + y, 15, 1.5);
     }
-    pen.strokeStyle = themeColour("line");
+    pen.strokeStyle = themeColor("line");
     pen.strokeRect(left, first, 15, height);
     const at = (value: number) => first + height * (1 - shareOf(field, value));
-    pen.fillStyle = themeColour("text");
+    pen.fillStyle = themeColor("text");
     for (const tick of facts.ticks) {
       pen.fillRect(left + 16, at(tick) - 0.5, 5, 1);
       pen.fillText(beyond(field, tick) + short(tick), left + 25, at(tick));
     }
     const { limit } = field;
     if (limit !== null && limit >= field.low && limit <= field.high) {
-      pen.fillStyle = themeColour("red");
+      pen.fillStyle = themeColor("red");
       pen.fillRect(left - 4, at(limit) - 1, 23, 2);
       const text = `limit ${short(limit)}`;
       pen.font = `600 12px ${FONT}`;
-      pen.fillStyle = themeColour("surface");
+      pen.fillStyle = themeColor("surface");
       pen.fillRect(left + 22, at(limit) - 8, pen.measureText(text).width + 6, 16);
-      pen.fillStyle = themeColour("red");
+      pen.fillStyle = themeColor("red");
       pen.fillText(text, left + 25, at(limit));
     }
   }

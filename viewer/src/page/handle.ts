@@ -43,8 +43,8 @@ export interface FullHandle extends Handle {
   /** Where a place is on the picture (CSS pixels from its top left), or null without a picture. */
   onScreen(place: Place): [number, number] | null;
   /** Color mode; can be set. */
-  colour: FieldKey;
-  readonly colours: FieldKey[];
+  color: FieldKey;
+  readonly colors: FieldKey[];
   legend(): LegendFacts;
   /** The numbers of the charts in view. */
   readonly measures: Measure[];
@@ -111,13 +111,13 @@ export function handle(
       return places === undefined ? null : [places[2 * number]! / 1000, places[2 * number + 1]! / 1000];
     },
     onScreen: (place) => scene?.eye.project(new Vector3(...place)) ?? null,
-    get colour() {
-      return state.now.colour;
+    get color() {
+      return state.now.color;
     },
-    set colour(colour) {
-      state.set({ colour });
+    set color(color) {
+      state.set({ color });
     },
-    get colours() {
+    get colors() {
       return shown().data.fields.map((field) => field.key);
     },
     legend: () => legendOf(fieldInForce(motion, state.now)!),

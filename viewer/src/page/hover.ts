@@ -20,7 +20,7 @@ const TAP = { away: 8, time: 500 };
 interface Row {
   label: string;
   value: string;
-  coloured?: boolean;
+  colored?: boolean;
 }
 
 /** Shows a plate over a view; `tapped` hears of clicks and taps on the ply. */
@@ -48,8 +48,8 @@ export function linkHover(
     if (found === null || pointer === null) return;
     const [title, rows] = found.kind === "node" ? ofNode(motion, now, found) : ofGripper(motion, now, found);
     const list = make("dl");
-    for (const { label, value, coloured } of rows) {
-      const kind: Record<string, string> = coloured === true ? { class: "coloured" } : {};
+    for (const { label, value, colored } of rows) {
+      const kind: Record<string, string> = colored === true ? { class: "colored" } : {};
       list.append(make("dt", kind, label), make("dd", kind, value));
     }
     plate.replaceChildren(make("b", {}, title), list);
@@ -153,24 +153,24 @@ function ofNode(motion: Motion, now: Choice, { number, place }: Found): [string,
   const picture = drape.picture(now.index)!;
   const rows =
     drape.sheet !== null
-      ? ofSheet(drape.sheet, drape.data.fields, now.colour, picture, number)
+      ? ofSheet(drape.sheet, drape.data.fields, now.color, picture, number)
       : drape.catenaries !== null
-        ? ofVertex(drape.catenaries, drape.data.fields, now.colour, picture, number)
+        ? ofVertex(drape.catenaries, drape.data.fields, now.color, picture, number)
         : [];
   return [title, [...rows, position(place)]];
 }
 
 /** A node of the sheet: what colors tell, of values of cells the largest around it, and what they do not tell. */
-function ofSheet(sheet: SheetStates, fields: Field[], colour: string, state: number, number: number): Row[] {
+function ofSheet(sheet: SheetStates, fields: Field[], color: string, state: number, number: number): Row[] {
   const rows: Row[] = [];
   for (const field of fields) {
     if (field.key === "landing") continue;
     const value =
       field.on === "cell" ? sheet.around(field, state, number) : sheet.value(field, state, number);
     if (value === null) continue;
-    // strains are told in full: most of them are far below a hundredth of a percent
+    // strains are shown in full: most of them are far below a hundredth of a percent
     const digits = field.scale === "orders" && field.on === "cell" ? value : round(value);
-    rows.push({ label: field.label, value: quantity(digits, field.unit), coloured: field.key === colour });
+    rows.push({ label: field.label, value: quantity(digits, field.unit), colored: field.key === color });
   }
   const tension = sheet.tensionAt(state, number);
   if (tension !== null) rows.push({ label: "yarn tension", value: quantity(tension, "N/m") });
@@ -178,7 +178,7 @@ function ofSheet(sheet: SheetStates, fields: Field[], colour: string, state: num
   if (sheet.data.height !== null) {
     rows.push({ label: "contact", value: sheet.touches(state, number) ? "touches the mold" : "none" });
     const lands = step === 0 ? "never" : `in step ${String(step)}`;
-    rows.push({ label: "lands", value: lands, coloured: colour === "landing" });
+    rows.push({ label: "lands", value: lands, colored: color === "landing" });
   }
   return rows;
 }
@@ -187,7 +187,7 @@ function ofSheet(sheet: SheetStates, fields: Field[], colour: string, state: num
 function ofVertex(
   catenaries: CatenaryStates,
   fields: Field[],
-  colour: string,
+  color: string,
   picture: number,
   number: number,
 ): Row[] {
@@ -199,9 +199,7 @@ function ofVertex(
   return fields.flatMap((field) => {
     const value = catenaries.value(field, picture, field.on === "cell" ? cell : number);
     if (value === null) return [];
-    return [
-      { label: field.label, value: quantity(round(value), field.unit), coloured: field.key === colour },
-    ];
+    return [{ label: field.label, value: quantity(round(value), field.unit), colored: field.key === color }];
   });
 }
 

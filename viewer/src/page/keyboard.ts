@@ -78,7 +78,7 @@ export function linkKeys(
   const find = (key: string): (() => void) | undefined => {
     const { stepRange, orders, diagonals, mold, model } = state.now;
     const mode = fieldsOf(data, model)[Number(key) - 1];
-    if (mode !== undefined) return () => state.set({ colour: mode.key });
+    if (mode !== undefined) return () => state.set({ color: mode.key });
     const view = VIEWS[key.toLowerCase()];
     if (view !== undefined) return () => eye?.look(view);
     const acts: Record<string, () => void> = {

@@ -1,6 +1,6 @@
 /** The color bar over the picture: title, unit, round ticks, and the limit where there is one. */
 
-import { gradient, mapOf, shareOf } from "../data/colour_map";
+import { gradient, mapOf, shareOf } from "../data/color_map";
 import { bracketed, full, quantity, short, ticks, ticksOfOrders } from "../data/number";
 import type { Motion } from "../data/motion";
 import { USES } from "../scene/forces";
@@ -38,7 +38,7 @@ export function linkLegend(state: State, motion: Motion): void {
   orders.addEventListener("change", () => state.set({ orders: orders.checked }));
   state.listen((now, before) => {
     showForceScale(motion, now);
-    const keys = ["colour", "model", "stepRange", "orders", "other", "answer"] as const;
+    const keys = ["color", "model", "stepRange", "orders", "other", "answer"] as const;
     const changed = now === before || keys.some((key) => now[key] !== before[key]);
     const moved = now.index !== before.index || now.otherIndex !== before.otherIndex;
     if (!changed && !(now.stepRange && moved)) return;
@@ -47,7 +47,7 @@ export function linkLegend(state: State, motion: Motion): void {
     host.hidden = field === undefined;
     check.checked = now.stepRange;
     orders.checked = now.orders;
-    const given = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
+    const given = fieldsOf(motion.data, now.model).find(({ key }) => key === now.color);
     orders.parentElement!.hidden = given === undefined || !hasOrders(given);
     if (field !== undefined) renew(bar, draw(field));
   });
@@ -64,9 +64,9 @@ function showForceScale(motion: Motion, now: Choice): void {
   if (load === 0 && other === 0) return;
   // a model that judges nothing has no limits
   const judged = motion.drape(now.model).grippers.isJudged;
-  const uses = USES.map(({ colour, text }) => {
+  const uses = USES.map(({ color, text }) => {
     const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
-    swatch.style.background = `var(--${colour})`;
+    swatch.style.background = `var(--${color})`;
     return make("span", {}, swatch, text);
   });
   const beside = now.other === null ? "" : `, of B ${quantity(other, "N")}`;

@@ -3,7 +3,7 @@
 import { full, quantity, withUnit } from "../data/number";
 import { nearest, type Limit, type PageData } from "../data/page_data";
 import { byId, make } from "./dom";
-import { colourOf, pointerOf } from "./opening";
+import { colorOf, pointerOf } from "./opening";
 import type { State } from "./state";
 import { chooseModel } from "./toolbar";
 
@@ -126,8 +126,8 @@ function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
 export function showLimit(state: State, data: PageData, limit: Limit): void {
   const { model } = data.drape;
   chooseModel(state, data, model);
-  const colour = colourOf(data, limit);
-  if (colour !== null) state.set({ colour });
+  const color = colorOf(data, limit);
+  if (color !== null) state.set({ color });
   state.goto(nearest(data.steps, limit.step));
   const pointer = pointerOf(data, limit);
   if (pointer !== null) state.set({ pointer });

@@ -8,7 +8,7 @@ import { nearest, type FieldKey, type Limit, type Model, type PageData } from ".
 import type { Pointer } from "./state";
 
 /** The color mode of the model that decides that shows what a limit is about; null if none does. */
-export function colourOf(data: PageData, limit: Limit): FieldKey | null {
+export function colorOf(data: PageData, limit: Limit): FieldKey | null {
   return data.drape.fields.find(({ measure }) => measure === limit.key)?.key ?? null;
 }
 
@@ -41,21 +41,21 @@ export function worst(data: PageData): Limit | null {
   return null;
 }
 
-/** What the address asks for behind its #: `step=12&colour=shear`. */
+/** What the address asks for behind its #: `step=12&color=shear`. */
 export function asked(data: PageData): {
   index: number | null;
-  colour: FieldKey | null;
+  color: FieldKey | null;
   model: Model | null;
 } {
   const given = new URLSearchParams(location.hash.slice(1));
   const step = given.get("step");
   const index = step === null || !/^\d+$/.test(step) ? null : nearest(data.steps, Number(step));
   const model = given.get("model");
-  const colour = given.get("colour");
-  const known = [...data.drape.fields, ...(data.also?.fields ?? [])].find(({ key }) => key === colour);
+  const color = given.get("color") ?? given.get("color");
+  const known = [...data.drape.fields, ...(data.also?.fields ?? [])].find(({ key }) => key === color);
   return {
     index,
-    colour: known?.key ?? null,
+    color: known?.key ?? null,
     model: [data.drape, data.also].find((drape) => drape?.model === model)?.model ?? null,
   };
 }

@@ -9,7 +9,7 @@ import { byId } from "./dom";
 import type { State } from "./state";
 import { applyTheme } from "./theme";
 
-/** Width of a chart on paper (CSS pixels): three stand side by side on A4 and on US Letter. */
+/** Width of a chart on paper (CSS pixels): three are side by side on A4 and on US Letter. */
 const PAPER = 214;
 
 export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): void {
@@ -17,7 +17,7 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
   const input = document.querySelector<HTMLDetailsElement>("#input");
   let printing = false;
   let opened = false;
-  const recolour = (dark: boolean) => {
+  const recolor = (dark: boolean) => {
     applyTheme(dark);
     scene?.ink();
     charts.redraw();
@@ -25,7 +25,7 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
   const begin = () => {
     if (printing) return;
     printing = true;
-    recolour(false);
+    recolor(false);
     if (scene !== null) image.src = scene.snapshot();
     document.documentElement.classList.add("printing");
     opened = input?.open ?? false;
@@ -38,7 +38,7 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
     document.documentElement.classList.remove("printing");
     image.removeAttribute("src");
     if (input !== null) input.open = opened;
-    recolour(state.now.dark);
+    recolor(state.now.dark);
     charts.resize(null);
     scene?.draw();
   };

@@ -59,7 +59,7 @@ export function showSample(state: State, motion: Motion): void {
       ),
     );
   }
-  if (pointer !== null) followColour(state, pointer);
+  if (pointer !== null) followColor(state, pointer);
 }
 
 /** Cells by the largest height of their sheets. */
@@ -164,7 +164,7 @@ function highest(state: State, sample: SampleData, pointer: Pointer | null): HTM
   if (pointer === null) return make("p", {}, size + text);
   const button = make("button", { type: "button", class: "link" }, text);
   button.addEventListener("click", () => {
-    state.set({ model: "sheet", colour: "spread", index: pointer.index, playing: false });
+    state.set({ model: "sheet", color: "spread", index: pointer.index, playing: false });
     state.set({ pointer });
   });
   return make("p", {}, size, button);
@@ -185,8 +185,8 @@ function pointerOf(motion: Motion): Pointer | null {
 }
 
 /** The colors of the spread are about the end: choosing them goes there and marks the highest place. */
-function followColour(state: State, pointer: Pointer): void {
-  const spread = (choice: Choice) => choice.model === "sheet" && choice.colour === "spread";
+function followColor(state: State, pointer: Pointer): void {
+  const spread = (choice: Choice) => choice.model === "sheet" && choice.color === "spread";
   state.listen((now, before) => {
     if (now === before || spread(now) === spread(before)) return;
     // after all that listens has seen this change

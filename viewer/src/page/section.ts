@@ -12,7 +12,7 @@ import type { Drape } from "../data/drape";
 import type { Motion } from "../data/motion";
 import { quantity, short, ticks } from "../data/number";
 import type { Found, Scene3d } from "../scene/scene3d";
-import { byId, make, themeColour } from "./dom";
+import { byId, make, themeColor } from "./dom";
 import { fabricPlace } from "./hover";
 import type { State } from "./state";
 
@@ -259,8 +259,8 @@ class Chart {
     const all = courses.flatMap(({ points, value }) =>
       points.flatMap((piece) => piece.map(value).filter((v): v is number => v !== null)),
     );
-    const spots = courses.flatMap(({ points }) => points.flatMap((piece) => piece.map(({ s }) => s)));
-    this.ends = spots.length === 0 ? [0, 1] : [Math.min(...spots), Math.max(...spots)];
+    const arcs = courses.flatMap(({ points }) => points.flatMap((piece) => piece.map(({ s }) => s)));
+    this.ends = arcs.length === 0 ? [0, 1] : [Math.min(...arcs), Math.max(...arcs)];
     if (this.limit !== null) all.push(this.limit, 0);
     const [low, high] = all.length === 0 ? [0, 1] : [Math.min(...all), Math.max(...all)];
     const room = 0.06 * Math.max(high - low, 0.1);
@@ -302,8 +302,8 @@ class Chart {
 
   private options(courses: Course[]): uPlot.Options {
     const axis: uPlot.Axis = {
-      stroke: () => themeColour("text-quiet"),
-      grid: { stroke: () => themeColour("chart-grid"), width: 1 },
+      stroke: () => themeColor("text-quiet"),
+      grid: { stroke: () => themeColor("chart-grid"), width: 1 },
       ticks: { show: false },
       font: "11px system-ui, 'Liberation Sans', Arial, sans-serif",
       gap: 4,
@@ -327,9 +327,9 @@ class Chart {
       series: [
         {},
         ...courses.map(({ fill, other }): uPlot.Series => ({
-          stroke: () => themeColour(fill ? "mold-line" : other ? "other" : "section"),
+          stroke: () => themeColor(fill ? "mold-line" : other ? "other" : "section"),
           width: fill ? 1 : 1.8,
-          ...(fill ? { fill: () => themeColour("mold"), fillTo: () => this.range[0] } : {}),
+          ...(fill ? { fill: () => themeColor("mold"), fillTo: () => this.range[0] } : {}),
           ...(other ? { dash: [5, 4] } : {}),
           points: { show: false },
         })),
@@ -351,7 +351,7 @@ class Chart {
     const { ctx, bbox } = u;
     const y = Math.round(u.valToPos(this.limit, "y", true)) + 0.5;
     ctx.save();
-    ctx.strokeStyle = themeColour("red");
+    ctx.strokeStyle = themeColor("red");
     ctx.lineWidth = 1.25 * devicePixelRatio;
     ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
     ctx.beginPath();

@@ -19,7 +19,7 @@ export interface Choice {
   index: number;
   /** The model of the ply that is shown. */
   model: Model;
-  colour: FieldKey;
+  color: FieldKey;
   /** Colors span the values of the step in view, not those of all steps. */
   stepRange: boolean;
   /** Scales of orders, where a color mode can have one. */
@@ -48,7 +48,7 @@ type Listener = (now: Choice, before: Choice) => void;
 
 export class State {
   private readonly listeners: Listener[] = [];
-  /** Index of the step of a second result that stands beside one of this result. */
+  /** Index of the step of a second result that is compared with one of this result. */
   partner: ((index: number) => number) | null = null;
 
   constructor(

@@ -30,6 +30,6 @@ export function linkTheme(state: State): void {
   state.listen(({ dark }) => {
     applyTheme(dark);
     button.textContent = dark ? "Light" : "Dark";
-    button.setAttribute("aria-label", `Change to ${dark ? "light" : "dark"} colours`);
+    button.setAttribute("aria-label", `Change to ${dark ? "light" : "dark"} colors`);
   });
 }

@@ -15,8 +15,8 @@ const VIEWS: [StandardView, string, string][] = [
 /** Shows a model, in the same color mode if it has it; what is marked on the other one's ply goes. */
 export function chooseModel(state: State, data: PageData, model: Model): void {
   const known = fieldsOf(data, model);
-  const colour = known.find(({ key }) => key === state.now.colour)?.key ?? known[0]?.key ?? state.now.colour;
-  state.set({ model, colour, pointer: model === state.now.model ? state.now.pointer : null });
+  const color = known.find(({ key }) => key === state.now.color)?.key ?? known[0]?.key ?? state.now.color;
+  state.set({ model, color, pointer: model === state.now.model ? state.now.pointer : null });
 }
 
 export function linkToolbar(state: State, data: PageData, eye: Eye | null): void {
@@ -31,16 +31,16 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
     state.listen((now) => (input.checked = now.model === model));
   }
 
-  const colours = byId("colours");
+  const colors = byId("colors");
   state.listen((now, before) => {
     if (now !== before && now.model === before.model) return;
     const { fields, catenaries } = drapeOf(data, now.model);
-    colours.hidden = fields.length === 0;
-    colours.replaceChildren(...fields.map((field, k) => colour(state, field, k)));
+    colors.hidden = fields.length === 0;
+    colors.replaceChildren(...fields.map((field, k) => color(state, field, k)));
     byId("show-diagonals").parentElement!.hidden = (catenaries?.diagonals.count ?? 0) === 0;
   });
-  state.listen(({ colour }) => {
-    for (const input of colours.querySelectorAll("input")) input.checked = input.value === colour;
+  state.listen(({ color }) => {
+    for (const input of colors.querySelectorAll("input")) input.checked = input.value === color;
   });
 
   const views = byId("views");
@@ -67,9 +67,9 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
   byId("show-cell").parentElement!.hidden = data.cell === null;
 }
 
-function colour(state: State, { key, name, label }: Field, k: number): HTMLElement {
-  const input = make("input", { type: "radio", name: "colour", value: key });
-  input.addEventListener("change", () => state.set({ colour: key }));
+function color(state: State, { key, name, label }: Field, k: number): HTMLElement {
+  const input = make("input", { type: "radio", name: "color", value: key });
+  input.addEventListener("change", () => state.set({ color: key }));
   return make("label", { title: `Color by ${label} (${k + 1})` }, input, make("span", {}, name));
 }
 

@@ -80,8 +80,8 @@ export class AxesBox {
     return [...this.low, ...this.high];
   }
 
-  ink(colour: string): void {
-    for (const { lines } of this.sides) lines.ink(colour);
+  ink(color: string): void {
+    for (const { lines } of this.sides) lines.ink(color);
   }
 
   /** Shows the sides that face away from the eye. */
@@ -95,10 +95,10 @@ export class AxesBox {
   /** Numbers and names along one outer edge for each axis that is not seen end-on. */
   labels(eye: Eye): Label[] {
     const direction = eye.direction().toArray();
-    const centre = eye.project(new Vector3(...this.low).add(new Vector3(...this.high)).multiplyScalar(0.5));
+    const center = eye.project(new Vector3(...this.low).add(new Vector3(...this.high)).multiplyScalar(0.5));
     const labels: Label[] = [];
     for (const axis of [0, 1, 2]) {
-      const edge = this.outerEdge(axis, direction, eye, centre);
+      const edge = this.outerEdge(axis, direction, eye, center);
       if (edge === null) continue;
       const { out, point, length } = edge;
       const values = this.ticks[axis]!;
@@ -121,7 +121,7 @@ export class AxesBox {
   }
 
   /** For x and y the edge at the bottom nearer to the eye; for z the leftmost upright edge. */
-  private outerEdge(axis: number, direction: number[], eye: Eye, centre: [number, number]) {
+  private outerEdge(axis: number, direction: number[], eye: Eye, center: [number, number]) {
     const corner = (pick: (c: number) => 0 | 1) =>
       new Vector3(...([0, 1, 2] as const).map((c) => (pick(c) === 0 ? this.low[c] : this.high[c])));
     let point: Vector3;
@@ -142,7 +142,7 @@ export class AxesBox {
     if (length < 30) return null;
     // Outwards: square to the edge, away from the middle of the box.
     let out: [number, number] = [-(by - ay) / length, (bx - ax) / length];
-    const away = ((ax + bx) / 2 - centre[0]) * out[0] + ((ay + by) / 2 - centre[1]) * out[1];
+    const away = ((ax + bx) / 2 - center[0]) * out[0] + ((ay + by) / 2 - center[1]) * out[1];
     if (away < -1e-6 || (Math.abs(away) <= 1e-6 && out[1] < 0)) out = [-out[0], -out[1]];
     return { point, out, length };
   }

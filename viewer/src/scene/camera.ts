@@ -18,9 +18,9 @@ const DIRECTIONS: Record<StandardView, Place> = {
   iso: [0.38, -1, 0.72],
 };
 
-/** Room kept free around the fitted box (CSS pixels): the legend stands on the right, labels below. */
+/** Room kept free around the fitted box (CSS pixels): the legend is on the right, labels below. */
 const MARGIN = { left: 84, right: 156, top: 30, bottom: 48 };
-/** In a narrow picture the legend stands elsewhere. */
+/** In a narrow picture the legend is elsewhere. */
 const NARROW = { below: 560, left: 70, right: 30, top: 16, bottom: 40 };
 
 const stillness = matchMedia("(prefers-reduced-motion: reduce)");
@@ -162,7 +162,7 @@ export class Eye {
     return [screen(place, 0), screen(place, 1)];
   }
 
-  /** The same for many points: across (0) or down (1). */
+  /** Projects many points to the screen: across (0) or down (1). */
   screen(): (place: Place, c: 0 | 1) => number {
     this.camera.updateMatrixWorld();
     const m = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements;

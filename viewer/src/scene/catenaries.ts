@@ -42,12 +42,12 @@ export class Catenaries {
     this.group.add(this.diagonals.mesh, this.edges.mesh);
   }
 
-  ink(colour: string): void {
-    this.edges.ink(colour);
-    this.diagonals.ink(colour, 0.9);
+  ink(color: string): void {
+    this.edges.ink(color);
+    this.diagonals.ink(color, 0.9);
   }
 
-  /** Draws finer lines where neighboring grippers are less than so many CSS pixels apart. */
+  /** Draws finer lines where neighboring grippers are less than this many CSS pixels apart. */
   suit(apart: number): void {
     const weight = Math.min(Math.max(apart / 55, 0.5), 1);
     this.edges.weight = weight;

@@ -42,8 +42,8 @@ export class CatenaryPicture implements PlyPicture {
     this.contacts.moveTo(picture);
   }
 
-  colour(field: Field, picture: number): void {
-    this.surface.colour(field, picture);
+  color(field: Field, picture: number): void {
+    this.surface.color(field, picture);
   }
 
   useMap(field: Field): void {

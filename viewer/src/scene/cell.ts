@@ -18,7 +18,7 @@ import {
 } from "three";
 import { MICRO } from "../data/micro";
 import type { CellData, Solid } from "../data/page_data";
-import { Lines, screenColour } from "./lines";
+import { Lines, screenColor } from "./lines";
 import { PROJECT, SHADE } from "./shade";
 
 const VERTEX = /* glsl */ `
@@ -31,13 +31,13 @@ const VERTEX = /* glsl */ `
 `;
 
 const FRAGMENT = /* glsl */ `
-  uniform vec3 colour;
+  uniform vec3 color;
   uniform float opacity;
   varying vec3 vView;
   ${SHADE}
   void main() {
     float light = shade(cross(dFdx(vView), dFdy(vView)));
-    gl_FragColor = vec4(colour * mix(0.72, 1.0, (light - 0.74) / 0.32), opacity);
+    gl_FragColor = vec4(color * mix(0.72, 1.0, (light - 0.74) / 0.32), opacity);
   }
 `;
 
@@ -87,9 +87,9 @@ export class Cell {
     }
   }
 
-  ink(colour: string, line: string): void {
-    this.moving?.ink(colour, line);
-    this.standing?.ink(colour, line);
+  ink(color: string, line: string): void {
+    this.moving?.ink(color, line);
+    this.standing?.ink(color, line);
     this.tool?.ink(line);
   }
 
@@ -132,7 +132,7 @@ class Solids {
       side: DoubleSide,
       transparent: true,
       depthWrite: false,
-      uniforms: { colour: { value: new Color() }, opacity: { value: opacity }, push: { value: push } },
+      uniforms: { color: { value: new Color() }, opacity: { value: opacity }, push: { value: push } },
     });
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
@@ -143,8 +143,8 @@ class Solids {
     this.group.add(this.mesh, this.rims.mesh);
   }
 
-  ink(colour: string, line: string): void {
-    (this.mesh.material.uniforms.colour!.value as Color).copy(screenColour(colour));
+  ink(color: string, line: string): void {
+    (this.mesh.material.uniforms.color!.value as Color).copy(screenColor(color));
     this.rims.ink(line);
   }
 

@@ -7,7 +7,7 @@
  */
 
 import { Color, DataTexture, DoubleSide, NearestFilter, ShaderMaterial } from "three";
-import { colourAt, mapOf } from "../data/colour_map";
+import { colorAt, mapOf } from "../data/color_map";
 import type { Field } from "../data/page_data";
 import { PROJECT, SHADE } from "./shade";
 
@@ -58,17 +58,17 @@ const FRAGMENT = /* glsl */ `
   #endif
   void main() {
     float here = share();
-    vec3 colour = here < -0.5 ? unknown : texture2D(map, vec2(clamp(here, 0.0, 0.9999), 0.5)).rgb;
-    colour *= vShade;
+    vec3 color = here < -0.5 ? unknown : texture2D(map, vec2(clamp(here, 0.0, 0.9999), 0.5)).rgb;
+    color *= vShade;
     // Threads of the fabric, where they are far enough apart to be seen.
     if (threads) {
       vec2 width = fwidth(vThread);
       vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
       float line = 1.0 - min(min(away.x, away.y), 1.0);
       float room = clamp(0.36 - 1.1 * max(width.x, width.y), 0.0, 0.26);
-      colour = mix(colour, vec3(1.0), line * room);
+      color = mix(color, vec3(1.0), line * room);
     }
-    gl_FragColor = vec4(colour, 1.0);
+    gl_FragColor = vec4(color, 1.0);
   }
 `;
 
@@ -98,7 +98,7 @@ export function clothMaterial(push: number, on: "vertices" | "corners" = "vertic
 export function useMap(material: ShaderMaterial, field: Field): void {
   const map = mapOf(field);
   const texels = new Uint8Array(4 * TEXELS);
-  for (let k = 0; k < TEXELS; k++) texels.set([...colourAt(map, k / (TEXELS - 1)), 255], 4 * k);
+  for (let k = 0; k < TEXELS; k++) texels.set([...colorAt(map, k / (TEXELS - 1)), 255], 4 * k);
   const texture = new DataTexture(texels, TEXELS, 1);
   texture.magFilter = texture.minFilter = NearestFilter;
   texture.needsUpdate = true;

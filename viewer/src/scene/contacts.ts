@@ -3,7 +3,7 @@
 import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial } from "three";
 import type { CatenaryStates } from "../data/catenary_states";
 import { MICRO } from "../data/micro";
-import { pixelRatio, screenColour } from "./lines";
+import { pixelRatio, screenColor } from "./lines";
 import { PROJECT } from "./shade";
 
 const VERTEX = /* glsl */ `
@@ -16,7 +16,7 @@ const VERTEX = /* glsl */ `
 `;
 
 const FRAGMENT = /* glsl */ `
-  uniform vec3 colour;
+  uniform vec3 color;
   uniform float size;
   uniform float line;
   void main() {
@@ -24,7 +24,7 @@ const FRAGMENT = /* glsl */ `
     float away = abs(r - (0.5 * size - line));
     float inside = clamp(0.5 * line + 0.5 - away, 0.0, 1.0);
     if (inside < 0.02) discard;
-    gl_FragColor = vec4(colour, inside);
+    gl_FragColor = vec4(color, inside);
   }
 `;
 
@@ -50,7 +50,7 @@ export class Contacts {
       transparent: true,
       depthWrite: false,
       uniforms: {
-        colour: { value: new Color() },
+        color: { value: new Color() },
         size: { value: LARGEST },
         line: { value: LINE },
         push: { value: push },
@@ -65,11 +65,11 @@ export class Contacts {
     };
   }
 
-  ink(colour: string): void {
-    (this.points.material.uniforms.colour!.value as Color).copy(screenColour(colour));
+  ink(color: string): void {
+    (this.points.material.uniforms.color!.value as Color).copy(screenColor(color));
   }
 
-  /** Smaller circles where neighboring grippers are less than so many CSS pixels apart. */
+  /** Smaller circles where neighboring grippers are less than this many CSS pixels apart. */
   suit(apart: number): void {
     this.size = Math.min(Math.max(apart / 15, SMALLEST), LARGEST);
   }
@@ -85,7 +85,7 @@ export class Contacts {
   }
 }
 
-/** Gives a geometry positions for so many points. */
+/** Gives a geometry positions for this many points. */
 function makeRoom(geometry: BufferGeometry, points: number): BufferAttribute {
   const position = new BufferAttribute(new Float32Array(3 * Math.max(1, points)), 3);
   geometry.setAttribute("position", position.setUsage(DynamicDrawUsage));

@@ -21,9 +21,9 @@ const WIDTH = 2.4;
 
 /** How much of what a gripper holds is used: the colors of the arrows, with their names in the style sheet. */
 export const USES = [
-  { upTo: 0.5, colour: "load-low", text: "≤ ½ of limit" },
-  { upTo: 1, colour: "load-near", text: "≤ limit" },
-  { upTo: Infinity, colour: "load-beyond", text: "> limit" },
+  { upTo: 0.5, color: "load-low", text: "≤ ½ of limit" },
+  { upTo: 1, color: "load-near", text: "≤ limit" },
+  { upTo: Infinity, color: "load-beyond", text: "> limit" },
 ] as const;
 
 export class Forces {
@@ -42,10 +42,10 @@ export class Forces {
   }
 
   /** Takes the colors of the uses, in their order. */
-  ink(colours: string[]): void {
+  ink(colors: string[]): void {
     this.arrows.forEach((arrows, n) => {
-      arrows.shafts.ink(colours[n]!);
-      arrows.heads.ink(colours[n]!);
+      arrows.shafts.ink(colors[n]!);
+      arrows.heads.ink(colors[n]!);
     });
   }
 

@@ -15,7 +15,7 @@ import {
   ShaderMaterial,
 } from "three";
 import { MICRO } from "../data/micro";
-import { screenColour } from "./lines";
+import { screenColor } from "./lines";
 import { PROJECT } from "./shade";
 
 /** Thickness of a disc over its radius, one half. */
@@ -40,7 +40,7 @@ const VERTEX = /* glsl */ `
 `;
 
 const FRAGMENT = /* glsl */ `
-  uniform vec3 colour;
+  uniform vec3 color;
   uniform vec3 rim;
   varying vec3 vLocal;
   varying float vTowards;
@@ -48,20 +48,20 @@ const FRAGMENT = /* glsl */ `
     // The wall is dark, and so is the face that looks away.
     if (abs(vLocal.z) < ${(0.999 * HALF).toFixed(5)} || vTowards < 0.0) {
       if (length(vLocal.xy) > 0.941) discard;
-      gl_FragColor = vec4(colour, 1.0);
+      gl_FragColor = vec4(color, 1.0);
       return;
     }
     float r = length(vLocal.xy);
     float soft = clamp(fwidth(r), 0.001, 0.5);
     float inside = clamp((1.0 - r) / soft + 0.5, 0.0, 1.0);
     if (inside < 0.02) discard;
-    gl_FragColor = vec4(mix(colour, rim, clamp((r - 0.89) / soft + 0.5, 0.0, 1.0)), inside);
+    gl_FragColor = vec4(mix(color, rim, clamp((r - 0.89) / soft + 0.5, 0.0, 1.0)), inside);
   }
 `;
 
 export class Grippers {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
-  private readonly centre: BufferAttribute;
+  private readonly center: BufferAttribute;
   private readonly axis: BufferAttribute;
   /** Corners of the quads in the index; those of the walls follow. */
   private readonly quads: number;
@@ -75,7 +75,7 @@ export class Grippers {
     const size = points.length / 3;
     const dynamic = () =>
       new BufferAttribute(new Float32Array(count * points.length), 3).setUsage(DynamicDrawUsage);
-    this.centre = dynamic();
+    this.center = dynamic();
     this.axis = dynamic();
     const locals = new Float32Array(count * points.length);
     for (let k = 0; k < count; k++) locals.set(points, k * points.length);
@@ -86,7 +86,7 @@ export class Grippers {
     this.quads = faces[0]!.length;
     const geometry = new BufferGeometry();
     geometry.setIndex(faces.flat());
-    geometry.setAttribute("position", this.centre);
+    geometry.setAttribute("position", this.center);
     geometry.setAttribute("axis", this.axis);
     geometry.setAttribute("local", new BufferAttribute(locals, 3));
     const material = new ShaderMaterial({
@@ -95,7 +95,7 @@ export class Grippers {
       side: DoubleSide,
       transparent: true,
       uniforms: {
-        colour: { value: new Color() },
+        color: { value: new Color() },
         rim: { value: new Color() },
         radius: { value: radius },
         push: { value: push },
@@ -105,29 +105,29 @@ export class Grippers {
     this.mesh.frustumCulled = false;
   }
 
-  ink(colour: string, rim: string): void {
+  ink(color: string, rim: string): void {
     const { uniforms } = this.mesh.material;
-    (uniforms.colour!.value as Color).copy(screenColour(colour));
-    (uniforms.rim!.value as Color).copy(screenColour(rim));
+    (uniforms.color!.value as Color).copy(screenColor(color));
+    (uniforms.rim!.value as Color).copy(screenColor(rim));
   }
 
-  /** Leaves the walls out where they would be less than a pixel high, at so many CSS pixels a meter. */
+  /** Leaves the walls out where they would be less than a pixel high, at this many CSS pixels a meter. */
   showWalls(zoom: number): void {
     this.mesh.geometry.setDrawRange(0, this.radius * zoom * 2 * HALF < 1 ? this.quads : Infinity);
   }
 
   /** Moves them to packed positions and normals. */
   moveTo(positions: Int32Array, normals: Int32Array): void {
-    const [centre, axis] = [this.centre.array, this.axis.array];
-    const size = centre.length / positions.length;
-    for (let k = 0; k < centre.length; k += 3) {
+    const [center, axis] = [this.center.array, this.axis.array];
+    const size = center.length / positions.length;
+    for (let k = 0; k < center.length; k += 3) {
       const from = 3 * Math.floor(k / (3 * size));
       for (let c = 0; c < 3; c++) {
-        centre[k + c] = positions[from + c]! * MICRO;
+        center[k + c] = positions[from + c]! * MICRO;
         axis[k + c] = normals[from + c]! * 1e-4;
       }
     }
-    this.centre.needsUpdate = true;
+    this.center.needsUpdate = true;
     this.axis.needsUpdate = true;
   }
 }

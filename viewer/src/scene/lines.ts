@@ -46,7 +46,7 @@ const VERTEX = /* glsl */ `
 `;
 
 const FRAGMENT = /* glsl */ `
-  uniform vec3 colour;
+  uniform vec3 color;
   uniform float opacity;
   uniform float width;
   varying float vSide;
@@ -56,7 +56,7 @@ const FRAGMENT = /* glsl */ `
     varying float vTime;
   #endif
   void main() {
-    vec4 ink = vec4(colour, opacity);
+    vec4 ink = vec4(color, opacity);
     #ifdef TIMED
       if (vTime > now) ink = vec4(later, 0.55 * opacity);
     #endif
@@ -82,7 +82,7 @@ export class Lines {
   private readonly tangent: BufferAttribute;
 
   /**
-   * Curves with so many points each, `width` CSS pixels wide, pushed back by `push` meters. With `times`, one for each point,
+   * Curves with this many points each, `width` CSS pixels wide, pushed back by `push` meters. With `times`, one for each point,
    * what is later than `now` has a color of its own.
    */
   constructor(
@@ -117,7 +117,7 @@ export class Lines {
         resolution: { value: resolution },
         width: { value: width },
         push: { value: push },
-        colour: { value: new Color() },
+        color: { value: new Color() },
         opacity: { value: 1 },
         now: { value: 0 },
         later: { value: new Color() },
@@ -166,10 +166,10 @@ export class Lines {
     this.mesh.material.dispose();
   }
 
-  ink(colour: string, opacity = 1, later = colour): void {
+  ink(color: string, opacity = 1, later = color): void {
     const { uniforms } = this.mesh.material;
-    (uniforms.colour!.value as Color).copy(screenColour(colour));
-    (uniforms.later!.value as Color).copy(screenColour(later));
+    (uniforms.color!.value as Color).copy(screenColor(color));
+    (uniforms.later!.value as Color).copy(screenColor(later));
     uniforms.opacity!.value = opacity;
   }
 
@@ -179,7 +179,7 @@ export class Lines {
   }
 }
 
-/** Two triangles for each piece of each curve; a piece runs over so many points, and the last ends at the end. */
+/** Two triangles for each piece of each curve; a piece runs over this many points, and the last ends at the end. */
 function quads(lengths: number[], stride: number): Uint32Array {
   const index: number[] = [];
   let start = 0;
@@ -195,6 +195,6 @@ function quads(lengths: number[], stride: number): Uint32Array {
 }
 
 /** A CSS color as the shaders write it: as it is on the screen, not linear. */
-export function screenColour(colour: string): Color {
-  return new Color().setStyle(colour, "srgb-linear");
+export function screenColor(color: string): Color {
+  return new Color().setStyle(color, "srgb-linear");
 }

@@ -1,4 +1,4 @@
-/** What a page shows of a scene that is not draped yet: where the ply is wanted, its warp, where cups shall end, and idle cups. */
+/** What a page shows of a scene that is not draped yet: where the ply must end, its warp, where cups must end, and idle cups. */
 
 import { Group } from "three";
 import type { Look, Place } from "../data/page_data";

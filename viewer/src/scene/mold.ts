@@ -12,7 +12,7 @@ import {
 } from "three";
 import { mergeVertices, toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import type { MoldData } from "../data/page_data";
-import { Lines, screenColour } from "./lines";
+import { Lines, screenColor } from "./lines";
 import { PROJECT, SHADE } from "./shade";
 
 const VERTEX = /* glsl */ `
@@ -26,10 +26,10 @@ const VERTEX = /* glsl */ `
 `;
 
 const FRAGMENT = /* glsl */ `
-  uniform vec3 colour;
+  uniform vec3 color;
   varying float vShade;
   void main() {
-    gl_FragColor = vec4(colour * vShade, 1.0);
+    gl_FragColor = vec4(color * vShade, 1.0);
   }
 `;
 
@@ -55,7 +55,7 @@ export class Mold {
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       side: DoubleSide,
-      uniforms: { colour: { value: new Color() }, push: { value: push } },
+      uniforms: { color: { value: new Color() }, push: { value: push } },
     });
     this.surface = new Mesh(shaded, material);
     // After the ply, which hides much of it.
@@ -78,8 +78,8 @@ export class Mold {
     this.outline?.free();
   }
 
-  ink(colour: string, line: string): void {
-    (this.surface.material.uniforms.colour!.value as Color).copy(screenColour(colour));
+  ink(color: string, line: string): void {
+    (this.surface.material.uniforms.color!.value as Color).copy(screenColor(color));
     this.outline?.ink(line);
   }
 }

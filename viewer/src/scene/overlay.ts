@@ -19,7 +19,7 @@ import {
   ShaderMaterial,
   Vector3,
 } from "three";
-import { themeColour } from "../page/dom";
+import { themeColor } from "../page/dom";
 import type { Place } from "../data/page_data";
 import type { Pointer } from "../page/state";
 import type { AxesBox } from "./axes_box";
@@ -36,13 +36,13 @@ const LINE = `400 12.5px ${FONT}`;
 
 /** Room that the legend takes on the right (CSS pixels). */
 const LEGEND = 126;
-/** In a picture narrower than this it stands elsewhere. */
+/** In a picture narrower than this it is elsewhere. */
 const NARROW = 560;
 /** Width of the sheet that texts are painted on (CSS pixels); longer texts make it wider. */
 const SHEET = 512;
 /** Half the height of a line of text with its halo (CSS pixels). */
 const TALL = 11;
-/** A label at the edge of the picture is moved in by so much at most (CSS pixels). */
+/** A label at the edge of the picture is moved in by this much at most (CSS pixels). */
 const CUT = 24;
 /** Radius of a ring with its line (CSS pixels). */
 const RING = 16;
@@ -93,7 +93,7 @@ export class Overlay {
   /** What the sheet shows, and where each piece begins on it (pixels of the device). */
   private painted = "";
   private starts: [number, number][] = [];
-  private colours = { text: "", quiet: "", surface: "", accent: "" };
+  private colors = { text: "", quiet: "", surface: "", accent: "" };
   private readonly widths = new Map<string, number>();
 
   constructor(
@@ -120,7 +120,7 @@ export class Overlay {
     this.mesh.frustumCulled = false;
   }
 
-  /** Puts all texts where they belong in a picture of this size (CSS pixels), so many pixels of the device for one of CSS. */
+  /** Puts all texts where they belong in a picture of this size (CSS pixels), this many pixels of the device for one of CSS. */
   suit(width: number, height: number, ratio: number, pointer: Pointer | null): void {
     if (this.pen === null) return;
     const pieces = [
@@ -136,13 +136,13 @@ export class Overlay {
 
   /** Takes the colors of the theme in force. */
   ink(): void {
-    const [text, quiet, surface, accent] = ["text", "text-quiet", "surface", "accent"].map(themeColour) as [
+    const [text, quiet, surface, accent] = ["text", "text-quiet", "surface", "accent"].map(themeColor) as [
       string,
       string,
       string,
       string,
     ];
-    this.colours = { text, quiet, surface, accent };
+    this.colors = { text, quiet, surface, accent };
     this.painted = "";
   }
 
@@ -255,7 +255,7 @@ export class Overlay {
       look: `${font} ${text}`,
       paint: (pen) => {
         pen.font = font;
-        pen.fillStyle = name ? this.colours.text : this.colours.quiet;
+        pen.fillStyle = name ? this.colors.text : this.colors.quiet;
         pen.fillText(text, 0, 0);
       },
     };
@@ -271,9 +271,9 @@ export class Overlay {
       paint: (pen) => {
         pen.font = MARK;
         pen.lineWidth = 3.5;
-        pen.strokeStyle = this.colours.surface;
+        pen.strokeStyle = this.colors.surface;
         pen.strokeText(text, 0, 0);
-        pen.fillStyle = this.colours.text;
+        pen.fillStyle = this.colors.text;
         pen.fillText(text, 0, 0);
       },
     };
@@ -309,8 +309,8 @@ export class Overlay {
       look: `pointer ${left.toFixed(2)} ${top.toFixed(2)} ${label}`,
       paint: (pen) => {
         this.paintRing(pen);
-        pen.fillStyle = this.colours.surface;
-        pen.strokeStyle = this.colours.accent;
+        pen.fillStyle = this.colors.surface;
+        pen.strokeStyle = this.colors.accent;
         pen.lineWidth = 1.5;
         pen.beginPath();
         pen.roundRect(left, top, plate, tall, 5);
@@ -321,7 +321,7 @@ export class Overlay {
         pen.lineTo(Math.min(Math.max(24, left), left + plate), Math.min(top + tall, Math.max(-18, top)));
         pen.stroke();
         pen.textAlign = "left";
-        pen.fillStyle = this.colours.text;
+        pen.fillStyle = this.colors.text;
         lines.forEach((line, k) => {
           pen.font = k === 0 ? HEADING : LINE;
           pen.fillText(line, left + 9, top + 13 + 17 * k);
@@ -331,11 +331,11 @@ export class Overlay {
   }
 
   private paintRing(pen: CanvasRenderingContext2D): void {
-    for (const [colour, line] of [
-      [this.colours.surface, 5],
-      [this.colours.accent, 2.5],
+    for (const [color, line] of [
+      [this.colors.surface, 5],
+      [this.colors.accent, 2.5],
     ] as const) {
-      pen.strokeStyle = colour;
+      pen.strokeStyle = color;
       pen.lineWidth = line;
       pen.beginPath();
       pen.arc(0, 0, 13, 0, 2 * Math.PI);

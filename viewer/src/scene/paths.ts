@@ -20,8 +20,8 @@ export class Paths {
     this.lines.mesh.renderOrder = 5;
   }
 
-  ink(colour: string, later: string): void {
-    this.lines.ink(colour, 1, later);
+  ink(color: string, later: string): void {
+    this.lines.ink(color, 1, later);
   }
 
   /** Shows those of a drape, up to a step by its index. */

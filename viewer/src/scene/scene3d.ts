@@ -9,7 +9,7 @@ import { pieces } from "../data/fabric_line";
 import type { Drape } from "../data/drape";
 import type { Field, Model, Place } from "../data/page_data";
 import { fieldInForce } from "../data/ranges";
-import { themeColour } from "../page/dom";
+import { themeColor } from "../page/dom";
 import type { Choice, State } from "../page/state";
 import { AxesBox } from "./axes_box";
 import { Eye } from "./camera";
@@ -143,13 +143,13 @@ export class Scene3d {
     if (changed("index", "model", "answer")) this.moveTo(now.index, drape);
     const field = this.field(now);
     const picture = drape.picture(now.index);
-    if (field !== undefined && changed("colour", "model")) shown?.useMap(field);
+    if (field !== undefined && changed("color", "model")) shown?.useMap(field);
     if (
       field !== undefined &&
       picture !== null &&
-      changed("index", "model", "answer", "stepRange", "orders", "colour", "other", "otherIndex")
+      changed("index", "model", "answer", "stepRange", "orders", "color", "other", "otherIndex")
     ) {
-      shown?.colour(field, picture);
+      shown?.color(field, picture);
     }
     this.paths.lines.mesh.visible = now.paths;
     if (now.paths && changed("paths", "index", "model")) this.paths.moveTo(now.index, drape);
@@ -203,22 +203,17 @@ export class Scene3d {
 
   /** Takes the colors of the theme in force. */
   ink(): void {
-    for (const picture of this.pictures.values()) picture.ink(themeColour("red"));
-    this.forces.ink(USES.map(({ colour }) => themeColour(colour)));
-    this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
-    this.paths.ink(themeColour("path"), themeColour("path-later"));
-    this.line.ink(themeColour("section"));
-    this.look?.ink(
-      themeColour("path"),
-      themeColour("accent"),
-      themeColour("path"),
-      themeColour("path-later"),
-    );
-    this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
-    this.cell?.ink(themeColour("cell"), themeColour("cell-line"));
-    this.box.ink(themeColour("box-line"));
+    for (const picture of this.pictures.values()) picture.ink(themeColor("red"));
+    this.forces.ink(USES.map(({ color }) => themeColor(color)));
+    this.grippers.ink(themeColor("disc"), themeColor("disc-rim"));
+    this.paths.ink(themeColor("path"), themeColor("path-later"));
+    this.line.ink(themeColor("section"));
+    this.look?.ink(themeColor("path"), themeColor("accent"), themeColor("path"), themeColor("path-later"));
+    this.mold?.ink(themeColor("mold"), themeColor("mold-line"));
+    this.cell?.ink(themeColor("cell"), themeColor("cell-line"));
+    this.box.ink(themeColor("box-line"));
     this.overlay.ink();
-    this.renderer.setClearColor(new Color(themeColour("surface")));
+    this.renderer.setClearColor(new Color(themeColor("surface")));
   }
 
   private resize(): void {
@@ -300,7 +295,7 @@ export class Scene3d {
     return Math.min(devicePixelRatio, this.coarse ? 1 : MOST_PIXELS);
   }
 
-  /** The picture of now with its labels, so many pixels for one of CSS. */
+  /** The picture of now with its labels, this many pixels for one of CSS. */
   still(ratio: number): HTMLCanvasElement {
     const before = this.renderer.getPixelRatio();
     this.setPixels(ratio);
@@ -326,7 +321,7 @@ export class Scene3d {
     this.renderer.forceContextLoss();
   }
 
-  /** The same as PNG for the print. */
+  /** The picture as PNG for the print. */
   snapshot(): string {
     return this.still(2).toDataURL("image/png");
   }
@@ -366,14 +361,14 @@ export class Scene3d {
     const reach = Math.max(REACH, 0.8 * this.eye.camera.zoom * (this.shownPicture?.fineness ?? 0));
     const screen = this.eye.screen();
     let found: (Found & { rank: number }) | null = null;
-    const look = (kind: Found["kind"], from: Int32Array, near: number, favour: number) => {
+    const look = (kind: Found["kind"], from: Int32Array, near: number, favor: number) => {
       for (let k = 0; 3 * k < from.length; k++) {
         const place: Place = [from[3 * k]! * MICRO, from[3 * k + 1]! * MICRO, from[3 * k + 2]! * MICRO];
         const away = Math.hypot(screen(place, 0) - x, screen(place, 1) - y);
         if (away > near) continue;
         // one that is farther from the eye by a tenth of the scene is behind the ply
         const depth = place[0] * towards.x + place[1] * towards.y + place[2] * towards.z;
-        const rank = away - favour - (REACH * depth) / (0.1 * this.size);
+        const rank = away - favor - (REACH * depth) / (0.1 * this.size);
         if (found === null || rank < found.rank) found = { kind, number: k, place, rank };
       }
     };

@@ -18,8 +18,8 @@ export class SectionLine {
     this.group.visible = false;
   }
 
-  ink(colour: string): void {
-    this.line.ink(colour);
+  ink(color: string): void {
+    this.line.ink(color);
   }
 
   /** Shows a line; without pieces there is nothing to see. */

@@ -26,8 +26,8 @@ export class SheetPicture implements PlyPicture {
     this.surface.moveTo(picture);
   }
 
-  colour(field: Field, picture: number): void {
-    this.surface.colour(field, picture);
+  color(field: Field, picture: number): void {
+    this.surface.color(field, picture);
   }
 
   useMap(field: Field): void {

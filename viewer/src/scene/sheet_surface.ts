@@ -15,7 +15,7 @@ import {
   Vector2,
   type ShaderMaterial,
 } from "three";
-import { shareOf } from "../data/colour_map";
+import { shareOf } from "../data/color_map";
 import { MICRO } from "../data/micro";
 import type { Field } from "../data/page_data";
 import type { SheetStates } from "../data/sheet_states";
@@ -31,11 +31,11 @@ const WHOLE: [number, number][] = [
 
 /** A cell as it is drawn. */
 interface Drawn {
-  /** Its corners. */
+  /** Corners. */
   nodes: number[];
   /** The cell whose values it has. */
   cell: number;
-  /** Its vertices: the first, and how many. */
+  /** Vertices: the first, and how many. */
   first: number;
   count: number;
 }
@@ -114,7 +114,7 @@ export class SheetSurface {
   }
 
   /** Colors the sheet by a field in a state. */
-  colour(field: Field, state: number): void {
+  color(field: Field, state: number): void {
     const share = this.share.array;
     const at = (item: number) => {
       const value = this.sheet.value(field, state, item);
@@ -131,7 +131,7 @@ export class SheetSurface {
     useMap(this.mesh.material, field);
   }
 
-  /** Draws the fabric lines where two of them are so many CSS pixels apart that they can be told apart. */
+  /** Draws the fabric lines where two of them are this many CSS pixels apart that they can be told apart. */
   showThreads(apart: number): void {
     this.mesh.material.uniforms.threads!.value = apart > 5.5;
   }

@@ -7,7 +7,7 @@
  */
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type ShaderMaterial } from "three";
-import { shareOf } from "../data/colour_map";
+import { shareOf } from "../data/color_map";
 import type { CatenaryStates } from "../data/catenary_states";
 import { MICRO } from "../data/micro";
 import type { Field } from "../data/page_data";
@@ -110,7 +110,7 @@ export class PlySurface {
   }
 
   /** Colors the surface by a field in a picture. */
-  colour(field: Field, picture: number): void {
+  color(field: Field, picture: number): void {
     const item = field.on === "cell" ? this.cell : this.source;
     const share = this.share.array;
     for (let k = 0; k < item.length; k++) {
@@ -124,7 +124,7 @@ export class PlySurface {
     useMap(this.mesh.material, field);
   }
 
-  /** Draws the threads where two of them are so many CSS pixels apart that they can be told apart. */
+  /** Draws the threads where two of them are this many CSS pixels apart that they can be told apart. */
   showThreads(apart: number): void {
     this.mesh.material.uniforms.threads!.value = apart > 5.5;
   }

@@ -24,7 +24,7 @@ const INVERSE_FACTORIAL: [f64; TERMS] = {
     out
 };
 
-/// 1.5 · 2⁵²: what is added to it is rounded to a whole number, which stands in its last bits.
+/// 1.5 · 2⁵²: what is added to it is rounded to a whole number, which is in its last bits.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// e^(−x) of every x ≥ 0, to the last two digits; 0 for an x above 700.

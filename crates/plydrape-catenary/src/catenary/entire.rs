@@ -95,7 +95,7 @@ mod tests {
             } else {
                 (1.0, 1.0)
             };
-            // absolute, since they stand in sums with 1; the recurrence multiplies rounding by y⁴/8!
+            // absolute, since they are added to 1; the recurrence multiplies rounding by y⁴/8!
             assert!((c[0] - c0).abs() < 1e-13 * c0.abs().max(1.0), "c0({y}) {} {c0}", c[0]);
             assert!((c[1] - c1).abs() < 1e-13 * c1.abs().max(1.0), "c1({y}) {} {c1}", c[1]);
         }

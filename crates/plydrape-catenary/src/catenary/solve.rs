@@ -23,7 +23,7 @@ pub enum SpanState {
 /// The force of a span of given length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
-    /// Horizontal force H (N); none for a straight inextensible span.
+    /// Horizontal force H (N); `None` for a straight inextensible span.
     pub force: Option<f64>,
     /// How it holds its length.
     pub state: SpanState,
@@ -123,7 +123,7 @@ impl Span {
                 }
                 next = if high.is_infinite() { step_up(force, low) } else { 0.5 * (low + high) };
                 if next <= low || next >= high {
-                    // the bracket has closed to neighbouring numbers
+                    // the bracket has closed to neighboring numbers
                     return Root { force: Some(force), state, evaluations, residual };
                 }
             } else if (next - force).abs() <= TUNING.small_step * (next - self.buckling_force()) {

@@ -224,7 +224,7 @@ pub struct AllSum {
     pub excess: f64,
     /// ∫ z'/√(1+z'²) f for f = 1, U, V, G and D = ρG_χ + αU_χ + βV_χ.
     pub mean: [f64; 5],
-    /// The same for U_χ, V_χ, G_χ and D_χ at fixed ρ, α, β.
+    /// ∫ z'/√(1+z'²) f for f = U_χ, V_χ, G_χ and D_χ at fixed ρ, α, β.
     pub mean_chi: [f64; 4],
     /// ∫ f g /(1+z'²)^(3/2) for the five functions, lower half.
     pub gram: [[f64; 5]; 5],

@@ -5,7 +5,7 @@
 /// They are constants of the program, not settings of a solve, so that the sums over panels are compiled for them.
 /// Slopes are rise over run, widths of a layer multiples of 1/k, steps of H relative to its height above buckling.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tuning {
+pub(crate) struct CatenaryTuning {
     /// κ = Hℓ²/EI from which the exponential form is used. 25: the layers, e^(−5), no longer cancel there, and the
     /// series of the stiff form still has its last digits.
     pub taut_kappa: f64,
@@ -22,7 +22,7 @@ pub(crate) struct Tuning {
     pub layer_grades: [f64; GRADES],
     /// k(0.6 + amplitude) up to which one panel of the long rule takes both layers of a span to about 1e-11.
     pub single_panel: f64,
-    /// The same of the short rule.
+    /// k(0.6 + amplitude) up to which one panel of the short rule takes both layers.
     pub short_panel: f64,
     /// Amplitude up to which one panel takes a whole layer to about 1e-11.
     pub weak_layer: f64,
@@ -40,7 +40,7 @@ pub(crate) struct Tuning {
 pub(super) const GRADES: usize = 3;
 
 /// The constants in use.
-pub(crate) const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: CatenaryTuning = CatenaryTuning {
     taut_kappa: 25.0,
     vanishing_exponent: 45.0,
     vanishing_layer: 1e-20,

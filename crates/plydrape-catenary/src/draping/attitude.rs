@@ -5,12 +5,12 @@ use crate::equilibrium::{Solver, heading};
 use crate::geometry::Point;
 use crate::geometry::rotation::{continued, normal, of_tangents, oriented, x_axis};
 use crate::geometry::vector::unit;
-use crate::ply::{Grid, Neighbours, Ply, tangents};
+use crate::ply::{Grid, Neighbors, Ply, tangents};
 
 /// Slopes of the ply at a gripper and the orientation that follows from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attitude {
-    /// Slope along u and along v; none where the ply has no edge in that direction.
+    /// Slope along u and along v; `None` where the ply has no edge in that direction.
     pub slope: [Option<f64>; 2],
     /// Angle between the ply's normal and the stem of the gripper, which is upright unless a tool turns it (rad), or the normal of its
     /// pad where that has no joint.
@@ -43,12 +43,12 @@ impl Attitude {
     }
 }
 
-/// The attitude of a gripper; the quaternion's sign continues `before`. `neighbours` are those of the ply; they count where
+/// The attitude of a gripper; the quaternion's sign continues `before`. `neighbors` are those of the ply; they count where
 /// no catenaries hang.
 pub fn attitude(
     solver: &Solver,
     ply: &Ply,
-    neighbours: &[Neighbours],
+    neighbors: &[Neighbors],
     positions: &[Point],
     gripper: usize,
     before: Option<[f64; 4]>,
@@ -56,8 +56,8 @@ pub fn attitude(
     let lines = solver.lines();
     let slope = [0, 1].map(|d| solver.gripper_slope(positions, gripper, d));
     if ply.grid == Grid::NONE && slope.contains(&None) {
-        // no fibre line runs through it along u or along v: there its neighbours say how it is tilted
-        let mut along = tangents(ply, neighbours, positions, gripper);
+        // no fiber line runs through it along u or along v: there its neighbors say how it is tilted
+        let mut along = tangents(ply, neighbors, positions, gripper);
         for d in 0..2 {
             if let (Some([x, y]), Some(slope)) = (heading(lines, positions, gripper, d), slope[d]) {
                 along[d] = [x, y, slope];

@@ -19,7 +19,7 @@ pub struct Bridge {
 }
 
 impl Bridge {
-    /// The bridge with the largest gap between one of `runs`, ascending along a span, and the others; none if there is no other.
+    /// The bridge with the largest gap between one of `runs`, ascending along a span, and the others; `None` if there is no other.
     pub fn widest(span: &FreeSpan, mold: &Mold, runs: &[Run], run: &Run) -> Option<Bridge> {
         let between = |other: &Run| match other.to < run.from {
             true => Bridge::between(span, mold, [other.to, run.from]),

@@ -18,7 +18,7 @@ use super::tuning::TUNING;
 use crate::geometry::vector::{cross, unit};
 use crate::layup::ContactSettings;
 use crate::mold::{Mold, SurfaceCurve, distance};
-use crate::ply::{ContactSegment, Fibres, LandedCell, shear};
+use crate::ply::{ContactSegment, Fibers, LandedCell, shear};
 
 /// A diagonal about to land, and its cell at that moment.
 ///
@@ -29,18 +29,18 @@ pub struct Diagonal {
     /// Sides a, b (m) of the trellis of its cell.
     pub sides: [f64; 2],
     /// Which lines of the cell are fibers.
-    pub fibres: Fibres,
-    /// Its shear angle γ (rad), positive where the rising diagonal is the longer one.
+    pub fibers: Fibers,
+    /// Shear angle γ (rad), positive where the rising diagonal is the longer one.
     pub shear: f64,
     /// 1 for the rising diagonal, −1 for the falling one.
     pub sign: f64,
 }
 
 impl Diagonal {
-    /// Its length (m) on the mold where `place` (m) touches it, and how its cell lands.
+    /// Length (m) on the mold where `place` (m) touches it, and how its cell lands.
     fn landed(&self, mold: &Mold, place: Point) -> (f64, LandedCell) {
         let [first, second] = mold.curvatures(place).principal;
-        let scale = shear::curved_scale(self.sides, self.fibres, self.shear, first * second);
+        let scale = shear::curved_scale(self.sides, self.fibers, self.shear, first * second);
         let flat = shear::diagonal(self.sides, self.shear, self.sign);
         (scale * flat, LandedCell { shear: self.shear, scale })
     }

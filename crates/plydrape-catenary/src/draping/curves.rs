@@ -12,7 +12,7 @@ use crate::catenary::{EndCondition, Profile, Span, SpanState as Tension};
 use crate::geometry::vector::along;
 use crate::layup::Settings;
 use crate::mold::Mold;
-use crate::ply::{Fibres, Lines, Ply};
+use crate::ply::{Fibers, Lines, Ply};
 use std::sync::{Arc, OnceLock};
 
 /// Points of a span in a record.
@@ -155,7 +155,7 @@ impl Recorded<'_> {
     fn lowered(&self) -> Vec<(usize, Vec<Point>)> {
         let catenaries = self.catenaries;
         let mut out = Vec::new();
-        for cell in self.lines.cells().iter().filter(|cell| cell.fibres == Fibres::Sides) {
+        for cell in self.lines.cells().iter().filter(|cell| cell.fibers == Fibers::Sides) {
             let pair = cell.bias.map(|bias| bias.list()[0]);
             let whole = |n: usize| match (&catenaries[n].contact, catenaries[n].spans.as_slice()) {
                 (None, [span]) => Some(self.span(n, span)),
@@ -205,7 +205,7 @@ impl Recorded<'_> {
     }
 }
 
-/// Where two spans cross in plan, as fractions of their runs; none if they do not.
+/// Where two spans cross in plan, as fractions of their runs; `None` if they do not.
 fn crossing(a: &FreeSpan, b: &FreeSpan) -> Option<[f64; 2]> {
     let [p, q] = [a, b].map(|s| s.ends);
     let (u, v) = ([p[1][0] - p[0][0], p[1][1] - p[0][1]], [q[1][0] - q[0][0], q[1][1] - q[0][1]]);

@@ -12,7 +12,7 @@ pub struct Run {
     pub from: f64,
     /// Where it ends.
     pub to: f64,
-    /// Its deepest point.
+    /// Deepest point.
     pub deepest: f64,
     /// Distance from the mold there (m), negative below it.
     pub depth: f64,
@@ -44,7 +44,7 @@ impl GapSamples {
         -self.samples.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance))
     }
 
-    /// Fraction of the run at the deepest point and the distance there (m); none if it touches nowhere.
+    /// Fraction of the run at the deepest point and the distance there (m); `None` if it touches nowhere.
     #[must_use]
     pub fn deepest(&self) -> Option<(f64, f64)> {
         self.samples.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))

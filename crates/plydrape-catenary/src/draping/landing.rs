@@ -14,7 +14,7 @@ pub struct Landing {
     pub errors: Vec<Option<f64>>,
     /// Angle between the segment, from end to end, and the same fabric in the ideal drape (rad), and the
     /// middle of its ends; for edges, where the segment is long enough to have a direction.
-    pub fibre_angle: Option<(f64, Point)>,
+    pub fiber_angle: Option<(f64, Point)>,
 }
 
 /// Fabric coordinates (u, v) (m) of a catenary at a share of its length from its first gripper.
@@ -22,7 +22,7 @@ pub(crate) fn fabric(layup: &Layup, catenary: usize, share: f64) -> [f64; 2] {
     layup.ply.lines().point(catenary, share)
 }
 
-/// Compares a contact segment with the ideal drape; none if that is not known.
+/// Compares a contact segment with the ideal drape; `None` if that is not known.
 pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Option<Landing> {
     let (mold, drape) = (layup.mold.as_ref()?, layup.target.as_ref()?.drape.as_ref()?);
     let line = &contact.line;
@@ -34,7 +34,7 @@ pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Opti
         .zip(&line.points)
         .map(|(arc, point)| place(*arc).map(|ideal| distance(*point, ideal)))
         .collect();
-    let fibre_angle = (catenary < layup.ply.lines().edges()).then(|| {
+    let fiber_angle = (catenary < layup.ply.lines().edges()).then(|| {
         let ([from, to], [a, b]) = (contact.arc(), contact.point());
         let landed =
             unit(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
@@ -43,6 +43,6 @@ pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Opti
         let angle = norm(cross(landed, ideal)).atan2(dot(landed, ideal));
         Some((angle, [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))))
     });
-    let fibre_angle = fibre_angle.flatten();
-    Some(Landing { errors, fibre_angle })
+    let fiber_angle = fiber_angle.flatten();
+    Some(Landing { errors, fiber_angle })
 }

@@ -62,9 +62,9 @@ pub fn misfit(span: &FreeSpan, contact: Option<&ContactSegment>) -> Misfit {
 
 /// A segment of a catenary that does not hang: one that lies, or one of no length whose gripper has moved on.
 pub struct LyingSegment {
-    /// 0 before the contact segment, 1 after it; none for a catenary that lies whole.
+    /// 0 before the contact segment, 1 after it; `None` for a catenary that lies whole.
     pub which: Option<usize>,
-    /// Its slack or overstretch.
+    /// Slack or overstretch.
     pub misfit: Misfit,
     /// The taut line between its ends, from first to last.
     pub line: SurfaceCurve,
@@ -117,7 +117,7 @@ pub fn lying_segments(
 }
 
 /// The taut line before (0) or after (1) a contact segment that ends at `end`, from first to last, and the surface point
-/// that its gripper stands on; none for a gripper farther from the mold than `tolerance` (m), which pulls straight.
+/// that its gripper stands on; `None` for a gripper farther from the mold than `tolerance` (m), which pulls straight.
 #[must_use]
 pub fn taut(
     which: usize,

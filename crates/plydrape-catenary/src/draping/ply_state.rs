@@ -99,7 +99,7 @@ fn lines(step: &SolvedStep, detail: Detail) -> Vec<LineState> {
         LineState {
             lies: true,
             bridge: bridge.map(|bridge| (bridge.gap, bridge.place)),
-            fiber_angle: landing.and_then(|landing| landing.fibre_angle.map(|(angle, _)| angle)),
+            fiber_angle: landing.and_then(|landing| landing.fiber_angle.map(|(angle, _)| angle)),
             ..line
         }
     };

@@ -117,7 +117,7 @@ fn the_forces_on_rigid_grippers_balance_the_weight_of_the_hanging_ply() {
     assert!(sum(0).abs() < 1e-9 && sum(1).abs() < 1e-9);
 }
 
-/// A search and a record judge one ply: what the search is told is what the record is told, but for the shapes of spans and, before the
+/// A search and a record judge one ply: the search has the same values as the record, but for the shapes of spans and, before the
 /// last step, how the ply has landed.
 #[test]
 fn a_search_sees_the_ply_that_is_recorded() {

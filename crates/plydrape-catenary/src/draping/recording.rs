@@ -129,11 +129,11 @@ fn lying_state(LyingSegment { which, misfit, line }: &LyingSegment) -> SpanState
 
 fn contact_state(contact: &ContactSegment, landing: Option<&Landing>) -> ContactState {
     let errors = |landing: &Landing| landing.errors.iter().map(|e| e.map(|e| e * 1e3)).collect();
-    let angle = landing.and_then(|landing| landing.fibre_angle);
+    let angle = landing.and_then(|landing| landing.fiber_angle);
     ContactState {
         points: contact.line.points.clone(),
         arc: contact.line.arc.clone(),
         landing_error_mm: landing.map(errors),
-        fibre_angle_deg: angle.map(|(angle, _)| angle.to_degrees()),
+        fiber_angle_deg: angle.map(|(angle, _)| angle.to_degrees()),
     }
 }

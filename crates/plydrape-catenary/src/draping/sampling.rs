@@ -189,7 +189,7 @@ impl Sampling<'_> {
     /// Whether a touch may hide around a station, between the stations beside it.
     fn may_hide(&self, n: usize, places: &[Point; STATIONS], tolerance: f64) -> bool {
         let [before, here, after] = [self.gaps[n - 1], self.gaps[n], self.gaps[n + 1]];
-        // between stations a curve goes down by no more than its neighbours rise
+        // between stations a curve goes down by no more than its neighbors rise
         let reach = 2.0 * here.least - before.most.max(after.most);
         let is_lowest = here.least <= before.most && here.least <= after.most && reach < tolerance;
         // nor by more than it is long, for which twice the chord is ample

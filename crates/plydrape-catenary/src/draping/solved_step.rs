@@ -52,12 +52,12 @@ impl<'a> SolvedStep<'a> {
     pub fn attitudes(&self) -> &[Attitude] {
         self.attitudes.get_or_init(|| {
             let (ply, positions) = (&self.layup.ply, &self.snapshot.positions);
-            let neighbours = if ply.grid == Grid::NONE { ply.neighbours() } else { Vec::new() };
+            let neighbors = if ply.grid == Grid::NONE { ply.neighbors() } else { Vec::new() };
             let before = |n: usize| self.before.map(|before| before[n]);
             let tolerance = self.layup.settings.contact.tolerance;
             // the ply turns a pad, and the mold does where it has come to it
             let turned = |n: usize| {
-                let own = attitude(self.solver, ply, &neighbours, positions, n, before(n));
+                let own = attitude(self.solver, ply, &neighbors, positions, n, before(n));
                 let Some(mold) = &self.layup.mold else { return own };
                 let closest = mold.closest_point(positions[n]);
                 if closest.beyond || closest.normal[2] <= 0.0 {

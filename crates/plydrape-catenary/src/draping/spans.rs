@@ -14,15 +14,15 @@ pub struct FreeSpan {
     pub catenary: usize,
     /// 0 for a whole catenary or the free segment before the contact segment, 1 for the free segment after it.
     pub segment: usize,
-    /// The element of the solver's problem that it is; none for a line that a stretched diagonal draws.
+    /// The element of the solver's problem that it is; `None` for a line that a stretched diagonal draws.
     pub element: Option<usize>,
-    /// Its ends (m).
+    /// Ends (m).
     pub ends: [Point; 2],
     /// Fabric length (m).
     pub length: f64,
     /// Fabric arc length of its first end from the first gripper (m).
     pub start: f64,
-    /// Its closed form; none for a straight line.
+    /// Closed form; `None` for a straight line.
     pub profile: Option<Profile>,
     /// Length of that curve (m), once it has been evaluated.
     pub curve: OnceLock<f64>,
@@ -70,7 +70,7 @@ impl FreeSpan {
         if run > 0.0 { [(b[0] - a[0]) / run, (b[1] - a[1]) / run] } else { [0.0; 2] }
     }
 
-    /// Its point at a fraction `t` of its run (m).
+    /// Point at a fraction `t` of its run (m).
     #[must_use]
     pub fn point(&self, t: f64) -> Point {
         let [a, b] = self.ends;
@@ -81,7 +81,7 @@ impl FreeSpan {
         }
     }
 
-    /// Its points (m) at `N` stations at equal shares of its run, both ends included: to rounding as from
+    /// Points (m) at `N` stations at equal shares of its run, both ends included: to rounding as from
     /// [`FreeSpan::point`], in a fraction of the time.
     #[must_use]
     pub fn stations<const N: usize>(&self) -> [Point; N] {
@@ -148,14 +148,14 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Horizontal force (N) of each free span; none of a stretched diagonal or of a straight span.
+    /// Horizontal force (N) of each free span; `None` for a stretched diagonal or a straight span.
     pub fn forces(&self) -> impl Iterator<Item = Option<f64>> {
         self.spans.iter().map(|span| span.force)
     }
 
     /// The ply that a solver has just solved, at the positions (m) and contact segments that it solved for.
     #[must_use]
-    pub fn of(
+    pub fn new(
         ply: &Ply,
         solver: &Solver,
         solved: Solved,

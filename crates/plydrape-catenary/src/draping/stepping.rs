@@ -70,7 +70,7 @@ impl<'a> Draping<'a> {
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
         }
-        Equilibrium::of(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
+        Equilibrium::new(&self.layup.ply, &self.solver, equilibrium, positions, &self.contacts)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.
@@ -153,7 +153,7 @@ impl<'a> Draping<'a> {
                 part *= 0.5;
                 continue;
             }
-            // a fibre that jumps so far penetrates the mold, which has a limit; a diagonal is no fibre
+            // a fiber that jumps so far penetrates the mold, which has a limit; a diagonal is no fiber
             if deep.is_some_and(|catenary| catenary < self.lines.edges()) {
                 self.contact_status = ContactStatus::CutLimit;
                 self.note_depth(&shape, &gaps);
@@ -232,7 +232,7 @@ impl<'a> Draping<'a> {
         let cell = &self.lines.cells()[cells.clone().next()?];
         let sides = cell.trellis.map(|side| side * self.layup.ply.length_factor);
         let sign = if self.lines.catenary(catenary).kind == Kind::Rising { 1.0 } else { -1.0 };
-        Some(Diagonal { sides, fibres: cell.fibres, shear, sign })
+        Some(Diagonal { sides, fibers: cell.fibers, shear, sign })
     }
 
     /// Updates the contact of every span once; true if it has changed.

@@ -2,7 +2,7 @@
 
 /// Tolerances and limits of contact, steps and what is handed over.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tuning {
+pub(crate) struct DrapingTuning {
     /// Depth from which a span penetrates the mold, as a share of the contact tolerance. 1e-3: above the rounding of a
     /// distance, and far below a depth that is seen.
     pub penetration: f64,
@@ -37,7 +37,7 @@ pub(crate) struct Tuning {
 }
 
 /// The constants in use.
-pub(crate) const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: DrapingTuning = DrapingTuning {
     penetration: 1e-3,
     contact_stretch: 1e-4,
     smallest_cut: 1.0 / 256.0,

@@ -75,7 +75,7 @@ impl Shape {
         self.place(panel, t)
     }
 
-    /// Places [x, z] at equal arc lengths from end to end (m): the corners of so many straight pieces. In one
+    /// Places [x, z] at equal arc lengths from end to end (m): the corners of this many straight pieces. In one
     /// pass and by Simpson's rule, so it is for many pieces; [`Self::at`] is as exact as the solution.
     #[must_use]
     pub fn polyline(&self, pieces: usize) -> Vec<[f64; 2]> {
@@ -113,7 +113,7 @@ impl Shape {
         self.angle.iter().all(|angle| angle.abs() < std::f64::consts::FRAC_PI_2)
     }
 
-    /// Arc length where the strip is at a horizontal distance `x` from its first end (m); none beyond the ends, or where it
+    /// Arc length where the strip is at a horizontal distance `x` from its first end (m); `None` beyond the ends, or where it
     /// has several heights there ([`Shape::is_graph`]).
     #[must_use]
     pub fn arc(&self, x: f64) -> Option<f64> {

@@ -18,7 +18,7 @@ use crate::catenary::EndCondition;
 
 /// Solution and problem of a strip of unit length and weight.
 #[derive(Debug, Clone)]
-struct State {
+struct StripState {
     /// θ at the nodes (rad).
     angle: Vec<f64>,
     /// Horizontal force, and vertical force at the second end.
@@ -37,7 +37,7 @@ struct Goal<'a> {
     blend: (f64, f64),
     /// θ at each end that is held (rad).
     held: [Option<f64>; 2],
-    /// Run and rise; none where the second end hangs.
+    /// Run and rise; `None` where the second end hangs.
     ends: Option<[f64; 2]>,
 }
 
@@ -84,7 +84,7 @@ impl HeavyStrip {
         });
         let panels = Panels::new(|s| flexible.angle(s), layers);
         let angle = (0..panels.nodes()).map(|n| flexible.angle(panels.place(n))).collect();
-        let start = State { angle, force: [flexible.horizontal, flexible.vertical_end] };
+        let start = StripState { angle, force: [flexible.horizontal, flexible.vertical_end] };
         let scale = [length, self.weight * length * length];
         if rigidity == 0.0 {
             return Ok(Shape::new(panels, start.angle, start.force, &self.bending, scale));
@@ -141,7 +141,7 @@ impl Cantilever {
         let cube = self.weight * self.length.powi(3);
         let layer = (self.bending.least_rigidity() / cube).cbrt();
         let panels = Panels::new(|_| self.angle, [layer, 1.0]);
-        let start = State { angle: vec![self.angle; panels.nodes()], force: [0.0; 2] };
+        let start = StripState { angle: vec![self.angle; panels.nodes()], force: [0.0; 2] };
         let stiffer = (TUNING.stiff * cube / rigidity).max(1.0);
         let scale = [self.length, self.weight * self.length * self.length];
         let goal = |share: f64| Goal {
@@ -176,7 +176,7 @@ fn sound(bending: &Bending) -> Result<(), Error> {
 }
 
 /// Follows the solution from a start that all but solves `goal(0)` to `goal(1)`; steps are halved where Newton's method fails.
-fn continued<'a>(start: State, goal: impl Fn(f64) -> Goal<'a>) -> Result<State, Error> {
+fn continued<'a>(start: StripState, goal: impl Fn(f64) -> Goal<'a>) -> Result<StripState, Error> {
     let mut state = goal(0.0).newton(&start).ok_or(Error::StripNotFound { reached: 0.0 })?;
     let (mut reached, mut step) = (0.0, TUNING.steps[0]);
     while reached < 1.0 {
@@ -194,8 +194,8 @@ fn continued<'a>(start: State, goal: impl Fn(f64) -> Goal<'a>) -> Result<State, 
 }
 
 impl Goal<'_> {
-    /// Newton's method from a state; none where it does not converge, or ends in a loop.
-    fn newton(&self, from: &State) -> Option<State> {
+    /// Newton's method from a state; `None` where it does not converge, or ends in a loop.
+    fn newton(&self, from: &StripState) -> Option<StripState> {
         let mut state = from.clone();
         let size = self.panels.nodes();
         for (end, node) in [(0, 0), (1, size - 1)] {
@@ -264,7 +264,7 @@ impl Goal<'_> {
     /// miss of their places.
     fn assemble(
         &self,
-        state: &State,
+        state: &StripState,
         matrix: &mut Band,
         columns: &mut [Vec<f64>; 3],
         missing: &mut [f64; 2],

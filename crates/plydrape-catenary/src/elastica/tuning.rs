@@ -2,7 +2,7 @@
 
 /// Every tuning constant.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Tuning {
+pub(super) struct ElasticaTuning {
     /// Widest panel.
     pub panel: f64,
     /// Largest turn of the flexible catenary in a panel (rad): the polynomials follow it to about 1e-11.
@@ -27,7 +27,7 @@ pub(super) struct Tuning {
     pub slack: f64,
 }
 
-pub(super) const TUNING: Tuning = Tuning {
+pub(super) const TUNING: ElasticaTuning = ElasticaTuning {
     panel: 0.125,
     turn: 0.4,
     layer: 2.0,

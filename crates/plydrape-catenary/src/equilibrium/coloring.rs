@@ -50,7 +50,7 @@ impl Coloring {
     }
 
     /// The gripper of a group that is near a cell or line that begins at a gripper, and whether it is as far as that can
-    /// be; none beyond the boundary.
+    /// be; `None` beyond the boundary.
     pub fn near(&self, group: usize, [i, j]: GripperId) -> Option<(usize, bool)> {
         let [u, v] = self.strides();
         let (i, far_u) = self.along(i, group % u, self.grid.nu)?;
@@ -59,7 +59,7 @@ impl Coloring {
         Some((self.grid.index([i, j]), far_u || far_v))
     }
 
-    /// The same along one of both directions, with so many grippers.
+    /// As [`Self::near`], along one direction with `count` grippers.
     fn along(&self, corner: usize, first: usize, count: usize) -> Option<(usize, bool)> {
         let stride = 2 * self.reach + 2;
         if count <= stride {

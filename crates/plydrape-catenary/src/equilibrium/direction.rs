@@ -31,9 +31,9 @@ pub enum Property {
 }
 
 impl Property {
-    /// Those that a material has.
+    /// The properties of a material.
     #[must_use]
-    pub fn of(material: &Material) -> &'static [Property] {
+    pub fn of_material(material: &Material) -> &'static [Property] {
         match material.section {
             Section::Line { .. } => &[Property::Mass, Property::FlexuralRigidity],
             Section::Areal { .. } => {
@@ -42,7 +42,7 @@ impl Property {
         }
     }
 
-    /// Its key in a scene file.
+    /// Key in a scene file.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {

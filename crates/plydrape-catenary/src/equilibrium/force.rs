@@ -4,7 +4,7 @@
 //! Its derivatives follow from those of C: `H_x = −C_x/C_H` and, differentiating once more,
 //! `H_xy = −(C_xy + C_Hx H_y + C_Hy H_x + C_HH H_x H_y)/C_H`.
 
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 use crate::catenary::{Excess, Jet, Profile, Span, Variable, compose, power, product, variable};
 
 /// What is needed of an element beside its force.
@@ -190,7 +190,7 @@ pub fn evaluate<const N: usize, const M: usize>(
     span: &Span,
     force: Option<f64>,
     needs: Needs,
-    tuning: &Tuning,
+    tuning: &EquilibriumTuning,
 ) -> Evaluated<M> {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
@@ -251,7 +251,7 @@ pub fn evaluate_still(
     span: &Span,
     force: Option<f64>,
     needs: Needs,
-    tuning: &Tuning,
+    tuning: &EquilibriumTuning,
 ) -> Evaluated<2> {
     let mut out = Evaluated::default();
     (out.force.value, out.length_residual) = meet_length(span, force, tuning);
@@ -266,7 +266,7 @@ pub fn evaluate_still(
 
 /// The force (N) that gives a span its length, from one close to it (`None`: from scratch), and the measured
 /// relative error of the length: at that force, or one contracting step before it.
-pub fn meet_length(span: &Span, force: Option<f64>, tuning: &Tuning) -> (f64, f64) {
+pub fn meet_length(span: &Span, force: Option<f64>, tuning: &EquilibriumTuning) -> (f64, f64) {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
     let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
@@ -298,7 +298,7 @@ pub fn length_residual(span: &Span, force: f64) -> f64 {
 }
 
 /// A force close enough to start from, by a few cheap steps from a guess.
-fn approach(span: &Span, guess: f64, tuning: &Tuning) -> f64 {
+fn approach(span: &Span, guess: f64, tuning: &EquilibriumTuning) -> f64 {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let mut h = guess;
     for _ in 1..tuning.force_steps {

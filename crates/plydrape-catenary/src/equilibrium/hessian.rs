@@ -8,7 +8,7 @@ use super::problem::{End, Problem, SlopeSource};
 use super::rule::{Iterate, Step};
 use super::state::State;
 use super::status::EarlyEnds;
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 
 /// The Hessian at a state, and buffers.
 #[derive(Debug, Clone, Default)]
@@ -74,7 +74,7 @@ impl Hessian {
         right: &[f64],
         active: &[bool],
         tolerance: f64,
-        tuning: &Tuning,
+        tuning: &EquilibriumTuning,
         early_ends: &mut EarlyEnds,
         out: &mut [f64],
     ) -> bool {

@@ -12,7 +12,7 @@ use super::problem::{End, Problem, SlopeSource};
 use super::rule::{Iterate, Response, Rule, Step, Trial};
 use super::state::State;
 use super::status::EarlyEnds;
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 use num_dual::Dual64;
 
 /// The rule of least forces.
@@ -48,19 +48,24 @@ impl Rule for MinForce {
 
     fn step(&mut self, from: &Iterate, step: &mut Step) {
         // looser far away: a Newton step is worth no more digits than it will have
-        let Tuning { few_unknowns, linear_exact, linear_share, .. } = *from.tuning;
+        let EquilibriumTuning { few_unknowns, linear_exact, linear_share, .. } = *from.tuning;
         let [least, most] = from.tuning.linear_tolerance;
         let few = from.slopes.len() <= few_unknowns;
         let loose = (linear_share * from.last_step).clamp(least, most);
         self.hessian.bounded_step(from, if few { linear_exact } else { loose }, step);
     }
 
-    fn improves(&self, trial: &Trial, tuning: &Tuning) -> bool {
+    fn improves(&self, trial: &Trial, tuning: &EquilibriumTuning) -> bool {
         let ([before, after], [promise, _]) = (trial.merit, trial.work);
         after <= before + tuning.decrease * promise + tuning.objective_rounding * before
     }
 
-    fn respond(&mut self, change: &[f64], active: &[bool], tuning: &Tuning) -> (Vec<f64>, bool) {
+    fn respond(
+        &mut self,
+        change: &[f64],
+        active: &[bool],
+        tuning: &EquilibriumTuning,
+    ) -> (Vec<f64>, bool) {
         let held = change.iter().zip(active);
         let right: Vec<f64> = held.map(|(g, held)| if *held { 0.0 } else { -g }).collect();
         let (mut out, mut ends) = (vec![0.0; right.len()], EarlyEnds::default());

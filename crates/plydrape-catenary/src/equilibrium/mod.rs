@@ -39,7 +39,7 @@ pub use problem::{
 pub use sensitivity::{Linearized, StateTangent};
 pub use solver::Solver;
 pub use status::{EarlyEnds, Solved, Status};
-pub use tuning::Tuning;
+pub use tuning::EquilibriumTuning;
 
 use num_dual::DualNum;
 

@@ -9,7 +9,7 @@ use super::Number;
 use super::problem::{End, Problem, SharedSlope};
 use super::rule::{Iterate, Response, Rule, Step, Trial};
 use super::state::State;
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 use num_dual::Dual64;
 use std::ops::Range;
 
@@ -116,12 +116,17 @@ impl Rule for MomentBalance {
     }
 
     /// A step is good if the energy still falls at its end, or nearly stands still.
-    fn improves(&self, trial: &Trial, tuning: &Tuning) -> bool {
+    fn improves(&self, trial: &Trial, tuning: &EquilibriumTuning) -> bool {
         let [promise, uphill] = trial.work;
         uphill <= tuning.uphill * promise.abs()
     }
 
-    fn respond(&mut self, change: &[f64], active: &[bool], _: &Tuning) -> (Vec<f64>, bool) {
+    fn respond(
+        &mut self,
+        change: &[f64],
+        active: &[bool],
+        _: &EquilibriumTuning,
+    ) -> (Vec<f64>, bool) {
         let mut out = vec![0.0; change.len()];
         let stable = self.solve(change, active, 0.0, &mut out);
         (out, stable)

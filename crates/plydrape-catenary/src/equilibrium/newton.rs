@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::rule::{Iterate, Rule, Step, Trial};
 use super::state::State;
 use super::status::{EarlyEnds, Solved, Status};
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 
 /// How far the iteration goes along each Newton step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl Newton {
         state: &mut State,
         bound: f64,
         step_length: StepLength,
-        tuning: &Tuning,
+        tuning: &EquilibriumTuning,
     ) -> Solved {
         let count = problem.shared_slopes().len();
         self.residual.resize(count, 0.0);
@@ -76,7 +76,7 @@ impl Newton {
         state: &mut State,
         bound: f64,
         step_length: StepLength,
-        tuning: &Tuning,
+        tuning: &EquilibriumTuning,
     ) -> (Status, usize, f64) {
         let mut merit = self.evaluate(rule, problem, state);
         if state.slopes().is_empty() {

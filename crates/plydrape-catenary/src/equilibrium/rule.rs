@@ -8,7 +8,7 @@ use super::force::Evaluated;
 use super::problem::Problem;
 use super::state::State;
 use super::status::EarlyEnds;
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 use num_dual::Dual64;
 use std::ops::Range;
 
@@ -52,7 +52,7 @@ pub struct Iterate<'a> {
     /// Largest change of a slope in the step before; infinite in the first.
     pub last_step: f64,
     /// Constants of the method.
-    pub tuning: &'a Tuning,
+    pub tuning: &'a EquilibriumTuning,
 }
 
 /// A step of the slopes.
@@ -100,9 +100,14 @@ pub trait Rule {
     fn step(&mut self, from: &Iterate, step: &mut Step);
 
     /// Whether a step has led to a better state.
-    fn improves(&self, trial: &Trial, tuning: &Tuning) -> bool;
+    fn improves(&self, trial: &Trial, tuning: &EquilibriumTuning) -> bool;
 
     /// Answer of the slopes to a change of R: −R_s⁻¹ `change`, active slopes held. Also whether there is one: where
     /// R_s is not positive the state is no strict minimum, or not stable, and the slopes have no derivative.
-    fn respond(&mut self, change: &[f64], active: &[bool], tuning: &Tuning) -> (Vec<f64>, bool);
+    fn respond(
+        &mut self,
+        change: &[f64],
+        active: &[bool],
+        tuning: &EquilibriumTuning,
+    ) -> (Vec<f64>, bool);
 }

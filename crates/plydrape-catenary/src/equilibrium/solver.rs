@@ -11,7 +11,7 @@ use super::problem::{Circumstances, End, Factors, Problem, heading};
 use super::rule::Rule;
 use super::state::State;
 use super::status::{Solved, Status};
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 use super::warm_start::WarmStart;
 use crate::catenary::{Span, SpanState};
 use crate::layup::{Settings, SlopeRule};
@@ -24,7 +24,7 @@ pub struct Solver {
     ply: Ply,
     lines: Arc<Lines>,
     settings: Settings,
-    tuning: Tuning,
+    tuning: EquilibriumTuning,
     problem: Problem<f64>,
     state: State,
     rule: SceneRule,
@@ -68,7 +68,7 @@ impl Solver {
     /// A solver for a ply under the rules of a scene, without earlier solutions.
     #[must_use]
     pub fn new(ply: &Ply, settings: &Settings) -> Solver {
-        let tuning = Tuning::default();
+        let tuning = EquilibriumTuning::default();
         Solver {
             ply: ply.clone(),
             lines: ply.lines(),
@@ -85,9 +85,9 @@ impl Solver {
         }
     }
 
-    /// The same solver with other tuning constants.
+    /// This solver with other tuning constants.
     #[must_use]
-    pub fn with_tuning(mut self, tuning: Tuning) -> Solver {
+    pub fn with_tuning(mut self, tuning: EquilibriumTuning) -> Solver {
         self.tuning = tuning;
         self.state = State::new(self.settings.axial_stiffness, tuning);
         self.unconstrained = None;
@@ -96,7 +96,7 @@ impl Solver {
 
     /// The tuning constants.
     #[must_use]
-    pub(crate) fn tuning(&self) -> &Tuning {
+    pub(crate) fn tuning(&self) -> &EquilibriumTuning {
         &self.tuning
     }
 
@@ -138,7 +138,7 @@ impl Solver {
         if direct.status == Status::Converged {
             return direct;
         }
-        let Tuning { limp, mut growth, smallest_growth, .. } = self.tuning;
+        let EquilibriumTuning { limp, mut growth, smallest_growth, .. } = self.tuning;
         let mut counted = direct;
         let mut stiffened = |solver: &mut Solver, stiffness: f64| {
             solver.state_problem(positions, contacts, stiffness);
@@ -267,7 +267,7 @@ impl Solver {
         self.state.slopes()
     }
 
-    /// Horizontal force (N) of an element; none for a straight inextensible or vertical one.
+    /// Horizontal force (N) of an element; `None` for a straight inextensible or vertical one.
     #[must_use]
     pub fn force(&self, element: usize) -> Option<f64> {
         let hangs = self.problem.elements[element].state != SpanState::Straight;

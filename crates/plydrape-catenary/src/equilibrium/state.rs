@@ -6,7 +6,7 @@
 
 use super::force::{Evaluated, Needs, evaluate, evaluate_still, length_residual, meet_length};
 use super::problem::{Element, End, PlaneSlope, Problem, SlopeSource};
-use super::tuning::Tuning;
+use super::tuning::EquilibriumTuning;
 use crate::catenary::{Profile, SpanState};
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ use std::ops::Range;
 pub struct Evaluation {
     /// Slopes that hold both ends; a free end's is its outcome once lengths are measured. NaN where unknown.
     pub held: [f64; 2],
-    /// Its force with the derivatives.
+    /// Force with the derivatives.
     pub found: Evaluated<2>,
     /// What it was evaluated with.
     pub known: Needs,
@@ -51,7 +51,7 @@ impl Parabola {
 #[derive(Debug, Clone)]
 pub struct State {
     axial_stiffness: f64,
-    tuning: Tuning,
+    tuning: EquilibriumTuning,
     slopes: Vec<f64>,
     elements: Vec<Evaluation>,
     needs: Vec<Needs>,
@@ -62,7 +62,7 @@ pub struct State {
 
 impl State {
     /// A state of no problem, for spans of an axial stiffness EA (N).
-    pub fn new(axial_stiffness: f64, tuning: Tuning) -> State {
+    pub fn new(axial_stiffness: f64, tuning: EquilibriumTuning) -> State {
         State {
             axial_stiffness,
             tuning,

@@ -5,7 +5,7 @@
 /// Slopes are rise over run; forces, lengths and rigidities enter only as ratios, so a ply and its scaled copy
 /// are solved alike.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct EquilibriumTuning {
     /// Shear angle (rad) from which a shearing cell's plane prescribes the slopes around it alone; below it
     /// they are mixed with those of the unconstrained ply. 3°, because the slopes at the corners of the
     /// paper's example differ by up to 33° from the plane's at the onset of shear: over 3° of shear the
@@ -67,7 +67,7 @@ pub struct Tuning {
     pub linear_iterations: usize,
     /// Unknowns counted for that limit.
     pub linear_unknowns: usize,
-    /// Unknowns up to which the linear system of a step is solved to [`Tuning::linear_exact`], because that is
+    /// Unknowns up to which the linear system of a step is solved to [`EquilibriumTuning::linear_exact`], because that is
     /// cheap.
     pub few_unknowns: usize,
     /// Relative residual of the linear system of a few unknowns.
@@ -96,9 +96,9 @@ pub struct Tuning {
     pub smallest_growth: f64,
 }
 
-impl Default for Tuning {
+impl Default for EquilibriumTuning {
     fn default() -> Self {
-        Tuning {
+        EquilibriumTuning {
             full_constraint: 3f64.to_radians(),
             vertical_run: 1e-3,
             upright_plane: 1e-6,

@@ -1,7 +1,7 @@
 //! A span and the mold: its distance, its position error, and the slope at which it leaves the mold.
 
 use super::tuning::TUNING;
-use super::{Place, Quantity, Sensitivity};
+use super::{PointDerivative, Quantity, Sensitivity};
 use crate::draping::fabric;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::geometry::vector::{along, dot, sub};
@@ -17,7 +17,7 @@ impl Sensitivity<'_> {
         sub(point, closest.point).map(|c| c / closest.distance)
     }
 
-    /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; none without a mold. At a
+    /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; `None` without a mold. At a
     /// minimum along the span the gradient is that of the smallest distance.
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
@@ -27,7 +27,7 @@ impl Sensitivity<'_> {
         Some(Quantity { value: closest.distance, ..slope })
     }
 
-    /// Where the ideal drape has a span's fabric at a share of its length (m); none where it is not known.
+    /// Where the ideal drape has a span's fabric at a share of its length (m); `None` where it is not known.
     #[must_use]
     pub fn ideal(&self, span: &FreeSpan, share: f64) -> Option<Point> {
         let (mold, target) = (self.layup.mold.as_ref()?, self.layup.target.as_ref()?);
@@ -40,10 +40,10 @@ impl Sensitivity<'_> {
     /// Position error (m): from the ideal place of a span's fabric at a share of its length to where it is; its x and
     /// y are the error in plan. None where the ideal drape does not know the place.
     #[must_use]
-    pub fn landing(&self, span: &FreeSpan, share: f64) -> Option<Place> {
+    pub fn landing(&self, span: &FreeSpan, share: f64) -> Option<PointDerivative> {
         let ideal = self.ideal(span, share)?;
         let place = self.fabric_place(span, share);
-        Some(Place { point: sub(place.point, ideal), ..place })
+        Some(PointDerivative { point: sub(place.point, ideal), ..place })
     }
 
     /// Slope by which a span leaves the mold at one of its ends, outward from there: the ply's minus the

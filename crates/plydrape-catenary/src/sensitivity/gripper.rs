@@ -9,7 +9,7 @@ use num_dual::{Dual64, DualNum};
 use std::collections::BTreeSet;
 
 impl Sensitivity<'_> {
-    /// Shear angle γ of a cell (rad); none while it does not shear.
+    /// Shear angle γ of a cell (rad); `None` while it does not shear.
     #[must_use]
     pub fn shear(&self, cell: usize) -> Option<Quantity> {
         let path = self.paths[cell].as_ref()?;
@@ -23,7 +23,7 @@ impl Sensitivity<'_> {
         Some(Quantity { value, gradient })
     }
 
-    /// Distance of a gripper from the mold (m); none without a mold.
+    /// Distance of a gripper from the mold (m); `None` without a mold.
     #[must_use]
     pub fn clearance(&self, gripper: usize) -> Option<Quantity> {
         let point = self.positions[gripper];
@@ -54,11 +54,11 @@ impl Sensitivity<'_> {
         let mut columns: BTreeSet<usize> =
             slopes.flat_map(|slope| slope.gradient.entries().map(|(column, _)| column)).collect();
         let lines = self.layup.ply.lines();
-        for neighbour in [0, 1].map(|d| lines.neighbours(gripper, d)).as_flattened() {
-            columns.extend(3 * neighbour..3 * neighbour + 3);
+        for neighbor in [0, 1].map(|d| lines.neighbors(gripper, d)).as_flattened() {
+            columns.extend(3 * neighbor..3 * neighbor + 3);
         }
-        for (neighbour, _) in self.neighbour_shares(gripper).into_iter().flatten().flatten() {
-            columns.extend(3 * neighbour..3 * neighbour + 3);
+        for (neighbor, _) in self.neighbor_shares(gripper).into_iter().flatten().flatten() {
+            columns.extend(3 * neighbor..3 * neighbor + 3);
         }
         columns.extend(3 * gripper..3 * gripper + 3);
         let along = |column: usize| (column, self.tilt_along(gripper, Some(column)).eps);
@@ -68,11 +68,11 @@ impl Sensitivity<'_> {
 
     /// What says how a gripper is tilted along u and v where no fiber line runs through it in one of them; see
     /// [`crate::draping::attitude::attitude`].
-    fn neighbour_shares(&self, gripper: usize) -> Option<[Vec<(usize, f64)>; 2]> {
+    fn neighbor_shares(&self, gripper: usize) -> Option<[Vec<(usize, f64)>; 2]> {
         let ply = &self.layup.ply;
         let is_by_lines =
             ply.grid != Grid::NONE || self.slopes[gripper].iter().all(Option::is_some);
-        (!is_by_lines).then(|| tangent_shares(ply, &ply.neighbours(), gripper))
+        (!is_by_lines).then(|| tangent_shares(ply, &ply.neighbors(), gripper))
     }
 
     fn tilt_along(&self, gripper: usize, column: Option<usize>) -> Dual64 {
@@ -82,14 +82,14 @@ impl Sensitivity<'_> {
         };
         let lines = self.layup.ply.lines();
         let heading = |d: usize| {
-            let [before, after] = lines.neighbours(gripper, d);
+            let [before, after] = lines.neighbors(gripper, d);
             let [x, y] = [0, 1].map(|n| position(after, n) - position(before, n));
             let square = x * x + y * y;
             (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))
         };
         let (one, zero) = (Dual64::from(1.0), Dual64::from(0.0));
-        let shares = self.neighbour_shares(gripper);
-        let by_neighbours = |d: usize| {
+        let shares = self.neighbor_shares(gripper);
+        let by_neighbors = |d: usize| {
             let shares = shares.as_ref().map(|shares| &shares[d]).filter(|way| !way.is_empty())?;
             Some([0, 1, 2].map(|axis| {
                 let here = position(gripper, axis);
@@ -102,7 +102,7 @@ impl Sensitivity<'_> {
             let [x, y] = heading(d)?;
             Some([x, y, Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.at(c)))])
         };
-        let [u, v] = [0, 1].map(|d| by_line(d).or_else(|| by_neighbours(d)));
+        let [u, v] = [0, 1].map(|d| by_line(d).or_else(|| by_neighbors(d)));
         // across a single line it is level
         let u = u.or_else(|| v.map(|[x, y, _]| [y, -x, zero])).unwrap_or([one, zero, zero]);
         let v = v.unwrap_or([-u[1], u[0], zero]);

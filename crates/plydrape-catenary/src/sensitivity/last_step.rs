@@ -18,9 +18,9 @@ pub struct LastStep {
     /// Taut path of each catenary's tightest segment minus its fabric length (m), negative where it is slack: straight
     /// where it hangs, along the mold where it lies. The derivative of a lying path is a central difference of its length.
     pub overstretch: Vec<Quantity>,
-    /// Horizontal force (N) of each catenary's span that pulls or pushes most; none where there is none.
+    /// Horizontal force (N) of each catenary's span that pulls or pushes most; `None` where there is none.
     pub force: Vec<Option<Quantity>>,
-    /// Shear angle of each cell (rad); none where it does not shear.
+    /// Shear angle of each cell (rad); `None` where it does not shear.
     pub shear: Vec<Option<Quantity>>,
     /// Angle between the ply's normal at each gripper and the vertical (rad).
     pub tilt: Vec<Quantity>,

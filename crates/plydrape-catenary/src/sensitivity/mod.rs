@@ -21,13 +21,13 @@ pub mod tuning;
 
 pub use last_step::LastStep;
 pub use row::Row;
-pub use span::Place;
+pub use span::PointDerivative;
 
 use crate::draping::spans::{Equilibrium, FreeSpan, Point};
 use crate::equilibrium::Solver;
 use crate::layup::Layup;
 use crate::ply::ContactSegment;
-use state::State;
+use state::StateDerivatives;
 use tuning::TUNING;
 
 /// A number with its gradient to all gripper positions.
@@ -62,7 +62,7 @@ pub struct Sensitivity<'a> {
 impl<'a> Sensitivity<'a> {
     /// Differentiates the last state of a solver: `shape` are its spans, `positions` (m) and `contacts`
     /// those with which it was solved. Derivatives that are negligible beside others of the same quantity are left out, see
-    /// [`tuning::Tuning`], so that the memory and the directions that it takes grow with the number of
+    /// [`tuning::SensitivityTuning`], so that the memory and the directions that it takes grow with the number of
     /// grippers and not with its square.
     #[must_use]
     pub fn new(
@@ -76,7 +76,7 @@ impl<'a> Sensitivity<'a> {
         Self::without(negligible, layup, solver, shape, positions, contacts)
     }
 
-    /// The same with every derivative. Its memory and time grow with the square of the number of grippers.
+    /// All derivatives, without leaving out small ones. Memory and time grow with the square of the number of grippers.
     #[must_use]
     pub fn whole(
         layup: &'a Layup,
@@ -97,8 +97,8 @@ impl<'a> Sensitivity<'a> {
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let State { rows, paths, slopes, is_sound } =
-            State::new(&layup.ply, solver, positions, contacts, negligible);
+        let StateDerivatives { rows, paths, slopes, is_sound } =
+            StateDerivatives::new(&layup.ply, solver, positions, contacts, negligible);
         Sensitivity { layup, shape, positions, contacts, rows, paths, slopes, is_sound }
     }
 
@@ -113,7 +113,7 @@ impl<'a> Sensitivity<'a> {
         &self.rows[element][row]
     }
 
-    /// The gripper that holds an end of a span; none where the mold does.
+    /// The gripper that holds an end of a span; `None` where the mold does.
     #[must_use]
     pub fn gripper_at(&self, span: &FreeSpan, end: usize) -> Option<usize> {
         let whole = self.contacts[span.catenary].is_none();

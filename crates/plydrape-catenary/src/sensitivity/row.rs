@@ -9,7 +9,7 @@ pub struct Row {
 impl Row {
     /// The row without its zeros.
     #[must_use]
-    pub fn of(dense: &[f64]) -> Self {
+    pub fn from_dense(dense: &[f64]) -> Self {
         dense.iter().copied().enumerate().filter(|(_, x)| *x != 0.0).collect()
     }
 
@@ -83,7 +83,7 @@ impl Row {
         self.entries.iter_mut().for_each(|(_, x)| *x *= factor);
     }
 
-    /// Its product with a vector.
+    /// Product with a vector.
     #[must_use]
     pub fn dot(&self, x: &[f64]) -> f64 {
         self.entries().map(|(place, y)| y * x[place]).sum()
@@ -124,8 +124,8 @@ mod tests {
     #[test]
     fn sparse_rows_add_and_multiply_as_dense_ones() {
         let [a, b] = [[0.0, 2.0, 0.0, -1.0, 0.5], [3.0, 0.0, 0.0, 4.0, 0.0]];
-        let mut sum = Row::of(&a);
-        sum.add(0.5, &Row::of(&b));
+        let mut sum = Row::from_dense(&a);
+        sum.add(0.5, &Row::from_dense(&b));
         assert_eq!(sum.dense(5), [1.5, 2.0, 0.0, 1.0, 0.5]);
         assert_eq!((sum.count(), sum.at(2), sum.at(3)), (4, 0.0, 1.0));
         sum.add_from(1, 2.0, [1.0, 0.0, 1.0]);
@@ -134,6 +134,6 @@ mod tests {
         assert_eq!(sum.dot(&[1.0, 1.0, 9.0, -1.0, 2.0]), 7.0);
         sum.trim(0.5);
         assert_eq!(sum.dense(5), [0.0, 8.0, 0.0, 6.0, 0.0]);
-        assert_eq!(Row::of(&sum.dense(5)), sum);
+        assert_eq!(Row::from_dense(&sum.dense(5)), sum);
     }
 }

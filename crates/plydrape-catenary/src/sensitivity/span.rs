@@ -14,15 +14,15 @@ use crate::geometry::vector::{along, dot, sub, unit};
 
 /// A point with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct PointDerivative {
     /// The point (m).
     pub point: Point,
     /// Derivatives of x, y and z, each as in [`Quantity::gradient`].
     pub gradient: [Row; 3],
 }
 
-impl Place {
-    /// Its part along a fixed direction (m).
+impl PointDerivative {
+    /// Part along a fixed direction (m).
     #[must_use]
     pub fn along(&self, direction: [f64; 3]) -> Quantity {
         let mut gradient = Row::default();
@@ -49,7 +49,7 @@ impl Sensitivity<'_> {
         Some((span.profile.as_ref()?, span.element?))
     }
 
-    /// Horizontal force (N); none where the model gives none.
+    /// Horizontal force (N); `None` where the model gives none.
     #[must_use]
     pub fn force(&self, span: &FreeSpan) -> Option<Quantity> {
         let (value, element) = (span.force?, span.element?);
@@ -108,9 +108,9 @@ impl Sensitivity<'_> {
         Quantity { value, gradient }
     }
 
-    /// Its point at a fixed fraction `t` of its run (m).
+    /// Point at a fixed fraction `t` of its run (m).
     #[must_use]
-    pub fn place(&self, span: &FreeSpan, t: f64) -> Place {
+    pub fn place(&self, span: &FreeSpan, t: f64) -> PointDerivative {
         let mut gradient: [Row; 3] = Default::default();
         let hanging = self.hanging(span);
         for (end, share) in [(0, 1.0 - t), (1, t)] {
@@ -131,12 +131,12 @@ impl Sensitivity<'_> {
             let height = self.chain(element, &profile.stations().height(t));
             gradient[2].add(1.0, &height);
         }
-        Place { point: span.point(t), gradient }
+        PointDerivative { point: span.point(t), gradient }
     }
 
-    /// Its point at a fixed share of its fabric from its first end (m).
+    /// Point at a fixed share of its fabric from its first end (m).
     #[must_use]
-    pub fn fabric_place(&self, span: &FreeSpan, share: f64) -> Place {
+    pub fn fabric_place(&self, span: &FreeSpan, share: f64) -> PointDerivative {
         let t = fraction(span, share);
         let mut place = self.place(span, t);
         let Some((profile, element)) = self.hanging(span) else {

@@ -8,8 +8,8 @@ use crate::geometry::Point;
 use crate::ply::{ContactSegment, GripperId, Ply};
 
 /// The derivatives of a state to all gripper positions.
-pub(super) struct State {
-    /// Those of each element's force (N), end slopes, run, rise and length (m).
+pub(super) struct StateDerivatives {
+    /// Derivatives of each element's force (N), end slopes, run, rise and length (m).
     pub rows: Vec<[Row; ROWS]>,
     /// Taut path of each cell's stretched diagonal (m), if any.
     pub paths: Vec<Option<Quantity>>,
@@ -19,7 +19,7 @@ pub(super) struct State {
     pub is_sound: bool,
 }
 
-impl State {
+impl StateDerivatives {
     /// Differentiates the last state of a solver. Numbers smaller than a share `negligible` of the largest in a row are
     /// left out; with 0 there are all.
     pub fn new(
@@ -158,7 +158,7 @@ impl Gathered {
         })
     }
 
-    fn finish(self, solver: &Solver, positions: &[Point], is_sound: bool) -> State {
+    fn finish(self, solver: &Solver, positions: &[Point], is_sound: bool) -> StateDerivatives {
         let problem = solver.problem();
         let mut kinds = self.kinds.into_iter().map(|rows| {
             let finish = |row: Gathering| row.finish(self.negligible);
@@ -179,6 +179,6 @@ impl Gathered {
         };
         let slopes = along_u.zip(along_v).enumerate();
         let slopes = slopes.map(|(n, (u, v))| [slope(n, 0, u), slope(n, 1, v)]).collect();
-        State { rows, paths, slopes, is_sound }
+        StateDerivatives { rows, paths, slopes, is_sound }
     }
 }

@@ -63,11 +63,11 @@ fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
     };
     let positions: Vec<[f64; 3]> = (0..ply.grippers()).map(place).collect();
     let layup = Layup { ply, mold: None, target: None, ..layup };
-    let neighbours = layup.ply.neighbours();
+    let neighbors = layup.ply.neighbors();
     let tilts = |positions: &[[f64; 3]]| -> Vec<f64> {
         let mut draping = Draping::new(&layup);
         draping.move_to(positions);
-        let of = |n| attitude(&draping.solver, &layup.ply, &neighbours, positions, n, None).tilt;
+        let of = |n| attitude(&draping.solver, &layup.ply, &neighbors, positions, n, None).tilt;
         (0..positions.len()).map(of).collect()
     };
     let mut draping = Draping::new(&layup);

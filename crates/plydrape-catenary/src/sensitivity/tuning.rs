@@ -2,7 +2,7 @@
 
 /// Constants of derivatives that have no closed form, and of what is left out of gradients.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct SensitivityTuning {
     /// Share of the largest derivative of a quantity below which others of it are left out. 1e-4: a quadratic program for
     /// steps that the true model judges needs no more digits.
     pub negligible: f64,
@@ -25,7 +25,7 @@ pub struct Tuning {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub const TUNING: SensitivityTuning = SensitivityTuning {
     negligible: 1e-4,
     reach: 4,
     noise: 1e-9,

@@ -18,7 +18,7 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    pub fn of(task: &Task, draping: &Draping, shape: &Equilibrium) -> Self {
+    pub fn new(task: &Task, draping: &Draping, shape: &Equilibrium) -> Self {
         let (ply, positions) = (&task.layup.ply, &draping.positions);
         let tilt = |n| attitude(&draping.solver, ply, &[], positions, n, None).tilt;
         Evaluation {

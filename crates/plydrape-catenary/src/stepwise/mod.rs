@@ -47,11 +47,11 @@ pub fn stepwise(task: &Task, progress: &mut dyn FnMut(usize) -> ControlFlow<()>)
     let Some(target) = target.filter(|_| start.len() == count) else {
         return Stepwise { positions: vec![start], outcome: Outcome::NoTarget };
     };
-    Plan::new(task, &target.grippers, start).run(progress)
+    StepwisePlanner::new(task, &target.grippers, start).run(progress)
 }
 
 /// The state of a plan after some steps.
-struct Plan<'a> {
+struct StepwisePlanner<'a> {
     task: &'a Task<'a>,
     targets: &'a [Point],
     draping: Draping<'a>,
@@ -64,7 +64,7 @@ struct Plan<'a> {
     positions: Vec<Vec<Point>>,
 }
 
-impl<'a> Plan<'a> {
+impl<'a> StepwisePlanner<'a> {
     fn new(task: &'a Task<'a>, targets: &'a [Point], start: Vec<Point>) -> Self {
         let mut draping = Draping::new(task.layup);
         let shape = draping.move_to(&start);
@@ -85,7 +85,7 @@ impl<'a> Plan<'a> {
         let all = farthest(&start, targets) + front.base + front.drop(front.farthest());
         let reach = task.move_limit.unwrap_or(2.0 * all / task.steps.max(2) as f64);
         let count = start.len();
-        Plan {
+        StepwisePlanner {
             task,
             targets,
             draping,
@@ -125,7 +125,7 @@ impl<'a> Plan<'a> {
         Stepwise { positions: self.positions, outcome }
     }
 
-    /// What the farthest gripper still lacks (m) after the longest moves, `reach` (m) in all; none if it arrives.
+    /// What the farthest gripper still lacks (m) after the longest moves, `reach` (m) in all; `None` if it arrives.
     fn shortfall(&self, reach: f64) -> Option<PositionError> {
         let error = self.largest_error();
         let distance = error.distance - reach;
@@ -171,7 +171,7 @@ impl<'a> Plan<'a> {
             &contacts,
         );
         let mut reach = self.reach;
-        let before = Evaluation::of(self.task, &self.draping, &self.shape);
+        let before = Evaluation::new(self.task, &self.draping, &self.shape);
         let mut best: Option<(Draping<'a>, Equilibrium)> = None;
         for trial in 0..TUNING.halvings {
             let step = Step {
@@ -195,7 +195,7 @@ impl<'a> Plan<'a> {
             let mut trial = self.draping.clone();
             let shape = trial.move_to(&goal);
             let acceptable =
-                Evaluation::of(self.task, &trial, &shape).is_acceptable(self.task, &before);
+                Evaluation::new(self.task, &trial, &shape).is_acceptable(self.task, &before);
             best = Some((trial, shape));
             if acceptable {
                 break;
@@ -218,7 +218,7 @@ impl<'a> Plan<'a> {
         };
         let mut trial = self.draping.clone();
         let shape = trial.move_to(&goal);
-        let after = Evaluation::of(self.task, &trial, &shape);
+        let after = Evaluation::new(self.task, &trial, &shape);
         let far = farthest(&goal, &self.draping.positions) > self.reach;
         let acceptable = !far && after.converged && after.stretch <= self.task.limits.overstretch;
         if acceptable {

@@ -32,6 +32,6 @@ pub enum Outcome {
 pub struct PositionError {
     /// The gripper.
     pub gripper: GripperId,
-    /// Its distance (m).
+    /// Distance (m).
     pub distance: f64,
 }

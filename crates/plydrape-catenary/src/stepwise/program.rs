@@ -95,7 +95,7 @@ impl Program {
         matrix.chain(bounds).chain(cones).sum::<usize>() + self.fixed.len()
     }
 
-    /// The best moves (units); none if there are none within the limits.
+    /// The best moves (units); `None` if there are none within the limits.
     pub fn solve(&self) -> Option<Vec<f64>> {
         let count = self.fixed.len() + self.bounds.len() + 4 * self.cones.len();
         let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());

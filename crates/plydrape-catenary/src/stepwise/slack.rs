@@ -24,7 +24,7 @@ struct FreeSegment {
     /// Fabric length (m), and that of the whole edge.
     length: f64,
     whole: f64,
-    /// Its grippers, each with the direction in which it stretches the segment.
+    /// Grippers, each with the direction in which it stretches the segment.
     grippers: Vec<(usize, [f64; 3])>,
 }
 
@@ -43,7 +43,7 @@ impl FreeSegment {
     }
 }
 
-/// Direction out of a line at one of its ends; none where its points there are nearer than `least` (m), which is rounding.
+/// Direction out of a line at one of its ends; `None` where its points there are nearer than `least` (m), which is rounding.
 fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
     let (points, last) = (&line.points, line.points.len() - 1);
     let way = match end {
@@ -110,7 +110,7 @@ fn free_segments(task: &Task, draping: &Draping, shape: &Equilibrium) -> Vec<Fre
     out
 }
 
-/// Positions of the grippers (m) at which the ply has no slack; none where it has no slack that counts already.
+/// Positions of the grippers (m) at which the ply has no slack; `None` where it has no slack that counts already.
 pub fn removal(
     task: &Task,
     draping: &Draping,

@@ -1,6 +1,6 @@
 //! The stages of the front: the ply takes its form, comes down, and is rolled on.
 
-use super::Plan;
+use super::StepwisePlanner;
 use super::step::target_stretch;
 use super::tuning::TUNING;
 use crate::geometry::vector::norm;
@@ -16,7 +16,7 @@ pub enum Stage {
     Roll,
 }
 
-impl Plan<'_> {
+impl StepwisePlanner<'_> {
     /// Moves the front on, as far as the grippers can follow.
     pub(super) fn advance_front(&mut self, remaining: usize) {
         let late = (0..self.targets.len())

@@ -34,7 +34,7 @@ pub struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// The moves of all grippers (m); none if the program has no solution.
+    /// The moves of all grippers (m); `None` if the program has no solution.
     pub fn moves(&self, sensitivity: &Sensitivity) -> Option<Vec<[f64; 3]>> {
         let program = self.program(sensitivity);
         let x = program.solve()?;

@@ -4,7 +4,7 @@
 
 /// Constants of the stepwise planner, eqs. (15) and (16) of `docs/theory/planner.md`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct StepwiseTuning {
     /// Iterations of the interior point method for a quadratic program; it needs ten to thirty.
     pub program_iterations: u32,
     /// Unit of length of a quadratic program (cells): a millimeter for cells of 100 mm, the size of what grippers have left
@@ -103,7 +103,7 @@ pub struct Slack {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub const TUNING: StepwiseTuning = StepwiseTuning {
     program_iterations: 60,
     program_unit: 0.01,
     halvings: 6,

@@ -1,13 +1,13 @@
 //! What moves with grippers and robot, and what stands in the cell, as text.
 
-use super::Line;
-use crate::numbers::millimetres;
+use super::SummaryLine;
+use crate::numbers::millimeters;
 use plydrape::bodies::{Mount, Shape};
 use plydrape::scene::Scene;
 use plydrape_io::store::shown;
 
 /// Bodies, then obstacles; nothing where there are none.
-pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
+pub(super) fn bodies(scene: &Scene) -> Vec<SummaryLine> {
     let bodies = scene.layup.bodies.bodies().iter().map(|body| {
         let on = match body.on {
             Mount::Pad => "each pad",
@@ -18,7 +18,7 @@ pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
     });
     let obstacles = scene.layup.bodies.obstacles().iter().map(|obstacle| {
         let [low, high] = obstacle.bounds();
-        let side = |n: usize| format!("{} to {}", millimetres(low[n]), millimetres(high[n]));
+        let side = |n: usize| format!("{} to {}", millimeters(low[n]), millimeters(high[n]));
         let name = shown::escaped(&obstacle.name);
         format!(
             "{name}: {}, x {}, y {}, z {} mm",
@@ -34,7 +34,7 @@ pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
 }
 
 /// Lines under one noun.
-fn numbered(noun: &'static str, texts: impl Iterator<Item = String>) -> Vec<Line> {
+fn numbered(noun: &'static str, texts: impl Iterator<Item = String>) -> Vec<SummaryLine> {
     texts.enumerate().map(|(n, text)| (if n == 0 { noun } else { "" }, text)).collect()
 }
 
@@ -42,12 +42,12 @@ fn shape(shape: &Shape) -> String {
     match shape {
         Shape::Cylinder { radius, from, to } => format!(
             "cylinder of {} mm radius, {} to {} mm",
-            millimetres(*radius),
-            millimetres(*from),
-            millimetres(*to)
+            millimeters(*radius),
+            millimeters(*from),
+            millimeters(*to)
         ),
         Shape::Box { size: [x, y, z], .. } => {
-            format!("box of {} × {} × {} mm", millimetres(*x), millimetres(*y), millimetres(*z))
+            format!("box of {} × {} × {} mm", millimeters(*x), millimeters(*y), millimeters(*z))
         }
         Shape::Mesh { triangles, .. } => format!("mesh of {} triangles", triangles.len()),
     }

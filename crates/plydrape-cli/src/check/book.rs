@@ -34,7 +34,7 @@ struct PrintedPly<'a> {
 pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
     let book = read_book(path)?;
     let mesh = mesh::warnings(Some(&book.mold), book.mesh.as_ref());
-    let mold = mold::of(&book.mold, book.mesh.as_ref());
+    let mold = mold::shape(&book.mold, book.mesh.as_ref());
     if as_json {
         let plies = book.plies.iter().map(|ply| PrintedPly {
             name: &ply.name,
@@ -43,7 +43,7 @@ pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
         });
         let plies = plies.collect();
         let printed = Printed { title: &book.title, summary: nouns(&mold), plies, warnings: &mesh };
-        results::print(&json::of(&printed)?, &[])?;
+        results::print(&json::to_text(&printed)?, &[])?;
         return Ok(ExitCode::SUCCESS);
     }
     if !quiet {
@@ -73,7 +73,7 @@ pub(super) fn check(path: &Path, as_json: bool, quiet: bool) -> Done {
 fn lines(ply: &BookPly) -> Vec<String> {
     let scene = &ply.scene;
     let thickness = match scene.thickness {
-        Some(thickness) => format!("{} mm thick", shown::millimetres(thickness)),
+        Some(thickness) => format!("{} mm thick", shown::millimeters(thickness)),
         None => "of a thickness that nothing needs".into(),
     };
     let below = match &ply.lies_on[..] {

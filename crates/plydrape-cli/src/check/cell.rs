@@ -1,14 +1,14 @@
 //! The cell that a verdict is reached in, as text: mounts, loads and errors in force.
 
-use super::Line;
+use super::SummaryLine;
 use super::limits::packed;
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, millimeters, short};
 use plydrape::errors::{Errors, Term};
 use plydrape::scene::World;
 use plydrape_io::scene::SceneFile;
 
 /// The cell by its name, what holds the ply, and what may be off.
-pub(super) fn cell(scene: &SceneFile) -> Vec<Line> {
+pub(super) fn cell(scene: &SceneFile) -> Vec<SummaryLine> {
     let pad = &scene.layup.settings.pad;
     let ideal = scene.world() == World::Ideal;
     let name = scene.cell.as_deref().unwrap_or(if ideal { "ideal" } else { "of the scene" });
@@ -34,23 +34,23 @@ pub(super) fn cell(scene: &SceneFile) -> Vec<Line> {
 /// The terms that are not zero, and how many cells are drawn.
 fn terms(errors: &Errors) -> Vec<String> {
     let Errors { frame, gripper, pick_up, material, mold, .. } = errors;
-    let millimetres: fn(f64) -> String = |x| format!("{} mm", millimetres(x));
+    let millimeters: fn(f64) -> String = |x| format!("{} mm", millimeters(x));
     let degrees: fn(f64) -> String = |x| format!("{}°", degrees(x));
     let percent: fn(f64) -> String = |x| format!("{} %", short(100.0 * x));
     let all = [
-        ("frame", frame.position, millimetres),
+        ("frame", frame.position, millimeters),
         ("frame", frame.angle, degrees),
-        ("each gripper", gripper.position, millimetres),
+        ("each gripper", gripper.position, millimeters),
         ("strokes", gripper.stroke, percent),
-        ("pick-up", pick_up.offset, millimetres),
+        ("pick-up", pick_up.offset, millimeters),
         ("pick-up", pick_up.yaw, degrees),
         ("mass", material.areal_mass, percent),
         ("bending", material.bending, percent),
         ("shear", material.shear, percent),
         ("length", material.length, percent),
-        ("mold", mold.offset, millimetres),
+        ("mold", mold.offset, millimeters),
         ("mold", mold.tilt, degrees),
-        ("waves", mold.waviness, millimetres),
+        ("waves", mold.waviness, millimeters),
     ];
     let texts =
         all.iter().filter(|(_, term, _)| !term.is_zero()).map(|(name, term, text)| match term {

@@ -1,16 +1,16 @@
 //! The cups of an array over a ply that is cut, as text: which of them hold, and why the others do not.
 
-use super::Line;
+use super::SummaryLine;
 use super::limits::packed;
-use crate::numbers::millimetres;
+use crate::numbers::millimeters;
 use plydrape::ply::{GripperId, gripper_name};
 use plydrape_io::scene::{CupArray, LeftOff, SceneFile};
 
 /// Most cups that are named for one reason.
 const NAMED: usize = 6;
 
-/// How many cups of the array hold, and how it stands over the ply.
-pub(super) fn cups(scene: &SceneFile) -> Vec<Line> {
+/// How many cups of the array hold, and where it lies over the ply.
+pub(super) fn cups(scene: &SceneFile) -> Vec<SummaryLine> {
     let Some(CupArray { cups, left_off, off }) = &scene.cups else { return Vec::new() };
     let mut parts = match left_off.len() {
         0 => vec![format!("all {cups} cups of the array hold")],
@@ -29,7 +29,7 @@ pub(super) fn cups(scene: &SceneFile) -> Vec<Line> {
             parts.push(format!("{} {words} ({})", ids.len(), names(&ids)));
         }
     }
-    let [x, y] = off.map(millimetres);
+    let [x, y] = off.map(millimeters);
     if *off != [0.0; 2] {
         parts.push(format!("the array's middle is ({x}, {y}) mm from that of the ply"));
     }

@@ -3,7 +3,7 @@
 use crate::numbers::short;
 use plydrape::ply::Outline;
 use plydrape_io::read::outline::{Drawn, Source};
-use plydrape_io::store::shown::{millimetres, name};
+use plydrape_io::store::shown::{millimeters, name};
 
 /// Most holes that have a line of their own.
 const MOST: usize = 4;
@@ -80,7 +80,7 @@ fn size(ring: &[[f64; 2]]) -> String {
     let along = |n: usize| {
         let values = || ring.iter().map(|point| point[n]);
         let least = values().fold(f64::INFINITY, f64::min);
-        millimetres(values().fold(f64::NEG_INFINITY, f64::max) - least)
+        millimeters(values().fold(f64::NEG_INFINITY, f64::max) - least)
     };
     format!("{} × {} mm", along(0), along(1))
 }
@@ -98,5 +98,5 @@ fn share(share: f64) -> String {
 
 /// The width of a gap (mm), however small.
 fn gap(width: f64) -> String {
-    if width >= 1e-6 { millimetres(width) } else { "less than 0.001".into() }
+    if width >= 1e-6 { millimeters(width) } else { "less than 0.001".into() }
 }

@@ -1,8 +1,8 @@
 //! The limits of the model that decides, as text: those of the scene, of its preset, the usual ones, and those that follow from pads, tool
 //! and workspace.
 
-use super::Line;
-use crate::numbers::{millimetres, shown};
+use super::SummaryLine;
+use crate::numbers::{millimeters, shown};
 use plydrape::measure::{Limits, Name, Sense};
 use plydrape::scene::Scene;
 
@@ -10,7 +10,7 @@ use plydrape::scene::Scene;
 const WIDTH: usize = 88;
 
 /// Every limit that the model is judged by in this layup, several a line.
-pub(super) fn limits(scene: &Scene) -> Vec<Line> {
+pub(super) fn limits(scene: &Scene) -> Vec<SummaryLine> {
     let (layup, limits) = (&scene.layup, &scene.limits);
     let usual = Limits::of(layup);
     let preset = limits.preset.map(|preset| (preset, usual.clone().with_preset(preset)));
@@ -69,6 +69,6 @@ pub(super) fn packed(head: &str, texts: &[String]) -> Vec<String> {
 
 /// The box that grippers must stay in.
 fn workspace(sides: [[f64; 2]; 3]) -> String {
-    let [x, y, z] = sides.map(|ends| ends.map(millimetres).join(" to "));
+    let [x, y, z] = sides.map(|ends| ends.map(millimeters).join(" to "));
     format!("grippers in x {x}, y {y}, z {z} mm")
 }

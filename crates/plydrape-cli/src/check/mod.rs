@@ -14,7 +14,7 @@ mod way;
 
 use crate::failure::{Done, Failure};
 use crate::model;
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, millimeters, short};
 use crate::outcome::warn;
 use crate::results;
 use crate::watch::{Interrupt, whole};
@@ -28,7 +28,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// A noun of the scene and what it is; without a noun it goes on with the one before.
-type Line = (&'static str, String);
+type SummaryLine = (&'static str, String);
 
 /// The page of a scene.
 const PAGE: &str = "check.html";
@@ -42,7 +42,7 @@ What is possible but hardly meant, such as a start kilometers off, is warned of 
 with exit code 0.
 
 With --html, check.html goes to the scene's name with `.check`: a page for any browser that shows the ply hung at its start, the cups \
-that hold it and those that do not, what they carry, what stands in the cell, the mold, where the ply is wanted on it, which way its warp \
+that hold it and those that do not, what they carry, what stands in the cell, the mold, where the ply must end on it, which way its warp \
 runs, and where the cups shall end. Nothing is planned for it, and nothing is judged.")]
 pub struct Arguments {
     /// The scene file, or the file of a plybook.
@@ -78,7 +78,7 @@ struct Noun<'a> {
 }
 
 /// The lines of each noun, those without one with the noun before.
-fn nouns(lines: &[Line]) -> Vec<Noun<'_>> {
+fn nouns(lines: &[SummaryLine]) -> Vec<Noun<'_>> {
     let mut nouns: Vec<Noun> = Vec::new();
     for (noun, text) in lines {
         match nouns.last_mut().filter(|last| noun.is_empty() || last.noun == *noun) {
@@ -109,7 +109,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if arguments.json {
         let title = &scene.title;
         let printed = Printed { title, summary: nouns(&lines), warnings: &warnings, files: &files };
-        results::print(&json::of(&printed)?, &files)?;
+        results::print(&json::to_text(&printed)?, &files)?;
         return Ok(ExitCode::SUCCESS);
     }
     if !quiet {
@@ -126,7 +126,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 fn page(
     scene: &SceneFile,
     arguments: &Arguments,
-    lines: &[Line],
+    lines: &[SummaryLine],
     warnings: &[String],
 ) -> Result<Vec<PathBuf>, Failure> {
     let beside = || arguments.scene.with_extension("check");
@@ -144,7 +144,7 @@ fn page(
 }
 
 /// The nouns of a scene, each in a line.
-fn summary(scene: &SceneFile) -> Vec<Line> {
+fn summary(scene: &SceneFile) -> Vec<SummaryLine> {
     let ply = &scene.layup.ply;
     let mut lines = vec![("ply", shown::ply(ply))];
     lines.extend(scene.drawn.iter().flat_map(drawing::drawing).map(|text| ("", text)));
@@ -170,7 +170,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
 /// What a mass per line makes per area, in this scene's cells, beside that of one ply.
 fn weight(ply: &Ply) -> Option<String> {
     let Section::Line { mass, .. } = ply.material.section else { return None };
-    let [a, b] = ply.cell.map(millimetres);
+    let [a, b] = ply.cell.map(millimeters);
     let areal_mass = ply.areal_mass();
     let plies = areal_mass / PREPREG;
     let plies = if plies >= 1.5 {

@@ -1,22 +1,22 @@
 //! What a mold is, as text.
 
-use super::Line;
-use crate::numbers::{degrees, millimetres};
+use super::SummaryLine;
+use crate::numbers::{degrees, millimeters};
 use plydrape::geometry::Pose;
 use plydrape::mold::{Face, MeshReport, Mold, Plane, Surface};
 use plydrape_io::scene::SceneFile;
 
 /// The mold, and what was repaired in a mesh: one line each.
-pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
+pub(super) fn mold(scene: &SceneFile) -> Vec<SummaryLine> {
     let Some(mold) = &scene.layup.mold else {
         return vec![("mold", "none: the ply just hangs".into())];
     };
-    of(mold, scene.mesh.as_ref())
+    shape(mold, scene.mesh.as_ref())
 }
 
 /// A mold, with what was repaired if it is a mesh.
-pub(super) fn of(mold: &Mold, report: Option<&MeshReport>) -> Vec<Line> {
-    let mm = |length: f64| format!("{} mm", millimetres(length));
+pub(super) fn shape(mold: &Mold, report: Option<&MeshReport>) -> Vec<SummaryLine> {
+    let mm = |length: f64| format!("{} mm", millimeters(length));
     let side = |face: Face| match face {
         Face::Outside => "outside",
         Face::Inside => "inside",
@@ -57,7 +57,7 @@ pub(super) fn of(mold: &Mold, report: Option<&MeshReport>) -> Vec<Line> {
             };
             let range = match graph.domain {
                 Some([x, y]) => {
-                    let [x, y] = [x, y].map(|ends| ends.map(millimetres).join(" to "));
+                    let [x, y] = [x, y].map(|ends| ends.map(millimeters).join(" to "));
                     format!("x from {x} mm, y from {y} mm")
                 }
                 None => "without boundary".into(),
@@ -76,7 +76,7 @@ pub(super) fn of(mold: &Mold, report: Option<&MeshReport>) -> Vec<Line> {
 }
 
 fn level(plane: &Plane) -> String {
-    let [x, y, z] = plane.point.map(millimetres);
+    let [x, y, z] = plane.point.map(millimeters);
     let [nx, ny, nz] = plane.normal;
     let tilt = nx.hypot(ny).atan2(nz);
     let climb = if tilt > 0.0 {
@@ -88,15 +88,15 @@ fn level(plane: &Plane) -> String {
     format!("plane through ({x}, {y}, {z}) mm, {climb}")
 }
 
-/// Where a mold stands, and whether it is turned.
+/// Position of a mold, and whether it is turned.
 fn standing(what: &str, pose: &Pose) -> String {
-    let [x, y, z] = pose.position.map(millimetres);
+    let [x, y, z] = pose.position.map(millimeters);
     let upright = *pose == Pose::new(pose.position, [0.0; 3]);
     format!("{what} ({x}, {y}, {z}) mm{}", if upright { "" } else { ", turned" })
 }
 
 /// A mesh in the lines of its report.
-fn mesh(report: &MeshReport) -> Vec<Line> {
+fn mesh(report: &MeshReport) -> Vec<SummaryLine> {
     let text = report.to_string();
     let nouns = std::iter::once("mold").chain(std::iter::repeat(""));
     nouns.zip(text.lines()).map(|(noun, line)| (noun, line.to_string())).collect()

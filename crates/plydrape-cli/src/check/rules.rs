@@ -1,13 +1,13 @@
 //! Rules of the models, contact, release, tool and planner, as text.
 
-use super::Line;
-use crate::numbers::{degrees, millimetres, short};
+use super::SummaryLine;
+use crate::numbers::{degrees, millimeters, short};
 use plydrape::geometry::Pose;
 use plydrape::layup::{ContactEnd, Model, PickUp, Release, ReleaseOrder, SlopeRule, Stepping};
 use plydrape::scene::{PlanMethod, Scene};
 
 /// Rules of the models, and of contact.
-pub(super) fn rules(scene: &Scene) -> [Line; 2] {
+pub(super) fn rules(scene: &Scene) -> [SummaryLine; 2] {
     let settings = &scene.layup.settings;
     let called = |model: Model| match model {
         Model::Sheet => "sheet",
@@ -24,7 +24,7 @@ pub(super) fn rules(scene: &Scene) -> [Line; 2] {
     };
     let stepping = match settings.contact.stepping {
         Stepping::Once => "looked for once per step",
-        Stepping::Cut => "steps cut where they dip deeper",
+        Stepping::Cut => "steps cut where they penetrate deeper",
     };
     let end = match settings.contact.end {
         ContactEnd::Free => "free slope at its ends",
@@ -42,13 +42,13 @@ pub(super) fn rules(scene: &Scene) -> [Line; 2] {
         ),
         (
             "contact",
-            format!("within {} mm, {stepping}, {end}", millimetres(settings.contact.tolerance)),
+            format!("within {} mm, {stepping}, {end}", millimeters(settings.contact.tolerance)),
         ),
     ]
 }
 
 /// How a motion would be planned; nothing where there is nothing to plan.
-pub(super) fn plan(scene: &Scene) -> Option<Line> {
+pub(super) fn plan(scene: &Scene) -> Option<SummaryLine> {
     let (Some(_), Some(_), plan) = (&scene.layup.mold, &scene.layup.target, &scene.plan) else {
         return None;
     };
@@ -56,7 +56,7 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
         PlanMethod::Path => "path",
         PlanMethod::Stepwise => "stepwise",
     };
-    let far = plan.move_limit.map(|far| format!(" of up to {} mm", millimetres(far)));
+    let far = plan.move_limit.map(|far| format!(" of up to {} mm", millimeters(far)));
     let text = format!(
         "{method}, {} steps{}, up to {} drapes, seed {}, motion at {} Hz",
         plan.steps,
@@ -69,7 +69,7 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
 }
 
 /// How the ply is picked up, if the scene says so.
-pub(super) fn pick_up(scene: &Scene) -> Option<Line> {
+pub(super) fn pick_up(scene: &Scene) -> Option<SummaryLine> {
     let PickUp { height, clearance, grip, retreat, vacuum_timeout, .. } = scene.layup.pick_up?;
     let looks = match vacuum_timeout {
         Some(time) => format!(", programs wait {} s at most for each vacuum", short(time)),
@@ -77,17 +77,17 @@ pub(super) fn pick_up(scene: &Scene) -> Option<Line> {
     };
     let text = format!(
         "from a table at {} mm: pads come from {} mm above, stand for {} s{looks}, lift the ply as they close; at the end they go back by {} mm and up by {} mm",
-        millimetres(height),
-        millimetres(clearance),
+        millimeters(height),
+        millimeters(clearance),
         short(grip),
-        millimetres(retreat),
-        millimetres(clearance),
+        millimeters(retreat),
+        millimeters(clearance),
     );
     Some(("pick-up", text))
 }
 
 /// When pads let go, if they do not hold the ply to the end.
-pub(super) fn release(scene: &Scene) -> Option<Line> {
+pub(super) fn release(scene: &Scene) -> Option<SummaryLine> {
     let Release { order, dwell, .. } = scene.layup.release.as_ref()?;
     let presses = *dwell > 0.0;
     let dwell = short(*dwell);
@@ -108,10 +108,10 @@ pub(super) fn release(scene: &Scene) -> Option<Line> {
 }
 
 /// What carries the grippers, if they do not move by themselves.
-pub(super) fn tool(scene: &Scene) -> Vec<Line> {
+pub(super) fn tool(scene: &Scene) -> Vec<SummaryLine> {
     let Some(tool) = &scene.layup.tool else { return Vec::new() };
     let axis = |axis: &plydrape::tool::Axis| {
-        let [least, most] = axis.stroke.map(millimetres);
+        let [least, most] = axis.stroke.map(millimeters);
         format!("{} {least} to {most} mm", axis.name)
     };
     let axes: Vec<String> = tool.axes.iter().map(axis).collect();
@@ -119,10 +119,10 @@ pub(super) fn tool(scene: &Scene) -> Vec<Line> {
     let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
     let joints = if scene.layup.tilts() { "" } else { ", pads without joints" };
     let residual = tool.residual.map_or(String::new(), |most| {
-        format!("; brings grippers to within {} mm", millimetres(most))
+        format!("; brings grippers to within {} mm", millimeters(most))
     });
     let place = |pose: &Pose, axis: usize| {
-        let [x, y, z] = pose.position.map(millimetres);
+        let [x, y, z] = pose.position.map(millimeters);
         // 0.0 takes the sign off a zero
         let [a, b, c] = pose.axes[axis].map(|c| short((c * 1e4).round() / 1e4 + 0.0));
         format!("({x}, {y}, {z}) mm, its {} along ({a}, {b}, {c})", ["x", "y", "z"][axis])

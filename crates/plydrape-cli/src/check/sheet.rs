@@ -1,14 +1,14 @@
 //! How the ply is draped as a sheet, as text.
 
-use super::Line;
-use crate::numbers::{millimetres, short};
+use super::SummaryLine;
+use crate::numbers::{millimeters, short};
 use plydrape::layup::{Friction, Model, Settings, SheetTime};
 use plydrape::scene::Scene;
 use plydrape_io::error;
 use plydrape_io::result::sheet::SheetSize;
 
 /// Mesh, size of pads and friction of the sheet; nothing where catenaries decide.
-pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
+pub(super) fn sheet(scene: &Scene) -> Vec<SummaryLine> {
     let settings = &scene.layup.settings;
     if settings.model != Model::Sheet {
         return Vec::new();
@@ -19,7 +19,7 @@ pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
 fn mesh(scene: &Scene) -> String {
     let sheet = &scene.layup.settings.sheet;
     let lines = match sheet.mesh {
-        Some(mesh) => format!("lines of nodes up to {} mm apart", millimetres(mesh)),
+        Some(mesh) => format!("lines of nodes up to {} mm apart", millimeters(mesh)),
         None => "lines of nodes up to a tenth of a cell apart".into(),
     };
     let time = match sheet.time {
@@ -31,17 +31,17 @@ fn mesh(scene: &Scene) -> String {
     };
     format!(
         "{lines}, {} mm beyond the grippers; {time}; up to {} states kept",
-        millimetres(sheet.overhang),
+        millimeters(sheet.overhang),
         sheet.keep
     )
 }
 
 /// How large it is; the scene was refused where it cannot be draped.
 fn size(scene: &Scene) -> String {
-    match SheetSize::of(scene) {
+    match SheetSize::new(scene) {
         Ok(SheetSize { nodes, mesh, memory }) => format!(
             "{nodes} nodes, at most {} mm apart; about {} of memory",
-            millimetres(mesh),
+            millimeters(mesh),
             error::bytes(memory)
         ),
         Err(fault) => fault.to_string(),
@@ -52,7 +52,7 @@ fn pads(settings: &Settings) -> String {
     let pad = &settings.pad;
     match pad.radius {
         0.0 => "grippers hold a point".into(),
-        radius => format!("pads of radius {} mm", millimetres(radius)),
+        radius => format!("pads of radius {} mm", millimeters(radius)),
     }
 }
 

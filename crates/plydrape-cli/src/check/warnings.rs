@@ -2,7 +2,7 @@
 
 use super::way::longest;
 use crate::mesh;
-use crate::numbers::{millimetres, short};
+use crate::numbers::{millimeters, short};
 use plydrape::bodies::Obstacle;
 use plydrape::clearance;
 use plydrape::layup::{Friction, Model};
@@ -37,7 +37,8 @@ pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
     let costly = overhang(scene).into_iter().chain(fine_mesh(scene));
     let of_cell = standing_in_mold(scene).into_iter().chain(around_start(scene));
     let unplanned = unplanned(scene, seen);
-    hardly_meant.chain(below).chain(of_cell).chain(costly).chain(unplanned).collect()
+    let notices = scene.notices.iter().cloned();
+    notices.chain(hardly_meant).chain(below).chain(of_cell).chain(costly).chain(unplanned).collect()
 }
 
 /// Fabric that hangs far over its cups above a mold that holds what touches it.
@@ -63,9 +64,9 @@ fn overhang(scene: &SceneFile) -> Option<String> {
     (share < 1.0).then(|| {
         format!(
             "the ply reaches up to {} mm beyond the middles of its outer cups. This edge hangs lower than its cup, touches the mold first, and sticks short of its place: a fold of some {} mm stays beside the cup, where the limits allow what an edge of {} mm leaves. Cut the ply closer, or move the cups outwards",
-            millimetres(rounded(beyond)),
-            millimetres(rounded(ruck.height().min(free))),
-            millimetres(rounded(share * free + layup.settings.pad.radius))
+            millimeters(rounded(beyond)),
+            millimeters(rounded(ruck.height().min(free))),
+            millimeters(rounded(share * free + layup.settings.pad.radius))
         )
     })
 }
@@ -90,13 +91,13 @@ fn reach_beyond_cups(ply: &Ply, overhang: f64) -> f64 {
 fn fine_mesh(scene: &SceneFile) -> Option<String> {
     let layup = &scene.layup;
     let cut = layup.ply.cut.as_ref().filter(|_| layup.settings.model == Model::Sheet)?;
-    let SheetSize { nodes, mesh, .. } = SheetSize::of(scene).ok()?;
+    let SheetSize { nodes, mesh, .. } = SheetSize::new(scene).ok()?;
     let least = cut.outline.area() / (mesh * mesh);
     let times = nodes as f64 / least;
     (times > FINE && cut.turn != 0.0).then(|| {
         format!(
-            "the cups stand in so many rows along the yarns that the sheet has {nodes} nodes, {times:.1} times those of its mesh of {} mm, and a drape takes longer than that many times; a square pitch at 45°, or rows along the yarns, need fewer lines",
-            millimetres(mesh)
+            "the cups are in so many rows along the yarns that the sheet has {nodes} nodes, {times:.1} times those of its mesh of {} mm, and a drape takes longer than that many times; a square pitch at 45°, or rows along the yarns, need fewer lines",
+            millimeters(mesh)
         )
     })
 }
@@ -106,9 +107,9 @@ fn standing_in_mold(scene: &SceneFile) -> Vec<String> {
     let obstacles = scene.layup.bodies.obstacles();
     let sentence = |(n, depth): (usize, f64)| {
         format!(
-            "obstacle {} stands {} mm deep in the mold; see whether its place is right, or leave it out where the mold is",
+            "obstacle {} reaches {} mm into the mold; see whether its place is right, or leave it out where the mold is",
             obstacles[n].name,
-            millimetres(rounded(depth))
+            millimeters(rounded(depth))
         )
     };
     clearance::standing_in_mold(&scene.layup).into_iter().map(sentence).collect()
@@ -181,7 +182,7 @@ fn mass(scene: &Scene) -> Option<String> {
             let what = format!(
                 "{} kg/m of a strip one cell wide, {} mm, makes",
                 short(mass),
-                millimetres(rounded(width))
+                millimeters(rounded(width))
             );
             (mass / width, what, format!("{} g/m", short(mass)))
         }
@@ -224,7 +225,7 @@ fn below(scene: &Scene) -> Vec<String> {
     };
     let mut out = Vec::new();
     let name = |gripper: usize| format!("gripper {}", gripper_name(scene.layup.ply.id(gripper)));
-    let mm = |depth: f64| millimetres(rounded(depth));
+    let mm = |depth: f64| millimeters(rounded(depth));
     let mut allowed = scene.limits.most(Name::Penetration);
     let target = scene.layup.target.as_ref().and_then(|target| deepest(mold, &target.grippers));
     if let Some((gripper, depth)) = target.filter(|(_, depth)| *depth > allowed) {
@@ -236,7 +237,9 @@ fn below(scene: &Scene) -> Vec<String> {
             mm(scene.limits.most(Name::Penetration))
         ));
     }
-    if let Some((step, gripper, depth)) = dip(scene, mold).filter(|(.., depth)| *depth > allowed) {
+    if let Some((step, gripper, depth)) =
+        deepest_step(scene, mold).filter(|(.., depth)| *depth > allowed)
+    {
         out.push(format!(
             "in step {} {} is {} mm below the mold, where limits.penetration allows {} mm; start higher, or come from above",
             step + 1,
@@ -249,7 +252,7 @@ fn below(scene: &Scene) -> Vec<String> {
 }
 
 /// Where the motion is deepest: step, gripper, depth (m).
-fn dip(scene: &Scene, mold: &Mold) -> Option<(usize, usize, f64)> {
+fn deepest_step(scene: &Scene, mold: &Mold) -> Option<(usize, usize, f64)> {
     let steps = &scene.layup.motion.positions;
     let stride = (steps.len() * scene.layup.ply.grippers()).div_ceil(LOOKS).max(1);
     let looks = (0..steps.len()).step_by(stride).chain(steps.len().checked_sub(1));

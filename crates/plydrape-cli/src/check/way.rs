@@ -1,7 +1,7 @@
 //! The way of the grippers, as text: the start, the target, and how far apart they are.
 
-use super::Line;
-use crate::numbers::{degrees, millimetres, short};
+use super::SummaryLine;
+use crate::numbers::{degrees, millimeters, short};
 use plydrape::ply::{Direction, GripperId, Ply, gripper_name};
 use plydrape::scene::Scene;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 const ROUNDING: f64 = 1e-9;
 
 /// The motion, the start, the target and the longest way between them.
-pub(super) fn way(scene: &Scene) -> Vec<Line> {
+pub(super) fn way(scene: &Scene) -> Vec<SummaryLine> {
     let mut lines = vec![("motion", motion(scene)), ("start", place(start(scene)))];
     lines.push(("target", target(scene)));
     if let Some(target) = &scene.layup.target {
@@ -22,7 +22,7 @@ pub(super) fn way(scene: &Scene) -> Vec<Line> {
             "way",
             format!(
                 "{} mm in a straight line at most, of gripper {}",
-                millimetres(way),
+                millimeters(way),
                 gripper_name(gripper)
             ),
         ));
@@ -48,7 +48,7 @@ fn end(scene: &Scene) -> &[[f64; 3]] {
     scene.layup.target.as_ref().map_or_else(last, |target| &target.grippers)
 }
 
-/// The gripper with the longest straight way from its start to its end, and that way (m); none where all stay.
+/// The gripper with the longest straight way from its start to its end, and that way (m); `None` where all stay.
 pub(super) fn longest(scene: &Scene) -> Option<(GripperId, f64)> {
     let way = |(from, to): (&[f64; 3], &[f64; 3])| {
         [0, 1, 2].map(|n| to[n] - from[n]).iter().map(|d| d * d).sum::<f64>().sqrt()
@@ -65,11 +65,11 @@ fn place(points: &[[f64; 3]]) -> String {
         [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
     });
     let range = |[low, high]: [f64; 2]| {
-        let [low, high] = [low, high].map(millimetres);
+        let [low, high] = [low, high].map(millimeters);
         if low == high { low } else { format!("{low} to {high}") }
     };
     let [x, y, z] = ends.map(range);
-    let middle = ends.map(|[low, high]| millimetres(0.5 * (low + high))).join(", ");
+    let middle = ends.map(|[low, high]| millimeters(0.5 * (low + high))).join(", ");
     format!("x {x} mm, y {y} mm, z {z} mm, middle ({middle}) mm")
 }
 
@@ -97,8 +97,8 @@ fn target(scene: &Scene) -> String {
         return "gripper positions as given".into();
     };
     let layup = &net.placement;
-    let [x, y, z] = layup.place.map(millimetres);
-    let [u, v] = layup.fabric(layup.seed).map(millimetres);
+    let [x, y, z] = layup.place.map(millimeters);
+    let [u, v] = layup.fabric(layup.seed).map(millimeters);
     let mut text = format!(
         "on the mold, fabric point ({u}, {v}) mm at ({x}, {y}, {z}) mm, sheared by {} deg, {}",
         degrees(layup.shear),

@@ -18,7 +18,7 @@ start where they start in `simulate`: of a motion from a file only the first ste
 nothing is planned then, with exit code 1, unless --anyway asks for it. The search ends with the first plan that keeps all limits with a margin. The best \
 plan found is written even if it is not accepted, whatever ends the search. Ctrl-C or SIGTERM ends it, finishes the best \
 plan so far and writes it; a second one ends that too. The exit code is 0 if that plan is accepted, else 130; where a better plan is in the folder already, the files \
-go beside it. Without a terminal, how far the search is stands on standard error once a minute.
+go beside it. Without a terminal, the progress of the search is written to standard error once a minute.
 
 While it searches, search.json in the folder holds all that was judged so far, at most half a minute old. After a crash or a power cut, --continue goes on \
 from there, to the same plan.

@@ -40,7 +40,7 @@ struct Printed<'a> {
     time_s: f64,
 }
 
-/// A planned ply whose files stand ready.
+/// A planned ply whose files are written and not yet in place.
 struct Ready {
     record: PlyRecord,
     staged: Staged,
@@ -70,8 +70,12 @@ pub fn plan(
     for ply in &mut book.plies {
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
+    for ply in &book.plies {
+        let of_ply = |notice: &String| format!("ply {}: {notice}", ply.name);
+        outcome::warn(&ply.scene.notices.iter().map(of_ply).collect::<Vec<_>>());
+    }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
-    let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::of).collect();
+    let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::new).collect();
     if !found.is_empty() {
         let lines = found.iter().map(|ply| format!("ply {}: {}", ply.ply, ply.text()));
         say_infeasible(&lines.collect::<String>(), &found, arguments, quiet)?;
@@ -182,7 +186,7 @@ struct Infeasible<'a> {
 }
 
 impl<'a> Infeasible<'a> {
-    fn of(ply: &'a BookPly) -> Option<Self> {
+    fn new(ply: &'a BookPly) -> Option<Self> {
         let limits = infeasible_limits(&ply.scene);
         (!limits.is_empty()).then_some(Infeasible { ply: &ply.name, limits })
     }
@@ -214,7 +218,7 @@ fn one(
     let (_, ended) = search.finish();
     let found = arguments.judged(scene, planned?, folder.stage(), &interrupt, true)?;
     let Found { result, checkpoint, .. } = &found;
-    let record = PlyRecord::of(book, index, result);
+    let record = PlyRecord::new(book, index, result);
     let interrupted = found.is_interrupted(ended, &interrupt);
     let done = found.is_done();
     let unsolved = outcome::is_unsolved(result);

@@ -26,7 +26,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    fn of(planned: &Planned) -> Self {
+    fn new(planned: &Planned) -> Self {
         let peaks = planned.motion.peaks();
         Motion {
             duration_s: planned.motion.duration(),
@@ -57,7 +57,7 @@ pub(super) struct Found {
 impl Found {
     /// Whether a signal ended the search, or what follows it.
     pub(super) fn is_interrupted(&self, ended: Option<Ended>, interrupt: &Interrupt) -> bool {
-        ended == Some(Ended::Interrupted) || self.broken_off && interrupt.is_signalled()
+        ended == Some(Ended::Interrupted) || self.broken_off && interrupt.is_signaled()
     }
 
     /// Whether it is accepted, and nothing is missing.
@@ -83,7 +83,7 @@ impl Arguments {
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Found, Failure> {
-        let (motion, checkpoint) = (Motion::of(&planned), planned.checkpoint.clone());
+        let (motion, checkpoint) = (Motion::new(&planned), planned.checkpoint.clone());
         let (decisions, solving) = (planned.decisions, planned.outcome.drape.solving);
         let along = planner::along(scene, &planned.motion);
         let steps = planned.motion.steps();

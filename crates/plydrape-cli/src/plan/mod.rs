@@ -61,6 +61,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let also = arguments.also.map(Into::into);
     let mut scene = plydrape_io::scene::read_for(&asked.scene, None, also)?;
     arguments.apply(&mut scene)?;
+    warn(&scene.notices);
     warn(&mesh::warnings(scene.layup.mold.as_ref(), scene.mesh.as_ref()));
     let earlier = arguments.earlier.as_deref();
     let earlier = earlier.map(|dir| checkpoint(dir, &scene)).transpose()?;
@@ -103,7 +104,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     // what is beside is where the search goes on from
     kept.map_or(Ok(()), |kept| kept.remove(plan::RUNNING))?;
     let printed = Printed {
-        drape: outcome::Printed::of(result, *solving),
+        drape: outcome::Printed::new(result, *solving),
         method: scene.plan.method,
         plan_time_s: took.as_secs_f64(),
         evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),
@@ -125,7 +126,7 @@ const TIMES: [f64; 2] = [1e-3, 1e7];
 
 /// The time after which the search ends.
 fn time(text: &str) -> Result<Duration, Failure> {
-    let help = "a time of up to some 100 days is wanted, e.g. 5min, 90s or 1.5h";
+    let help = "expected a time of up to some 100 days, e.g. 5min, 90s or 1.5h";
     let seconds = argument::value("--time", text, Measured::Time, &usual::ANY, TIMES, help)?;
     Ok(Duration::from_secs_f64(seconds))
 }
@@ -169,7 +170,7 @@ fn say_infeasible<T: Serialize>(
 ) -> Result<(), Failure> {
     let said = match (arguments.results.json, arguments.anyway) {
         (true, true) => return Ok(()),
-        (true, false) => json::of(&Infeasible { accepted: false, infeasible_limits: limits })?,
+        (true, false) => json::to_text(&Infeasible { accepted: false, infeasible_limits: limits })?,
         _ if quiet => return Ok(()),
         (false, true) => format!("{text}\n"),
         (false, false) => format!(

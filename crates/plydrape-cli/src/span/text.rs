@@ -1,7 +1,7 @@
 //! A solved span as text: what holds it, a table of places along it, and its shape.
 
 use super::{Curve, Solved, picture};
-use crate::numbers::{millimetres, short};
+use crate::numbers::{millimeters, short};
 use plydrape::catenary::EndCondition;
 use std::fmt::Write;
 
@@ -9,17 +9,17 @@ use std::fmt::Write;
 const POINTS: usize = 400;
 
 /// Everything a person wants to know of a span.
-pub fn of(solved: &Solved) -> String {
+pub fn text(solved: &Solved) -> String {
     let span = &solved.span;
     let rise = match span.rise {
         0.0 => "level".to_string(),
-        rise if rise > 0.0 => format!("{} mm up", millimetres(rise)),
-        rise => format!("{} mm down", millimetres(-rise)),
+        rise if rise > 0.0 => format!("{} mm up", millimeters(rise)),
+        rise => format!("{} mm down", millimeters(-rise)),
     };
     let mut text = format!(
         "{} mm of ply over a run of {} mm, {rise}: {}\n\n",
-        millimetres(span.length),
-        millimetres(span.run),
+        millimeters(span.length),
+        millimeters(span.run),
         solved.state()
     );
     for (noun, value) in summary(solved) {
@@ -43,8 +43,8 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
     let sag = if depth > 0.0 {
         format!(
             "{} mm below the chord, {} mm from the start",
-            millimetres(depth),
-            millimetres(place)
+            millimeters(depth),
+            millimeters(place)
         )
     } else {
         "none: nowhere below the chord".into()
@@ -87,8 +87,8 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
             "overstretch",
             format!(
                 "the chord of {} mm is {} mm ({} %) longer than the ply",
-                millimetres(span.chord()),
-                millimetres(beyond),
+                millimeters(span.chord()),
+                millimeters(beyond),
                 short(beyond / span.length * 100.0)
             ),
         ));

@@ -25,7 +25,7 @@ cell = [\"100 mm\", \"100 mm\"]
 [grippers]
 spacing = [\"98 mm\", \"98 mm\"]
 height = \"75 mm\"
-origin = \"centred\"
+origin = \"centered\"
 
 [target]
 seed = \"middle\"

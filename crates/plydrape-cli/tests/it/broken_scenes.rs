@@ -1,5 +1,5 @@
 //! Every scene under `plydrape-io/tests/it/broken` is refused with exit code 2, and its message, as a user
-//! sees it on a terminal of 80 columns without color, stands in the snapshot: read it aloud.
+//! sees it on a terminal of 80 columns without color, is in the snapshot: read it aloud.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -92,7 +92,7 @@ fn what_is_said_of_a_cut_ply_names_cups_and_headings() {
     assert!(shown.contains("switched off by `holds`"), "{shown}");
 }
 
-/// The page of a scene has no verdict and no limit, says what the terminal says, and stands in a folder of its own; a plybook has none.
+/// The page of a scene has no verdict and no limit, says what the terminal says, and has a folder of its own; a plybook has none.
 #[test]
 fn a_page_shows_a_scene_before_it_is_draped() {
     let folder = tempfile::tempdir().unwrap();
@@ -143,9 +143,9 @@ fn what_a_plan_will_meet_is_warned_of() {
     let all = warned(&scene);
     let causes = [
         ("sticks short of its place", "[limits]", "[contact]\nfriction = 0.3\n[limits]"),
-        ("the cups stand in so many rows", "warp = \"45 deg\"", "warp = \"0 deg\""),
+        ("the cups are in so many rows", "warp = \"45 deg\"", "warp = \"0 deg\""),
         (
-            "obstacle post stands 200 mm deep in the mold",
+            "obstacle post reaches 200 mm into the mold",
             "[\"600 mm\", 0, 0]",
             "[\"2 m\", 0, \"2 m\"]",
         ),
@@ -247,7 +247,7 @@ fn a_mass_per_line_is_shown_per_area_in_the_cells_of_the_scene() {
     assert!(!shown("0.1, 0.1", "prepreg_cold").contains("over cells"));
 }
 
-/// Shares and factors stand in one line; what nobody says is not in it.
+/// Shares and factors are in one line; what nobody says is not in it.
 #[test]
 fn the_scatter_of_a_material_is_shown() {
     let line = |scatter: &str| {
@@ -486,7 +486,7 @@ fn the_lines_of_a_tool_say_where_flange_and_world_are() {
     );
 }
 
-/// With `--json` everything that is printed for people, and nothing else; a warning stands in the object alone. A plybook has its plies.
+/// With `--json` everything that is printed for people, and nothing else; a warning is in the object alone. A plybook has its plies.
 #[test]
 fn json_says_what_the_lines_say() {
     let (lines, json) = (check(CUT, &[]), check(CUT, &["--json"]));

@@ -13,7 +13,7 @@ fn cell(folder: &Path, more: &str) -> PathBuf {
     let file = folder.join("cell.toml");
     let scene = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
                  [mold]\nkind = \"sphere\"\nradius = 1\nposition = [0, 0, -1]\n\
-                 [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"\n\
+                 [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centered\"\n\
                  [target]\nseed = \"middle\"\n[plan]\nsteps = 10\n[sheet]\nmesh = \"25 mm\"\n";
     std::fs::write(&file, format!("{scene}{more}")).unwrap();
     file

@@ -51,7 +51,7 @@ fn every_format_is_made_from_the_result_alone() {
             assert!(one == two && !one.is_empty(), "{name}");
         }
     }
-    // all of them stand in one folder together
+    // all of them fit into one folder
     assert!(asked.join("steps.csv").exists() && asked.join("ply.inp").exists());
 }
 

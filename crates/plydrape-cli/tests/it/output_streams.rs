@@ -157,7 +157,7 @@ fn a_signal_ends_exports_and_corrections_without_a_trace() {
     drop(input);
 }
 
-/// The exit code stands, whatever becomes of the message.
+/// The exit code is kept, whatever becomes of the message.
 #[cfg(target_os = "linux")]
 #[test]
 fn standard_error_that_is_full_is_no_panic() {

@@ -424,15 +424,15 @@ fn long() -> String {
     long.replace("kind = \"plane\"", dome) + limits
 }
 
-/// The same, by a sheet of this mesh.
+/// The scene, draped by a sheet of this mesh.
 #[cfg(unix)]
 fn long_sheet(mesh: &str) -> String {
     long().replace("catenaries", "sheet") + &format!("\n[sheet]\nmesh = \"{mesh}\"\n")
 }
 
-/// Signals that a running plan is sent, after so many milliseconds each; what it prints.
+/// Signals that a running plan is sent, after this many milliseconds each; what it prints.
 #[cfg(unix)]
-fn signalled(scene: &Path, flags: &[&str], signals: &[(u64, &str)]) -> Output {
+fn signaled(scene: &Path, flags: &[&str], signals: &[(u64, &str)]) -> Output {
     let mut command = command();
     command.arg("plan").arg(scene).arg("--json").args(flags);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -452,7 +452,7 @@ fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
     let folder = tempfile::tempdir().unwrap();
     let path = scene(folder.path(), &long_sheet("10 mm"));
     for (wait, signal) in [(300, "-TERM"), (1000, "-INT"), (2500, "-TERM")] {
-        let output = signalled(&path, &[], &[(wait, signal)]);
+        let output = signaled(&path, &[], &[(wait, signal)]);
         assert_eq!(output.status.code(), Some(130), "{wait} {}", text(&output.stderr));
         assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
         let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -471,7 +471,7 @@ fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
 fn a_second_signal_ends_the_last_drape_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = scene(folder.path(), &long_sheet("3 mm"));
-    let output = signalled(&path, &[], &[(1000, "-INT"), (1000, "-TERM")]);
+    let output = signaled(&path, &[], &[(1000, "-INT"), (1000, "-TERM")]);
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(printed["status"], "interrupted", "{printed}");
@@ -490,7 +490,7 @@ fn an_interrupt_that_finds_an_accepted_plan_exits_with_zero() {
     let folder = tempfile::tempdir().unwrap();
     let easy = SCENE.replace("evaluations = 2", "evaluations = 1000000\nimprove = true");
     let path = scene(folder.path(), &easy);
-    let output = signalled(&path, &["--without-errors"], &[(2000, "-INT")]);
+    let output = signaled(&path, &["--without-errors"], &[(2000, "-INT")]);
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(printed["accepted"], true, "{printed}");
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -498,7 +498,7 @@ fn an_interrupt_that_finds_an_accepted_plan_exits_with_zero() {
     assert_eq!(files(&folder.path().join("flat.plan")), FILES);
 }
 
-/// A search that was killed is in its folder, whole; the next one is told so, and going on from there makes the files of an undisturbed one to
+/// A search that was killed is in its folder, whole; the next one reports it, and going on from there makes the files of an undisturbed one to
 /// the last byte. An earlier plan in that folder stays until then.
 #[cfg(unix)]
 #[test]
@@ -544,7 +544,7 @@ fn a_search_that_is_killed_goes_on_to_the_same_files() {
 fn an_interrupt_leaves_complete_files_of_the_best_plan() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path(), &long());
-    let output = signalled(&scene, &[], &[(700, "-INT")]);
+    let output = signaled(&scene, &[], &[(700, "-INT")]);
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
 
     let out = folder.path().join("flat.plan");

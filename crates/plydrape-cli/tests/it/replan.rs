@@ -221,7 +221,7 @@ fn what_cannot_be_replanned_is_refused_with_a_remedy() {
     command().args(["simulate", "--quiet", "-o"]).args([&simulated, &scene]).output().unwrap();
     let output = replan(&simulated.join("result.json"), OFFSET, &[]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(one_line(&output.stderr).contains("none of a plan"), "{}", text(&output.stderr));
+    assert!(one_line(&output.stderr).contains("not that of a plan"), "{}", text(&output.stderr));
     let output = command().arg("replan").arg(&result).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
 }

@@ -40,7 +40,7 @@ fn json_has_the_outcome_of_the_sheet() {
     for key in [
         "height_mm",
         "out_of_plane_deg",
-        "fibre_angle_deg",
+        "fiber_angle_deg",
         "position_mm",
         "strain",
         "shear_deg",

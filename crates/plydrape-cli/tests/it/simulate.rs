@@ -27,7 +27,7 @@ fn result(folder: &Path) -> Value {
 }
 
 const FILES: [&str; 4] = ["report.html", "result.json", "steps.csv", "trajectory.csv"];
-/// The same where the ply is draped as a sheet.
+/// The scene, draped as a sheet.
 const FILES_OF_SHEET: [&str; 5] =
     ["report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
 

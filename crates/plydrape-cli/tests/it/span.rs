@@ -79,7 +79,7 @@ fn limp_span_is_the_parabola() {
     }
 }
 
-/// The documented command, units and all; its slope stands to the last digit.
+/// The documented command, units and all; its slope is exact to the last digit.
 #[test]
 fn json_has_the_documented_keys_and_eleven_stations() {
     let got = json(&[("--rise", "0"), ("--slope-start", "free"), ("--slope-end", "0.5")]);
@@ -182,12 +182,12 @@ fn bad_values_are_refused_with_option_value_and_remedy() {
     let cases = [
         ("--run", "0", "is zero", "a length from"),
         ("--run", "-98mm", "is negative", "a length from"),
-        ("--run", "nan", "is not a number", "a length is wanted"),
+        ("--run", "nan", "is not a number", "expected a length"),
         ("--run", "inf", "is too large", "a length from"),
-        ("--run", "98 kg", "is a mass", "a length is wanted"),
+        ("--run", "98 kg", "is a mass", "expected a length"),
         ("--run", "98 MM", "is no unit known", "did you mean `mm`?"),
         ("--run", "98,5 mm", "decimal comma", "decimal point"),
-        ("--run", "", "cannot be read", "a length is wanted"),
+        ("--run", "", "cannot be read", "expected a length"),
         ("--run", "1e-9 m", "is too small", "1 um"),
         ("--run", "98", "would make a span of 98 m", "did you mean \"98 mm\"?"),
         ("--length", "0", "is zero", "a length from"),

@@ -1,4 +1,4 @@
-//! `plydrape study` hands over to Python; here a script stands in for it.
+//! `plydrape study` hands over to Python; here a script replaces it.
 #![cfg(unix)]
 
 use crate::common::{command, one_line, text};
@@ -8,7 +8,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
 
-/// A program that stands in for Python.
+/// A program in place of Python.
 fn python(folder: &Path, script: &str) -> PathBuf {
     let path = folder.join("python");
     fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();

@@ -3,7 +3,7 @@
 //! Numbers of one step after the other become differences, first from the item before, then from the step before;
 //! these are small and alike. Signs go to the lowest bit, the four bytes of all numbers into four planes, and
 //! what is left is deflated and written in 64 letters. The page undoes it in the opposite order. The live page is given the
-//! integers as they are: they do not stand in its file, and it needs them at once.
+//! integers as they are: they are not in its file, and it needs them at once.
 
 use base64::{Engine, engine::general_purpose::STANDARD};
 use miniz_oxide::deflate::compress_to_vec_zlib;
@@ -12,7 +12,7 @@ use serde::Serialize;
 /// How hard to compress, of 10; more takes longer and gains little.
 const LEVEL: u8 = 7;
 
-/// Integers of all steps: so many items a step, each of so many components.
+/// Integers of all steps: this many items a step, each of this many components.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(super) struct Block {
     steps: usize,
@@ -36,7 +36,7 @@ impl Block {
         Block { steps, count, components, data: Data::Plain(values) }
     }
 
-    /// The same, packed.
+    /// A block of integers, packed.
     pub fn new(steps: usize, components: usize, values: &[i32]) -> Self {
         let row = values.len() / steps.max(1);
         let before = |n: usize| match n {

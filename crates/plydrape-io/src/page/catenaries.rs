@@ -37,7 +37,7 @@ pub(super) struct Detail {
 }
 
 impl Detail {
-    /// The finest of so many steps that keeps the page small.
+    /// The finest of this many steps that keeps the page small.
     pub fn new(result: &ResultFile, all: usize) -> Self {
         let grid = result.scene.ply.lines().surface();
         let surface =
@@ -104,7 +104,7 @@ impl Catenaries {
             shapes.iter().flat_map(select).flat_map(micrometers).collect()
         };
 
-        // the surface, and what is told at its vertices
+        // the surface, and the values at its vertices
         let surface = points(|shape| &shape.surface.vertices);
         let gap: Option<Vec<i32>> = result.scene.mold.as_ref().map(|_| {
             let all = shapes.iter().filter_map(|shape| shape.surface.gap.as_ref()).flatten();
@@ -182,7 +182,7 @@ fn shape(result: &ResultFile, step: &Step, detail: &Detail) -> Shape {
     };
     let across = along.split_off(graph.edges().min(along.len()));
     Shape {
-        surface: Surface::of(result, step, &curves, detail.intervals),
+        surface: Surface::from_curves(result, step, &curves, detail.intervals),
         fibers: if are_alone(result) { along.concat() } else { Vec::new() },
         diagonals: if drawn > graph.edges() { across.concat() } else { Vec::new() },
         contacts: contacts(result, step, &curves),

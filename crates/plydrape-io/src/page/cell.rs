@@ -21,7 +21,7 @@ const TURN: f64 = 1e6;
 pub(super) struct Cell<'a> {
     bodies: Vec<Carried<'a>>,
     obstacles: Vec<Solid<'a>>,
-    /// Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange (m); none without a tool.
+    /// Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange (m); `None` without a tool.
     mounts: Option<Vec<f64>>,
 }
 

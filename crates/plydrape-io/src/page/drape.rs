@@ -50,7 +50,7 @@ impl<'a> Source<'a> {
         Some(Source { result, summary: &also.summary, steps: &also.steps, decides: false })
     }
 
-    /// Its drape over the steps of the page; `kept` are the states of the sheet, if its model is that.
+    /// Drape over the steps of the page; `kept` are the states of the sheet, if its model is that.
     ///
     /// # Errors
     /// [`Error`] if the states of the sheet cannot be read.

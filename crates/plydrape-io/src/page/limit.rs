@@ -78,7 +78,7 @@ mod tests {
     use plydrape::measure::Worst;
 
     fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
-        Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
+        Verdict::new(name, Worst { value, at: String::new(), place: None }, limit, None)
     }
 
     /// Of 39° of 40°, 6 N of 10 N, a distance of 60 mm where 50 mm is the least, and 0.6 % of 0.5 %, the last is exceeded and comes first.

@@ -1,4 +1,4 @@
-//! A look at a scene before anything is draped on its mold: where the ply is wanted, which way its warp runs there and on the
+//! A look at a scene before anything is draped on its mold: where the ply must end, which way its warp runs there and on the
 //! table, where the cups shall end, and which cups of the array do not hold.
 
 use crate::scene::SceneFile;
@@ -18,7 +18,7 @@ const HEAD: [f64; 2] = [0.25, 0.1];
 pub(super) const LEGEND: [(&str, &str); 2] = [
     (
         "drawn",
-        "upright crosses: where the cups shall end; the line around them: where the ply is wanted",
+        "upright crosses: where the cups shall end; the line around them: where the ply must end",
     ),
     (
         "",
@@ -36,7 +36,7 @@ pub(super) fn sentence(warning: &str) -> String {
 /// What is drawn beside ply, grippers, cell and mold.
 #[derive(Debug, Serialize)]
 pub(super) struct Look {
-    /// The boundary of the ply and of its holes where they are wanted on the mold, each a line (m).
+    /// The boundary of the ply and of its holes where they must end on the mold, each a line (m).
     outline: Vec<Vec<[f64; 3]>>,
     /// Arrows along the warp from the middle of the ply, on the table and on the mold: a shaft and a head (m).
     warp: Vec<Vec<[f64; 3]>>,
@@ -55,7 +55,7 @@ pub(super) fn look(scene: &SceneFile) -> Look {
     let on_mold = net.zip(mold.as_ref());
     let place = |uv| on_mold.and_then(|(net, mold)| net.place_or_node(mold, uv));
     let outline = on_mold.and_then(|(net, mold)| net.boundary(mold)).map(|boundary| {
-        let line = |line: &plydrape::net::Line| {
+        let line = |line: &plydrape::net::BoundaryLine| {
             let points = line.points.iter().map(|point| point.place);
             let again = line.points.first().filter(|_| line.closed).map(|point| point.place);
             points.chain(again).collect()
@@ -109,7 +109,7 @@ struct OnTable {
 }
 
 impl OnTable {
-    /// Through the grippers of a ply at places (m); none of grippers in one line.
+    /// Through the grippers of a ply at places (m); `None` for grippers in one line.
     fn through(ply: &Ply, places: &[[f64; 3]]) -> Option<Self> {
         let count = places.len() as f64;
         let fabric: Vec<[f64; 2]> = (0..places.len()).map(|n| ply.place(n)).collect();

@@ -94,9 +94,9 @@ struct Page<'a> {
     events: Vec<VacuumEvent>,
     /// The verdict over a sample of cells, if there is one.
     sample: Option<Sample<'a>>,
-    /// The largest errors that the motion stands, in words.
+    /// The largest errors that the motion tolerates, as text.
     tolerance: Vec<String>,
-    /// What is shown of a scene before anything is draped on its mold, in place of a verdict; none of a result.
+    /// What is shown of a scene before anything is draped on its mold, in place of a verdict; `None` for a result.
     #[serde(skip_serializing_if = "Option::is_none")]
     look: Option<Look>,
     left_out: Vec<String>,
@@ -112,7 +112,7 @@ pub struct Form {
 }
 
 impl Form {
-    /// The form of a page that stands in a file.
+    /// The form of a page in a file.
     pub const FILE: Form = Form { triangles: Some(8000), packed: true };
 
     /// Integers of all steps in this form.
@@ -129,7 +129,7 @@ impl Form {
 /// # Errors
 /// As [`html`].
 pub fn data(result: &ResultFile, form: Form) -> Result<String, Error> {
-    crate::store::json::of(&page(result, form)?)
+    crate::store::json::to_text(&page(result, form)?)
 }
 
 /// The page of a result. Same result, same bytes.
@@ -141,7 +141,7 @@ pub fn html(result: &ResultFile) -> Result<String, Error> {
 }
 
 /// The page of a scene before anything is draped on its mold: the ply at its start, as the `result` of holding it there has it, where it
-/// is wanted, what is said of the scene, each line with its noun, and warnings. Same scene, same bytes.
+/// must end, what is said of the scene, each line with its noun, and warnings. Same scene, same bytes.
 ///
 /// # Errors
 /// As [`html`].
@@ -159,7 +159,7 @@ pub fn look_html(
     let (look, left_out) =
         (Some(look(scene)), warnings.iter().map(|text| look::sentence(text)).collect());
     let page = Page { facts, look, left_out, ..page(&result, Form::FILE)? };
-    filled(&result, &crate::store::json::of(&page)?)
+    filled(&result, &crate::store::json::to_text(&page)?)
 }
 
 /// The page with its title and its data.
@@ -266,7 +266,7 @@ mod tests {
         assert_eq!(PAGE.matches(DATA).count(), 1);
     }
 
-    /// A limit stands beside the course of its own measure, in the same unit.
+    /// A limit is drawn with the course of its own measure, in the same unit.
     #[test]
     fn limits_know_their_measures() {
         let result = sample::draped(4, 2, 3);
@@ -279,7 +279,7 @@ mod tests {
         }
     }
 
-    /// What stands beside has measures and no limit: neither its own nor those of the model that decides.
+    /// The other model has measures and no limit: neither its own nor those of the model that decides.
     #[test]
     fn the_other_model_judges_nothing() {
         let mut result = sample::draped(4, 2, 3);
@@ -299,7 +299,7 @@ mod tests {
         }
     }
 
-    /// What is left out is told: diagonals and steps of a large array, and steps between those in which the ply is drawn.
+    /// What is left out is named: diagonals and steps of a large array, and steps between those in which the ply is drawn.
     #[test]
     fn large_results_say_what_is_left_out() {
         let mut result = sample::draped(2, 2, 2);

@@ -13,7 +13,7 @@ pub(super) struct Mold {
 }
 
 impl Mold {
-    /// The mold around the ply in so many triangles at most, if there is one.
+    /// The mold around the ply in this many triangles at most, if there is one.
     pub fn new(result: &ResultFile, most: usize) -> Option<Mold> {
         let found = mold_patch(result, most)?;
         Some(Mold {

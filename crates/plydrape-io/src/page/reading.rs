@@ -71,7 +71,7 @@ fn limit(name: Name, judged: &[Verdict]) -> Option<f64> {
     judged.iter().find(|verdict| verdict.name == name).map(|verdict| verdict.limit)
 }
 
-/// The readings of grippers over so many steps, those of a step side by side, but what is zero throughout and has no limit; `judged` are the
+/// The readings of grippers over this many steps, those of a step side by side, but what is zero throughout and has no limit; `judged` are the
 /// verdicts of a model that decides.
 pub(super) fn readings(
     grippers: &[Gripper],
@@ -122,7 +122,7 @@ mod tests {
 
     fn judged(limits: &[(Name, f64)]) -> Vec<Verdict> {
         let worst = || Worst { value: 0.0, at: String::new(), place: None };
-        limits.iter().map(|(name, limit)| Verdict::of(*name, worst(), *limit, None)).collect()
+        limits.iter().map(|(name, limit)| Verdict::new(*name, worst(), *limit, None)).collect()
     }
 
     /// A pad tilted by 30° under 6 N straight down has 3 N along the ply and 5.196 N off the pad; pressed, it has none of that.
@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(used(&gripper, &limits), [1342, 1342]);
     }
 
-    /// What is measured has the words of its measure; a slide is told only where there is one, or a limit.
+    /// What is measured has the words of its measure; a slide is shown only where there is one, or a limit.
     #[test]
     fn readings_have_the_words_of_their_measures() {
         let grippers = [tilted([0.0, 0.0, -6.0])];

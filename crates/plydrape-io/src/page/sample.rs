@@ -85,7 +85,7 @@ mod tests {
             gripper: "gripper g3_0".into(),
         };
         let worst = Worst { value: 0.4, at: String::new(), place: None };
-        result.summary.limits.push(Verdict::of(Name::Height, worst, 0.5, Some(3)));
+        result.summary.limits.push(Verdict::new(Name::Height, worst, 0.5, Some(3)));
         let errors = Errors { share: 0.75, samples: 4, ..Errors::default() };
         result.summary.sample = Some(SampleVerdict {
             errors,

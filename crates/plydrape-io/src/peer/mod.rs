@@ -2,7 +2,7 @@
 //!
 //! [`read()`] reads `drape.json`, which the script of [`crate::export::Format::Ngsolve`] writes; [`compare`] lays it beside the states of the
 //! result's sheet. Heights over the mold and shear are computed here from the positions of both, by the same functions. The
-//! other program's last state, after it has come to rest, stands beside the end of the sheet.
+//! other program's last state, after it has come to rest, is compared with the end of the sheet.
 
 mod table;
 
@@ -51,7 +51,7 @@ struct PeerTouch {
 /// The ply in a step; the last one is that at rest.
 #[derive(Debug, Clone, Deserialize)]
 struct PeerState {
-    /// Of each node of the sheet (m); none of one beyond its mesh.
+    /// Of each node of the sheet (m); `None` for one beyond its mesh.
     positions: Vec<Option<[f64; 3]>>,
     /// Force of the ply on each cup (N).
     forces: Vec<[f64; 3]>,
@@ -73,7 +73,7 @@ pub struct Pair {
 pub struct Compared {
     /// The step, from 1.
     pub step: usize,
-    /// Its time (s).
+    /// Time (s).
     pub time: f64,
     /// Height of the lowest point (mm), in z.
     pub lowest_mm: Pair,
@@ -115,7 +115,7 @@ pub struct Comparison {
     pub steps: Vec<Compared>,
     /// Processor time of the other drape (s).
     pub cpu_s: f64,
-    /// Its time steps.
+    /// Time steps.
     pub time_steps: u64,
     /// Linear systems that it solved.
     pub solves: u64,

@@ -57,7 +57,7 @@ fn drape(result: &ResultFile) -> PeerDrape {
     serde_json::from_value(file).unwrap()
 }
 
-/// Heights, shear, loads and distances are those by which the made-up drapes differ; the state at rest stands beside the end.
+/// Heights, shear, loads and distances are those by which the made-up drapes differ; the state at rest is compared with the end.
 #[test]
 fn what_differs_is_what_was_made_to_differ() {
     let dir = tempfile::tempdir().unwrap();

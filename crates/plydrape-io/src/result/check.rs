@@ -155,7 +155,7 @@ fn of_bodies(bodies: &Bodies) -> Option<String> {
     };
     let askew =
         bodies.obstacles().iter().any(|o| !turned(&o.pose.axes) || !is_near(&o.pose.position));
-    fault.or(askew.then_some("an obstacle stands nowhere")).map(str::to_owned)
+    fault.or(askew.then_some("an obstacle has no place")).map(str::to_owned)
 }
 
 /// What is impossible in how the ply is cut.

@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-9;
 /// What is impossible in the world and the sample of a result and in what it tolerates.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let summary = &result.summary;
-    if summary.world != World::of(&result.scene.settings.pad, summary.sample.is_some()) {
+    if summary.world != World::new(&result.scene.settings.pad, summary.sample.is_some()) {
         return Some(format!("its world is {:?}, and not that of its scene", summary.world));
     }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);
@@ -24,7 +24,10 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
 fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
     let SampleVerdict { errors, cells, needed, .. } = sample;
     if !(1..=errors.samples).contains(&cells.len()) || result.scene.errors != Some(*errors) {
-        return Some(format!("its sample of {} cells is none of the scene's errors", cells.len()));
+        return Some(format!(
+            "its sample of {} cells does not have the scene's errors",
+            cells.len()
+        ));
     }
     if !is_share(errors) || *needed != errors.needed(errors.samples) {
         return Some(format!("its sample needs {needed} of {} cells", errors.samples));

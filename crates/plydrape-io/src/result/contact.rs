@@ -1,4 +1,4 @@
-//! Contact as it stands in a result file: in each step what is new.
+//! Contact in a result file: in each step what is new.
 //!
 //! Fabric in contact stays where it is, so a contact segment is written when it grows, and only its new points. A
 //! segment that is another one than before is written whole.
@@ -25,7 +25,9 @@ pub(super) struct ContactColumns {
     arc: Vec<Vec<f64>>,
     /// Their distances from their places in the ideal drape (mm).
     landing_error_mm: Vec<Option<Vec<Option<f64>>>>,
-    fibre_angle_deg: Vec<Option<f64>>,
+    // its key before version 0.1.0, read until 0.2.0
+    #[serde(alias = "fiber_angle_deg")]
+    fiber_angle_deg: Vec<Option<f64>>,
 }
 
 impl ContactColumns {
@@ -52,7 +54,7 @@ impl ContactColumns {
         self.arc.push(new.map_or_else(Vec::new, |new| outside(&new.arc, &known)));
         let errors = new.and_then(|new| new.landing_error_mm.as_ref());
         self.landing_error_mm.push(errors.map(|errors| outside(errors, &known)));
-        self.fibre_angle_deg.push(new.and_then(|new| new.fibre_angle_deg));
+        self.fiber_angle_deg.push(new.and_then(|new| new.fiber_angle_deg));
     }
 
     /// Gives some catenaries the contact that is known and new.
@@ -64,10 +66,10 @@ impl ContactColumns {
             self.points.len(),
             self.arc.len(),
             self.landing_error_mm.len(),
-            self.fibre_angle_deg.len(),
+            self.fiber_angle_deg.len(),
         ];
         alike("contact segments", self.catenary.len(), &found)?;
-        let angles = self.fibre_angle_deg.into_iter().zip(self.grown).zip(self.before);
+        let angles = self.fiber_angle_deg.into_iter().zip(self.grown).zip(self.before);
         let columns = self.points.into_iter().zip(self.arc).zip(self.landing_error_mm).zip(angles);
         for (n, (((points, arc), errors), ((angle, grown), before))) in
             self.catenary.into_iter().zip(columns)
@@ -81,7 +83,7 @@ impl ContactColumns {
                 return Err(format!("the contact of catenary {n} has not grown"));
             }
             let mut contact =
-                ContactState { points, arc, landing_error_mm: errors, fibre_angle_deg: angle };
+                ContactState { points, arc, landing_error_mm: errors, fiber_angle_deg: angle };
             if let Some(old) = old {
                 contact.points.splice(before..before, old.points);
                 contact.arc.splice(before..before, old.arc);

@@ -1,6 +1,6 @@
-//! What stands in a result file: one JSON object, whose lists are columns, so that no name is repeated.
+//! Content of a result file: one JSON object, whose lists are columns, so that no name is repeated.
 //!
-//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_states` if a sheet was draped, `catenaries` if these were,
+//! The keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_states` if a sheet was draped, `catenaries` if these were,
 //! `steps`, `also` if the other model was draped too, `checksum`, in this order. `summary` and `steps` are of the model that decides; `also`
 //! has those of the other one. `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is described
 //! in `docs/guide/result_file.md`. The check sum (CRC-32) is that of all bytes before its own value.
@@ -71,7 +71,7 @@ pub(super) struct Catenaries {
 }
 
 impl Catenaries {
-    /// Those of the first step.
+    /// The catenaries of the first step.
     fn named(steps: &[Step]) -> Self {
         let lines = || {
             let first = steps.iter().take(1).filter_map(|step| step.catenaries.as_ref());
@@ -102,7 +102,7 @@ impl Serialize for Steps<'_> {
         let mut known = Known::default();
         let mut list = to.serialize_seq(Some(self.0.len()))?;
         for step in self.0 {
-            list.serialize_element(&StepColumns::of(step, &mut known))?;
+            list.serialize_element(&StepColumns::new(step, &mut known))?;
         }
         list.end()
     }

@@ -49,13 +49,13 @@ pub struct ResultFile {
     pub plan: Option<PlanRecord>,
     /// The outcome by the model that decides.
     pub summary: Summary,
-    /// The states of the sheet, whether that decides or stands beside; `None` if no sheet was draped.
+    /// The states of the sheet, whether that decides or is the other model; `None` if no sheet was draped.
     pub sheet_states: Option<SheetKept>,
     /// The ply by the model that decides, one entry a step, the start being step 1.
     pub steps: Vec<Step>,
     /// The drape by the other model, if it was asked for; it is shown and judges nothing.
     pub also: Option<Also>,
-    /// The files from which it was read, or from which the plan was that it corrects; none of one that was draped.
+    /// The files from which it was read, or from which the plan was that it corrects; none for one that was draped.
     pub files: Vec<PathBuf>,
     /// The motion of a plan with the orientations along it: those that were judged, or made once of plan and steps.
     pub(crate) motion: OnceLock<Arc<Turned>>,
@@ -83,12 +83,12 @@ pub struct Turned {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneEcho {
-    /// Its title.
+    /// Title.
     pub title: String,
     /// Which ply of a plybook it is; `None` of a scene by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub book_ply: Option<BookPly>,
-    /// The scene file; none of a scene that was made in a program.
+    /// The scene file; `None` for a scene that was made in a program.
     pub input: Option<Arc<str>>,
     /// The ply.
     pub ply: Ply,
@@ -110,7 +110,7 @@ pub struct SceneEcho {
     /// What carries the grippers, if they do not move by themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool: Option<Tool>,
-    /// When the pads let go of the ply; none where they hold it to the end.
+    /// When the pads let go of the ply; `None` where they hold it to the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Release>,
     /// How the ply is picked up from a table; none of a motion that begins with a ply in the air.
@@ -339,7 +339,7 @@ impl ResultFile {
     /// one. Of a result that was read they are made once.
     ///
     /// # Errors
-    /// Those of [`TimedMotion::recorded`] and [`Attitudes::new`] if plan and steps are none that a planner has written.
+    /// The errors of [`TimedMotion::recorded`] and [`Attitudes::new`] if plan and steps are none that a planner has written.
     pub fn motion(&self) -> Result<Option<&Turned>, LayupError> {
         let Some(plan) = &self.plan else { return Ok(None) };
         if let Some(turned) = self.motion.get() {
@@ -350,7 +350,7 @@ impl ResultFile {
     }
 }
 
-/// The catenaries of a step, edges along u, edges along v, then diagonals; none of a step of the sheet.
+/// The catenaries of a step, edges along u, edges along v, then diagonals; none for a step of the sheet.
 #[must_use]
 pub(crate) fn catenaries(step: &Step) -> &[CatenaryState] {
     step.catenaries.as_ref().map_or(&[], |step| &step.catenaries)

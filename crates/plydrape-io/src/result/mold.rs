@@ -38,7 +38,7 @@ enum SurfaceRecord<'a> {
 }
 
 impl<'a> Record<'a> {
-    fn of(mold: &'a Mold) -> Option<Self> {
+    fn new(mold: &'a Mold) -> Option<Self> {
         Some(match mold {
             Mold::Plane(plane) => Record::Plane(*plane),
             Mold::Cylinder(cylinder) => Record::Cylinder(*cylinder),
@@ -62,8 +62,8 @@ impl<'a> Record<'a> {
                 triangles: mesh.triangles().into(),
             },
             Mold::Layered(layered) => Record::Layered {
-                on: Box::new(Record::of(&layered.mold)?),
-                layers: layered.relief.0.iter().map(LayerRecord::of).collect(),
+                on: Box::new(Record::new(&layered.mold)?),
+                layers: layered.relief.0.iter().map(LayerRecord::new).collect(),
             },
             // refused before
             Mold::Wavy(_) => return None,
@@ -107,7 +107,7 @@ impl<'a> Record<'a> {
 }
 
 impl<'a> LayerRecord<'a> {
-    fn of(layer: &'a Layer) -> Self {
+    fn new(layer: &'a Layer) -> Self {
         LayerRecord { thickness: layer.thickness(), rings: layer.rings().into() }
     }
 }
@@ -120,7 +120,7 @@ pub fn serialize<S: Serializer>(mold: &Option<Mold>, to: S) -> Result<S::Ok, S::
     if let Some(Mold::Wavy(_)) = mold {
         return Err(serde::ser::Error::custom(WAVY));
     }
-    mold.as_ref().and_then(Record::of).serialize(to)
+    mold.as_ref().and_then(Record::new).serialize(to)
 }
 
 /// Reads a mold, if there is one.

@@ -65,7 +65,7 @@ pub fn read(path: &Path) -> Result<ResultFile, Error> {
     Ok(result)
 }
 
-/// The same from the bytes of a file; its path stands in messages.
+/// Reads the bytes of a result file; its path appears in messages.
 ///
 /// # Errors
 /// As [`read`].
@@ -223,7 +223,7 @@ fn steps_of_model(ply: &Ply, model: Model, columns: Vec<StepColumns>) -> Result<
     columns.into_iter().zip(1..).map(step).collect()
 }
 
-/// Check sum of a file up to the value of its last key; none where that is not the check sum.
+/// Check sum of a file up to the value of its last key; `None` where that is not the check sum.
 fn checksum(mut file: impl BufRead) -> io::Result<Option<String>> {
     let mut sum = crc32fast::Hasher::new();
     let mut end: Vec<u8> = Vec::new();

@@ -7,7 +7,7 @@ use crate::store::shown::name;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// What is wanted.
+/// The expected text.
 const GIVEN: &str = "give the result.json of `plydrape simulate` or `plydrape plan`, or its folder";
 
 /// The file system refused.

@@ -1,4 +1,4 @@
-//! A step as it stands in a result file: a column for each quantity. What belongs to catenaries is there only where these draped.
+//! A step of a result file: a column for each quantity. What belongs to catenaries is there only where these draped.
 
 use super::contact::{ContactColumns, Known};
 use plydrape::draping::record::{
@@ -111,12 +111,12 @@ struct CellColumns {
 
 impl StepColumns {
     /// The columns of a step; contact as what is new since what is `known`.
-    pub(super) fn of(step: &Step, known: &mut Known) -> Self {
+    pub(super) fn new(step: &Step, known: &mut Known) -> Self {
         let mut columns = StepColumns {
             step: step.step,
             time: step.time,
             measures: step.measures.clone(),
-            grippers: GripperColumns::of(&step.grippers),
+            grippers: GripperColumns::new(&step.grippers),
             solver: None,
             slopes: None,
             catenaries: None,
@@ -205,7 +205,7 @@ impl StepColumns {
 }
 
 impl GripperColumns {
-    fn of(grippers: &[Gripper]) -> Self {
+    fn new(grippers: &[Gripper]) -> Self {
         let yields = grippers.iter().any(|g| g.commanded != g.position);
         let slides = grippers.iter().any(|g| g.slide_mm != 0.0);
         let released = grippers.iter().any(|g| !g.holds);

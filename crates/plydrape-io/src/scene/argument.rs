@@ -95,7 +95,7 @@ mod tests {
     fn a_wrong_unit_is_refused_as_in_a_scene() {
         let error = quantity("98 kg", Measured::Length, &ANY).unwrap_err();
         assert_eq!(error.message(), "\"98 kg\" is a mass");
-        assert!(error.help().contains("a length is wanted, e.g. \"98 mm\""));
+        assert!(error.help().contains("expected a length, e.g. \"98 mm\""));
         assert!(quantity("nan", Measured::Length, &ANY).is_err());
         assert!(quantity("", Measured::Length, &ANY).is_err());
         assert!(quantity("20 deg", Measured::Ratio, &ANY).is_err());

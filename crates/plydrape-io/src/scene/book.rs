@@ -1,7 +1,7 @@
 //! A plybook: the plies of one part on one mold, in the order in which they are laid.
 //!
 //! A book has the tables of a scene, which all of its plies share, and one `[[plies]]` for each ply with its name and the tables that
-//! are its own: their keys stand in place of the shared ones, key by key. So every ply becomes the keys of a whole scene, each
+//! are its own: their keys replace the shared ones, key by key. So every ply becomes the keys of a whole scene, each
 //! with its place in the book's text, and is read as any scene is. A ply may also be a scene file beside the book, without a mold.
 //!
 //! A ply lies on every earlier one that it overlaps. The mold of its scene is then [`Mold::Layered`]: the book's mold and those
@@ -49,9 +49,9 @@ pub struct Book {
 /// One ply of a book.
 #[derive(Debug, Clone)]
 pub struct BookPly {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its scene, on the mold with the plies that it lies on.
+    /// Scene, on the mold with the plies that it lies on.
     pub scene: SceneFile,
     /// The plies that it lies on, counted from 0, the lowest first.
     pub lies_on: Vec<usize>,
@@ -91,7 +91,7 @@ struct Reading<'a> {
     /// The text that its keys are from: the book's or that of its own scene file.
     document: Document,
     base: PathBuf,
-    /// Its header in the book.
+    /// Header in the book.
     header: Range<usize>,
     book: &'a Document,
 }
@@ -128,13 +128,13 @@ pub fn parse_book(text: &str, base: &Path, name: &str) -> Result<Book, Error> {
     book(&Document::new(name, text), base)
 }
 
-/// What refuses a book where a scene is wanted.
+/// Refuses a book in place of a scene.
 pub(super) fn refused_as_scene(document: &Document) -> Error {
     let place = document.text.find("[[plies").unwrap_or(0);
     let length = document.text.get(place..).and_then(|text| text.find('\n')).unwrap_or(0);
     document.error(
         place..place + length,
-        "this is a plybook, and a scene of one ply is wanted",
+        "this is a plybook: expected a scene of one ply",
         "`plydrape plan` plans a book and `plydrape check` reads it; other commands take a single ply: a scene file, or the result.json in the ply's folder of a planned book",
     )
 }

@@ -15,7 +15,7 @@ use serde_json::Value;
 
 /// How the limits of measures in one unit are written and read.
 pub(super) struct Kind {
-    /// What is wanted, with its article.
+    /// The name of the quantity with its article, as in `a length`.
     pub name: &'static str,
     /// A value with a unit, as a user would write it.
     pub example: &'static str,
@@ -27,7 +27,7 @@ pub(super) struct Kind {
 
 impl Kind {
     /// Of the limits of a measure.
-    pub fn of(name: Name) -> Self {
+    pub fn of_measure(name: Name) -> Self {
         match name.measure().unit().recorded {
             "mm" => Kind::new::<Length>(length),
             "deg" => Kind::new::<Angle>(angle),
@@ -55,7 +55,7 @@ pub(super) fn read(
     written: &Located<Raw>,
     document: &Document,
 ) -> Result<Option<f64>, Error> {
-    let read = |bound| (Kind::of(name).read)(written.clone(), &bound, document);
+    let read = |bound| (Kind::of_measure(name).read)(written.clone(), &bound, document);
     name.measure().bound().map(read).transpose()
 }
 
@@ -77,7 +77,7 @@ fn believed<M: Measure>(
 /// What is usual of a limit.
 fn usual_of<M: Measure>(bound: &Bound) -> usual::Usual {
     let Range { least, most, .. } = bound.range;
-    let usual = bound.practice.as_ref().map_or(usual::ANY, usual::Usual::of::<M>);
+    let usual = bound.practice.as_ref().map_or(usual::ANY, usual::Usual::from_practice::<M>);
     usual.within([least, most])
 }
 
@@ -115,13 +115,13 @@ fn share(written: Located<Raw>, bound: &Bound, document: &Document) -> Result<f6
     Err(document.error(
         value.span.clone(),
         format!("{} is more than the whole", document.quoted(&value.span)),
-        format!("a share from 0 to 1 is wanted; {si} of a hundred is \"{si} %\""),
+        format!("expected a share from 0 to 1; {si} of a hundred is \"{si} %\""),
     ))
 }
 
 /// The schema of the limit of a measure: its sentence, its range, and an example.
 pub(super) fn schema(name: Name, bound: &Bound, generator: &mut SchemaGenerator) -> Value {
-    let kind = Kind::of(name);
+    let kind = Kind::of_measure(name);
     let mut schema = (kind.schema)(generator);
     if let Some(Value::Array(choices)) = schema.get_mut("anyOf")
         && let Some(Value::Object(number)) = choices.first_mut()
@@ -198,7 +198,11 @@ mod tests {
             let value = read(name, &located, &document).unwrap().unwrap();
             assert!((value / bound.example - 1.0).abs() < 1e-12, "{name:?} {written}");
             // a unit that is not known here would be taken for a share
-            assert_eq!(Kind::of(name).si.is_empty(), matches!(unit.recorded, "1" | ""), "{name:?}");
+            assert_eq!(
+                Kind::of_measure(name).si.is_empty(),
+                matches!(unit.recorded, "1" | ""),
+                "{name:?}"
+            );
         }
     }
 }

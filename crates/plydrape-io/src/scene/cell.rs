@@ -14,7 +14,7 @@ use std::path::Path;
 
 /// The cell that a scene names.
 pub(super) struct NamedCell {
-    /// Its name, or that of its file.
+    /// Name, or that of its file.
     pub name: String,
     /// Where the scene names it.
     pub span: Range<usize>,

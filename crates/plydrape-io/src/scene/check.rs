@@ -130,6 +130,7 @@ pub(super) fn scene(
         drawn,
         cell: named_cell.map(|named| named.name),
         thickness,
+        notices: file.limits.notices(),
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
 }
@@ -182,7 +183,7 @@ pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String
         Some(found) => Err(document.error(
             text.span.clone(),
             format!("this text holds the control character {}", found.escape_unicode()),
-            "remove it: one line of plain text is wanted",
+            "remove it; a title is one line of plain text",
         )),
     }
 }
@@ -192,7 +193,7 @@ pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String
 pub(super) struct CutRead {
     /// The array of cups over it.
     cups: Option<CupArray>,
-    /// Its drawing.
+    /// Drawing.
     drawn: Option<Drawn>,
 }
 
@@ -296,7 +297,7 @@ pub(super) struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
-    /// Refuses a drape of so many steps if its result would be too large; `span` is what the scene says of that.
+    /// Refuses a drape of this many steps if its result would be too large; `span` is what the scene says of that.
     pub fn fits(&self, span: &Range<usize>, steps: usize) -> Result<(), Error> {
         self.allowed(span, size::drape(self.ply, steps))
     }

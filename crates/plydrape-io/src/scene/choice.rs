@@ -214,8 +214,8 @@ pub(super) const MIDDLE: &[&str] = &["middle", "center", "centre", "centered", "
 
 /// Above the middle of the target.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Centred;
-impl Keyword for Centred {
+pub(super) struct Centered;
+impl Keyword for Centered {
     const KEYWORD: &'static str = "centered";
     const ALIASES: &'static [&'static str] = &["centred", "center", "centre", "middle"];
     const PAIR: &'static str = "a place [x, y]";
@@ -223,34 +223,34 @@ impl Keyword for Centred {
 
 /// Two coordinates (m), or a keyword.
 #[derive(Debug)]
-pub(super) enum Place<W> {
+pub(super) enum PlaceChoice<W> {
     Keyword(PhantomData<W>),
     At(Fixed<Quantity<Length>, 2>),
 }
 
-impl<'de, W: Keyword> Deserialize<'de> for Place<W> {
+impl<'de, W: Keyword> Deserialize<'de> for PlaceChoice<W> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Choice<W>(PhantomData<W>);
         impl<'de, W: Keyword> Visitor<'de> for Choice<W> {
-            type Value = Place<W>;
+            type Value = PlaceChoice<W>;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 write!(f, "{} or \"{}\"", W::PAIR, W::KEYWORD)
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
                 if word == W::KEYWORD || W::ALIASES.contains(&word) {
-                    return Ok(Place::Keyword(PhantomData));
+                    return Ok(PlaceChoice::Keyword(PhantomData));
                 }
                 Err(E::invalid_value(Unexpected::Str(word), &self))
             }
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
-                Fixed::deserialize(SeqAccessDeserializer::new(seq)).map(Place::At)
+                Fixed::deserialize(SeqAccessDeserializer::new(seq)).map(PlaceChoice::At)
             }
         }
         deserializer.deserialize_any(Choice(PhantomData))
     }
 }
 
-impl<W: Keyword> JsonSchema for Place<W> {
+impl<W: Keyword> JsonSchema for PlaceChoice<W> {
     fn inline_schema() -> bool {
         true
     }

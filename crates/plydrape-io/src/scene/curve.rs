@@ -72,7 +72,7 @@ fn climbing<M: Measure>(
             ),
             _ if value > most => (
                 format!("{} is too large for a ply", document.quoted(&item.span)),
-                "curvatures up to 1e5 1/m and moments up to 1e6 N are wanted",
+                "expected curvatures up to 1e5 1/m and moments up to 1e6 N",
             ),
             _ => {
                 values.push(value);
@@ -217,14 +217,14 @@ struct Forces {
 const SHEARS: Forces = Forces {
     most: SHEAR,
     of: "the shear curve",
-    most_help: "a shear force per length up to 1e6 N/m is wanted",
+    most_help: "expected a shear force per length up to 1e6 N/m",
     rising_help: "give forces that never fall: where a test shows less force, the cloth slipped or wrinkled, and the curve ends before",
     usual: usual::SHEAR_FORCE,
 };
 const TENSIONS: Forces = Forces {
     most: TENSION[1],
     of: "the tension",
-    most_help: "a tension per width up to 1e10 N/m is wanted",
+    most_help: "expected a tension per width up to 1e10 N/m",
     rising_help: "give forces that never fall: where a test shows less force, yarns broke or slipped, and the table ends before",
     usual: usual::TENSION_FORCE,
 };

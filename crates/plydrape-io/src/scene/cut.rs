@@ -12,7 +12,7 @@ use super::source::Document;
 use super::usual;
 use crate::Error;
 use crate::read::outline::Drawn;
-use crate::store::shown::millimetres;
+use crate::store::shown::millimeters;
 use plydrape::LayupError;
 use plydrape::ply::{Cut, Direction, Grid, GripperId, Held, Outline, Ply, Ring, gripper_name};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -42,7 +42,7 @@ pub(super) struct Shape {
 pub struct CupArray {
     /// How many cups it has.
     pub cups: usize,
-    /// Those that do not hold the ply, in the order of the array.
+    /// The cups that do not hold the ply, in the order of the array.
     pub left_off: Vec<IdleCup>,
     /// From the middle of the ply to that of the array, along the drawing's axes (m).
     pub off: [f64; 2],
@@ -51,9 +51,9 @@ pub struct CupArray {
 /// A cup of an array that does not hold the ply.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IdleCup {
-    /// Its column and row in the array.
+    /// Column and row in the array.
     pub id: GripperId,
-    /// Its middle in the drawing (m).
+    /// Middle in the drawing (m).
     pub drawn: [f64; 2],
     /// Why.
     pub why: LeftOff,
@@ -66,7 +66,7 @@ pub enum LeftOff {
     Beside,
     /// It is over a hole.
     Hole,
-    /// Its pad, or the margin that it needs, is only partly on the ply.
+    /// Pad, or the margin that it needs, is only partly on the ply.
     Partly,
     /// The key `holds` switches it off.
     Off,
@@ -297,7 +297,7 @@ fn array(
             left_off.push(cup.idle(why));
             continue;
         }
-        let [x, y] = cup.place.map(millimetres);
+        let [x, y] = cup.place.map(millimeters);
         let off = if depth < 0.0 { "beyond" } else { "inside" };
         let place = keys.holds.as_ref().map_or(span, |rows| &rows.span);
         return Err(document.error(
@@ -305,7 +305,7 @@ fn array(
             format!(
                 "the cup {} at ({x}, {y}) mm of the drawing is {} mm {off} the boundary, and needs {} mm of ply around its middle",
                 gripper_name(cup.id),
-                millimetres(depth.abs()), millimetres(radius + margin)
+                millimeters(depth.abs()), millimeters(radius + margin)
             ),
             "move the array, give it another pitch or a smaller `margin`, or write partly = \"leave-off\" in `array`: such cups then do not hold",
         ));
@@ -316,7 +316,7 @@ fn array(
             format!("{} of the {} cups of the array hold the ply", cups.len(), nu * nv),
             format!(
                 "two or more must: move the array over the ply, or give it a closer pitch; the ply is {} × {} mm large: is its unit right?",
-                millimetres(high[0] - low[0]), millimetres(high[1] - low[1])
+                millimeters(high[0] - low[0]), millimeters(high[1] - low[1])
             ),
         ));
     }
@@ -406,7 +406,7 @@ fn listed(
                 point.span.clone(),
                 format!(
                     "cup {n} is {} mm {off} the boundary of the ply, and its pad has a radius of {} mm",
-                    millimetres(depth.abs()), millimetres(radius)
+                    millimeters(depth.abs()), millimeters(radius)
                 ),
                 "move it onto the ply",
             ));
@@ -416,13 +416,13 @@ fn listed(
         if let Some(cup) = cups.iter().find(|cup| near(cup) < least) {
             return Err(document.error(
                 point.span.clone(),
-                format!("cups {} and {n} are {} mm apart", cup.id[0], millimetres(near(cup))),
+                format!("cups {} and {n} are {} mm apart", cup.id[0], millimeters(near(cup))),
                 "give every cup a place of its own, farther apart than a pad is wide",
             ));
         }
         cups.push(Cup { id: [n, 0], place });
     }
-    // the distance of neighbours, for what is measured in cells
+    // the distance of neighbors, for what is measured in cells
     let nearest = |cup: &Cup| {
         let others = cups.iter().filter(|other| other.id != cup.id);
         let away =

@@ -3,7 +3,7 @@
 use super::choice::MIDDLE;
 use super::read::BACKSLASHES;
 use super::source::{Document, excerpt};
-use super::tree::{Fault, WORD_WANTED};
+use super::tree::{CHOICE_EXPECTED, Fault};
 use super::units::CURLY;
 use crate::Error;
 use crate::store::file_kind::edits;
@@ -14,7 +14,7 @@ use toml::de::DeTable;
 struct OtherName {
     /// What it is called elsewhere, in small letters.
     words: &'static [&'static str],
-    /// Its name in a scene, and what is to be known beside.
+    /// Name in a scene, and what is to be known beside.
     name: &'static str,
     beside: &'static str,
     /// The table that is proposed where the key is written in a table that does not have it; none where it could be any.
@@ -100,15 +100,15 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
     } else if let Some(found) = head.strip_prefix("invalid length ") {
         (
             match found {
-                "1" => "one value stands here".into(),
-                _ => format!("{found} values stand here"),
+                "1" => "one value is given here".into(),
+                _ => format!("{found} values are given here"),
             },
             remedy(expected),
         )
     } else if head.starts_with("invalid value: string") {
         (format!("{} is no choice here", document.quoted(&span)), remedy(expected))
-    } else if text == WORD_WANTED {
-        let remedy = "a choice in double quotes is wanted, as in kind = \"plane\"";
+    } else if text == CHOICE_EXPECTED {
+        let remedy = "expected a choice in double quotes, as in kind = \"plane\"";
         (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), remedy.into())
     } else if head.starts_with("invalid type") || head.starts_with("invalid value") {
         let mut help = remedy(expected);
@@ -118,7 +118,7 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
         (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), help)
     } else if text.starts_with("duplicate key") {
         (
-            format!("the key `{}` stands here twice", document.excerpt(&span)),
+            format!("the key `{}` is given twice", document.excerpt(&span)),
             "keep one of the two".into(),
         )
     } else if let Some(error) = curly(document, span.start) {
@@ -127,7 +127,7 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
         let fault = document.text.get(span.start..).unwrap_or_default();
         let before = document.text.get(..span.start).unwrap_or_default();
         let line = before.rsplit('\n').next().unwrap_or_default();
-        // what stands in double quotes before the fault, up to its end
+        // the text in double quotes before the fault, up to its end
         // `\U` and `\x` begin escapes of digits, as the folder `Users` and a file `x.stl` do
         let is_escape = ["escape", "unicode", "hexadecimal"].iter().any(|word| text.contains(word))
             && line.contains('"');
@@ -139,7 +139,7 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
             let value = unquoted(document, &span);
             return document.error(
                 span,
-                format!("{value} is no number, and a text stands in quotes"),
+                format!("{value} is no number, and a text needs quotes"),
                 match value.contains(['\\', '"']) {
                     true => {
                         "write a path in single quotes, as in file = 'C:\\molds\\new.stl'".into()
@@ -161,7 +161,7 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
     document.error(span, message, help)
 }
 
-/// The refusal of a line whose text stands in curly quotes; `None` if that is not what is wrong there.
+/// The refusal of a line whose text is in curly quotes; `None` for other lines.
 fn curly(document: &Document, at: usize) -> Option<Error> {
     let before = document.text.get(..at)?;
     let start = before.rfind('\n').map_or(0, |end| end + 1);
@@ -216,7 +216,7 @@ fn kind_of(document: &Document, span: &Range<usize>) -> &'static str {
     match text.trim_start().chars().next() {
         Some('"' | '\'') => "a text",
         Some('[') if text.starts_with("[[") => "an array of arrays or tables",
-        // A header `[name]` and an array look alike up to what stands before them.
+        // A header `[name]` and an array look alike but for what precedes them.
         Some('[') if starts_a_line(document, span.start) => "a table",
         Some('[') => "an array",
         Some('{') => "a table",
@@ -237,15 +237,15 @@ fn starts_a_line(document: &Document, at: usize) -> bool {
     before.rsplit('\n').next().is_none_or(|line| line.trim().is_empty())
 }
 
-/// `a length is wanted, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
+/// `expected a length, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
 fn remedy(expected: &str) -> String {
     match expected.split_once(", e.g. ") {
-        _ if expected == "a string" => "a text in double quotes is wanted".into(),
+        _ if expected == "a string" => "expected a text in double quotes".into(),
         _ if expected == "a sequence" => {
-            "a list is wanted: write [[name]], with two brackets, over each of its tables".into()
+            "expected a list: write [[name]], with two brackets, over each of its tables".into()
         }
-        Some((what, example)) => format!("{what} is wanted, e.g. {example}"),
-        None => format!("{expected} is wanted"),
+        Some((what, example)) => format!("expected {what}, e.g. {example}"),
+        None => format!("expected {expected}"),
     }
 }
 

@@ -15,7 +15,7 @@ use std::path::Path;
 /// How far a curve may be from the lines that stand for it, and the widest gap that is closed (m), unless given: what a cutter keeps.
 const TOLERANCE: f64 = 1e-4;
 
-/// Reads the file that an outline names; none of an outline that is points.
+/// Reads the file that an outline names; `None` for an outline that is points.
 pub(super) fn drawn(
     ply: &PlyTable,
     document: &Document,

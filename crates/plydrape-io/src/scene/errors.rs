@@ -6,7 +6,7 @@ use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
 use super::source::Document;
 use super::usual;
 use crate::Error;
-use crate::store::shown::millimetres;
+use crate::store::shown::millimeters;
 use plydrape::errors::{
     self, Errors, FrameErrors, GripperErrors, MaterialErrors, MoldErrors, PickUpErrors,
 };
@@ -151,7 +151,7 @@ impl Reader<'_> {
                 Err(self.document.error(
                     value.span.clone(),
                     format!("{} is no factor of an error", self.document.quoted(&value.span)),
-                    "a factor from 1 to 10 is wanted: 2 is half to double, both as likely",
+                    "expected a factor from 1 to 10: 2 is half to double, both as likely",
                 ))
             }
             (None, None, None) => Err(self.document.error(
@@ -182,7 +182,7 @@ impl Reader<'_> {
         Err(self.document.error(
             value.span.clone(),
             format!("{} is too large for an error", self.document.quoted(&value.span)),
-            format!("{} of zero or more is wanted, at most {most}", M::NAME),
+            format!("expected {} of zero or more, at most {most}", M::NAME),
         ))
     }
 
@@ -191,7 +191,7 @@ impl Reader<'_> {
         written: &Option<Term<Length>>,
         other: errors::Term,
     ) -> Result<errors::Term, Error> {
-        let most = format!("{} mm, half of the shorter side of a cell", millimetres(self.shift));
+        let most = format!("{} mm, half of the shorter side of a cell", millimeters(self.shift));
         self.term(written, other, [self.shift; 2], &most)
     }
 
@@ -218,7 +218,7 @@ impl Reader<'_> {
         Err(self.document.error(
             written.span.clone(),
             format!("{} is more than all of the cells", self.document.quoted(&written.span)),
-            "a share above 0, up to 1 is wanted, e.g. \"95 %\"",
+            "expected a share above 0, up to 1, e.g. \"95 %\"",
         ))
     }
 
@@ -244,7 +244,7 @@ impl Reader<'_> {
                 waviness
             }
             _ => {
-                let most = format!("{} mm, 2 % of the wavelength", millimetres(largest));
+                let most = format!("{} mm, 2 % of the wavelength", millimeters(largest));
                 self.term(&table.waviness, other.waviness, [largest; 2], &most)?
             }
         };

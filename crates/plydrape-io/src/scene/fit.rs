@@ -17,7 +17,7 @@ use std::path::Path;
 pub enum Reading {
     /// Displacement and force of a machine: `displacement`, `force`.
     Pull,
-    /// The same in time: `displacement`, `force`, `time`.
+    /// Displacement and force of a machine in time: `displacement`, `force`, `time`.
     Timed,
     /// Overhangs, one specimen a row: `overhang`.
     Overhang,
@@ -30,7 +30,7 @@ pub enum Reading {
 /// A table that was read.
 #[derive(Debug, Clone)]
 pub struct Table {
-    /// Its rows (SI); the second number is 0 where there is one column.
+    /// Rows (SI); the second number is 0 where there is one column.
     pub rows: Vec<[f64; 2]>,
     /// Times of the rows (s), of a table that is read with them.
     pub times: Vec<f64>,
@@ -402,7 +402,7 @@ fn in_comment(
             None => Ok(None),
         };
     };
-    let help = format!("{dimension} is wanted, as in `# {key} = {}`", example(key));
+    let help = format!("expected {dimension}, as in `# {key} = {}`", example(key));
     let fault = |message: String| Err(document.error(place.clone(), message, help.clone()));
     match units::quantity(value.trim().trim_matches('"')) {
         Ok((value, Some(unit))) if unit == *dimension && value.is_finite() => {

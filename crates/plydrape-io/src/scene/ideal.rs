@@ -28,11 +28,11 @@ pub struct IdealDrape {
     pub net: Net,
     /// How its seed and heading were chosen, if they were searched for.
     pub seeds: Option<Seeds>,
-    /// Where its boundary is wanted, if that is given.
+    /// The target boundary, if the scene has one.
     pub wanted: Option<Wanted>,
     /// Largest shear allowed (rad).
     pub shear_limit: f64,
-    /// What of a mesh is hardly meant, each in a sentence.
+    /// Keys that have a new name, and what of a mesh is hardly meant, each in a sentence.
     pub warnings: Vec<String>,
     /// The scene and the files that it names.
     pub files: Vec<PathBuf>,
@@ -74,7 +74,8 @@ pub(super) fn ideal_drape(
     let layup = Layup::new(ply, Settings::default(), motion);
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
     let title = title(file.title.as_ref(), document, base)?;
-    let warnings = report.map_or_else(Vec::new, |report| report.warnings());
+    let mesh = report.map_or_else(Vec::new, |report| report.warnings());
+    let warnings = [file.limits.notices(), mesh].concat();
     let (ply, files) = (layup.ply, super::named(document, base));
     Ok(IdealDrape { title, ply, mold, net, seeds, wanted, shear_limit, warnings, files })
 }

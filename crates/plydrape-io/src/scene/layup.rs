@@ -205,7 +205,7 @@ fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Erro
     Err(document.error(
         shear.span.clone(),
         format!("{} shears the ply by a right angle or more", document.quoted(&shear.span)),
-        "an angle between -90 deg and 90 deg is wanted; write degrees as \"20 deg\"",
+        "expected an angle between -90 deg and 90 deg; write degrees as \"20 deg\"",
     ))
 }
 
@@ -213,7 +213,7 @@ fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Erro
 struct Seed {
     /// Where it lies in the fabric, in cells.
     cells: [f64; 2],
-    /// Its place in the scene, if it is given there.
+    /// Place in the scene, if it is given there.
     span: Option<Range<usize>>,
 }
 
@@ -242,7 +242,7 @@ impl Seed {
         ))
     }
 
-    /// Whether it lies on a node when every cell is divided into so many meshes.
+    /// Whether it lies on a node when every cell is divided into this many meshes.
     fn is_on_a_node(&self, n: usize, divisions: usize) -> bool {
         is_whole(self.cells[n] * divisions as f64)
     }
@@ -252,7 +252,7 @@ fn is_whole(value: f64) -> bool {
     (value - value.round()).abs() <= WHOLE * value.abs().max(1.0)
 }
 
-/// Nodes along u and v if every cell is divided into so many meshes.
+/// Nodes along u and v if every cell is divided into this many meshes.
 fn nodes(ply: &Ply, divisions: [usize; 2]) -> [usize; 2] {
     [(ply.grid.nu - 1) * divisions[0] + 1, (ply.grid.nv - 1) * divisions[1] + 1]
 }

@@ -26,9 +26,16 @@ pub(super) fn limits(
         limits = limits.with_preset(preset.value);
     }
 
-    // bounds as they are written; a slack angle sets the slack ratio, and a ratio that is given stands over that one
-    let mut bounds = Vec::with_capacity(table.bounds.len());
+    // bounds as they are written; a slack angle sets the slack ratio, and a given ratio overrides that one
+    let mut bounds: Vec<(Name, Option<f64>)> = Vec::with_capacity(table.bounds.len());
     for (name, written) in &table.bounds {
+        if bounds.iter().any(|(known, _)| known == name) {
+            return Err(document.error(
+                written.span.clone(),
+                format!("`{}` is set twice, once by its old name", name.measure().name()),
+                "leave out the old name",
+            ));
+        }
         bounds.push((*name, bound::read(*name, written, document)?));
     }
     bounds.sort_by_key(|(name, _)| Reverse(*name));
@@ -99,6 +106,20 @@ mod tests {
             .limits
     }
 
+    /// A name of before version 0.1.0 sets the limit, says what to write, and is refused beside the new one.
+    #[test]
+    fn an_old_name_is_read_with_a_notice() {
+        let read = |keys: &str| parse(&format!("{SCENE}{keys}\n"), Path::new(""), "scene.toml");
+        let old = read("fibre_angle = \"2 deg\"").unwrap();
+        assert_eq!(old.limits, read("fiber_angle = \"2 deg\"").unwrap().limits);
+        assert!(
+            old.notices[0].starts_with("`fibre_angle` in [limits] is called `fiber_angle` now")
+        );
+        assert!(old.notices.len() == 1 && read("").unwrap().notices.is_empty());
+        let both = read("fiber_angle = \"2 deg\"\nfibre_angle = \"2 deg\"").unwrap_err();
+        assert_eq!(both.message(), "`fiber_angle` is set twice, once by its old name");
+    }
+
     /// Each key sets its own limit and no other, but for the slack ratio, which follows a slack angle.
     #[test]
     fn every_limit_is_set_by_the_key_of_its_measure() {
@@ -124,7 +145,7 @@ mod tests {
         }
     }
 
-    /// The slack ratio stands over that of an angle, in whichever order both are written, and other keys over a preset.
+    /// The slack ratio overrides that of an angle, in whichever order both are written, and other keys over a preset.
     #[test]
     fn what_is_given_stands_over_what_follows_from_it() {
         for keys in [
@@ -139,7 +160,7 @@ mod tests {
         }
         let set = limits("preset = \"drapebot\"\nposition = \"1 mm\"");
         assert_eq!(set.get(Name::Position), Some(1e-3));
-        let preset = Preset::DrapeBot.value(Name::FibreAngle);
-        assert_eq!((set.get(Name::FibreAngle), set.preset), (preset, Some(Preset::DrapeBot)));
+        let preset = Preset::DrapeBot.value(Name::FiberAngle);
+        assert_eq!((set.get(Name::FiberAngle), set.preset), (preset, Some(Preset::DrapeBot)));
     }
 }

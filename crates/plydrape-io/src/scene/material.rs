@@ -122,7 +122,7 @@ fn from_file(document: &Document, name: &str) -> Result<Material, Error> {
     from_table(&table, document, &(0..0), name)
 }
 
-/// Checks the keys of a material; `place` is the table's span, `name` stands in for a missing one.
+/// Checks the keys of a material; `place` is the table's span, `name` replaces a missing one.
 fn from_table(
     table: &MaterialTable,
     document: &Document,
@@ -230,7 +230,7 @@ fn scatter_factor(factor: &Quantity<Ratio>, document: &Document) -> Result<f64, 
         factor.span.clone(),
         format!("{} is no factor of a scatter", document.quoted(&factor.span)),
         format!(
-            "a factor from 1 to {LARGEST_FACTOR} is wanted: with 2 the force is from half to twice the value"
+            "expected a factor from 1 to {LARGEST_FACTOR}: with 2 the force is from half to twice the value"
         ),
     ))
 }

@@ -175,7 +175,7 @@ fn in_folder(path: &Path) -> String {
 
 /// The refusal of a file that is something else than a scene, if its bytes tell.
 fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<Error> {
-    let kind = FileKind::of(bytes).filter(|kind| *kind != FileKind::Scene)?;
+    let kind = FileKind::detect(bytes).filter(|kind| *kind != FileKind::Scene)?;
     let file = shown::name(name);
     let message = format!("`{file}` is {}, not a scene", kind.name());
     Some(source::Document::new(name, "").error_anywhere(message, kind.in_place_of_a_scene(&file)))
@@ -285,7 +285,7 @@ fn keys(document: &source::Document) -> Result<file::SceneKeys, Error> {
 pub struct SceneFile {
     /// The scene.
     pub scene: Scene,
-    /// The text of the file; none of a scene that was made in a program.
+    /// The text of the file; `None` for a scene that was made in a program.
     pub input: Option<Arc<str>>,
     /// The file itself and those that it names, as far as they are there.
     pub files: Vec<PathBuf>,
@@ -299,6 +299,8 @@ pub struct SceneFile {
     pub cell: Option<String>,
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.
     pub thickness: Option<f64>,
+    /// Keys of the scene that have a new name, each in a sentence with what to change.
+    pub notices: Vec<String>,
     /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
     pub plan_refusal: Option<Box<Diagnostic>>,
 }

@@ -110,7 +110,7 @@ impl<'a> Models<'a> {
         }
     }
 
-    /// Refuses a sheet that material, pads, mesh or memory do not allow. Returns the sheets of a plan; none where catenaries decide.
+    /// Refuses a sheet that material, pads, mesh or memory do not allow. Returns the sheets of a plan; `None` where catenaries decide.
     pub fn check_sheets(
         &self,
         ply: &Ply,

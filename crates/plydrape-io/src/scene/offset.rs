@@ -17,14 +17,14 @@ use std::path::Path;
 pub struct SeenOffset {
     /// How far the ply lies from where it was planned.
     pub offset: Offset,
-    /// The largest distance of a seen point from where the offset puts it (m); none where the offset is given.
+    /// The largest distance of a seen point from where the offset puts it (m); `None` where the offset is given.
     pub residual: Option<f64>,
     /// Whether somebody said that the ply does lie as far off as this is.
     pub far: bool,
 }
 
 impl SeenOffset {
-    /// The same, of a ply that does lie as far off as this is if somebody else says so too.
+    /// This offset, confirmed as far as it is if somebody has confirmed it.
     #[must_use]
     pub fn also_far(self, far: bool) -> Self {
         SeenOffset { far: self.far || far, ..self }
@@ -102,7 +102,7 @@ pub struct Request {
 #[must_use]
 pub fn json_offset(text: &str, tolerance: f64) -> Request {
     let document = Document::new("standard input", "");
-    let help = "an object is wanted, as in {\"offset\": {\"x\": 0.003, \"y\": \"-1.5 mm\", \"yaw\": \"0.8 deg\"}}";
+    let help = "expected an object, as in {\"offset\": {\"x\": 0.003, \"y\": \"-1.5 mm\", \"yaw\": \"0.8 deg\"}}";
     let refused =
         |message: String| Request { id: None, seen: Err(document.error_anywhere(message, help)) };
     let mut object = match serde_json::from_str(text) {
@@ -189,7 +189,7 @@ impl<'de> Visitor<'de> for UniqueVisitor {
     }
 }
 
-/// A JSON value as TOML; none of null.
+/// A JSON value as TOML; `None` for null.
 fn toml_of(value: &serde_json::Value) -> Option<String> {
     use serde_json::Value;
     Some(match value {
@@ -289,7 +289,7 @@ fn place(given: &Quantity<Length>, document: &Document, usual: &Usual) -> Result
         false => Err(document.error(
             given.span.clone(),
             format!("{} is beyond all cells", document.quoted(&given.span)),
-            "a length up to 1e6 m is wanted, e.g. \"3 mm\"",
+            "expected a length up to 1e6 m, e.g. \"3 mm\"",
         )),
     }
 }
@@ -302,7 +302,7 @@ fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
         false => Err(document.error(
             given.span.clone(),
             format!("{} is more than half a turn", document.quoted(&given.span)),
-            "an angle from -180 deg to 180 deg is wanted, e.g. \"0.8 deg\"; a plain number, without quotes, is in rad",
+            "expected an angle from -180 deg to 180 deg, e.g. \"0.8 deg\"; a plain number, without quotes, is in rad",
         )),
     }
 }
@@ -366,7 +366,7 @@ mod tests {
             ("[offset]\nx = 3\n", "would make a shift of 3 m"),
             ("[offset]\nx = \"1e9 m\"\n", "beyond all cells"),
             ("[offset]\nz = 1\n", "is no key here"),
-            ("[offset]\nabout = [1]\n", "one value stands here"),
+            ("[offset]\nabout = [1]\n", "one value is given here"),
             ("tolerance = 1e-3\n[offset]\nx = 0\n", "no meaning for an offset"),
             (&swapped, "mm from where the others put it"),
             ("[offset]\n[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n", "both an offset and points"),

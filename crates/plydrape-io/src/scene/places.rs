@@ -31,7 +31,7 @@ pub(super) struct Places {
     pub document: Document,
     /// One span per gripper, or one for all.
     pub spans: Vec<Range<usize>>,
-    /// The span of the height, where it stands apart.
+    /// The span of the height, if it is a key of its own.
     pub height: Option<Range<usize>>,
 }
 
@@ -80,8 +80,8 @@ impl Places {
     /// Refuses neighbors further apart than the ply between them.
     pub fn check_reach(&self, ply: &Ply) -> Result<(), Error> {
         // a line across the yarns may be longer than flat: the ply shears
-        let fibres = ply.neighbours().into_iter().filter(|pair| pair.fibre.is_some());
-        fibres.into_iter().try_for_each(|pair| {
+        let fibers = ply.neighbors().into_iter().filter(|pair| pair.fiber.is_some());
+        fibers.into_iter().try_for_each(|pair| {
             let [[u, v], [p, q]] = pair.grippers.map(|n| ply.place(n));
             let length = ply.length_factor * (p - u).hypot(q - v);
             let [from, to] = pair.grippers.map(|n| self.points[n]);
@@ -204,7 +204,7 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
             if points[index].is_some() {
                 return Err(row.fault(
                     0,
-                    format!("gripper {} stands here for the second time", gripper_name(gripper)),
+                    format!("gripper {} is listed for the second time", gripper_name(gripper)),
                     "give every gripper one row",
                 ));
             }

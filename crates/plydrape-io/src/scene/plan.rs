@@ -6,7 +6,7 @@ use super::source::Document;
 use super::usual;
 use crate::Error;
 use plydrape::motion::MOST_POSITIONS;
-use plydrape::scene::{Plan, PlanMethod};
+use plydrape::scene::{PlanMethod, PlanSettings};
 
 /// Most steps of a plan: each is solved in every drape that the search tries.
 const MOST_STEPS: usize = 10_000;
@@ -16,10 +16,14 @@ const MOST_EVALUATIONS: usize = 1_000_000;
 const RATES: [f64; 2] = [0.1, 1e4];
 
 /// Checks the table `[plan]`.
-pub(super) fn plan(table: &PlanTable, grippers: usize, document: &Document) -> Result<Plan, Error> {
-    let default = Plan::default();
+pub(super) fn plan(
+    table: &PlanTable,
+    grippers: usize,
+    document: &Document,
+) -> Result<PlanSettings, Error> {
+    let default = PlanSettings::default();
     let most_steps = MOST_STEPS.min(MOST_POSITIONS / grippers);
-    Ok(Plan {
+    Ok(PlanSettings {
         method: match table.method {
             Some(MethodKey::Path) => PlanMethod::Path,
             Some(MethodKey::Stepwise) => PlanMethod::Stepwise,
@@ -83,7 +87,7 @@ pub(super) fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, E
         document.error(
             seed.span.clone(),
             format!("the seed {value} is negative"),
-            "a whole number of zero or more is wanted, e.g. 0",
+            "expected a whole number of zero or more, e.g. 0",
         )
     })
 }

@@ -96,7 +96,7 @@ pub(super) enum Raw {
     Text(String),
 }
 
-/// A measured value as it stands in the file.
+/// A measured value as it is written in the file.
 #[derive(Debug, Clone)]
 pub(super) struct Unchecked<M> {
     raw: Raw,
@@ -143,7 +143,7 @@ impl<M: Measure> Quantity<M> {
         Err(document.error(
             self.span.clone(),
             format!("{} is no finite number", document.quoted(&self.span)),
-            format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
+            format!("expected {}, e.g. \"{}\"", M::NAME, M::EXAMPLE),
         ))
     }
 
@@ -161,7 +161,7 @@ impl<M: Measure> Quantity<M> {
         document.error(
             self.span.clone(),
             "`nan` is not a number",
-            format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
+            format!("expected {}, e.g. \"{}\"", M::NAME, M::EXAMPLE),
         )
     }
 
@@ -169,7 +169,7 @@ impl<M: Measure> Quantity<M> {
     pub fn with_dimension(&self, document: &Document) -> Result<(f64, Option<Dimension>), Error> {
         let error =
             |message: String, help: String| document.error(self.span.clone(), message, help);
-        let remedy = format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE);
+        let remedy = format!("expected {}, e.g. \"{}\"", M::NAME, M::EXAMPLE);
         let text = match &self.value.raw {
             Raw::Number(number) => return Ok((*number, None)),
             Raw::Text(text) => text,
@@ -210,7 +210,7 @@ impl<M: Measure> Quantity<M> {
         Err(document.error(
             self.span.clone(),
             format!("{} is {zero}", document.quoted(&self.span)),
-            format!("{} above zero is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
+            format!("expected {} above zero, e.g. \"{}\"", M::NAME, M::EXAMPLE),
         ))
     }
 
@@ -275,7 +275,7 @@ impl<M: Measure> Quantity<M> {
         Err(document.error(
             self.span.clone(),
             format!("{} is too {side} for {what}", document.quoted(&self.span)),
-            format!("{} from {low:e} to {high:e} {} is wanted", M::NAME, M::UNIT),
+            format!("expected {} from {low:e} to {high:e} {}", M::NAME, M::UNIT),
         ))
     }
 
@@ -289,7 +289,7 @@ impl<M: Measure> Quantity<M> {
         Err(document.error(
             self.span.clone(),
             format!("{} is negative", document.quoted(&self.span)),
-            format!("{} of zero or more is wanted", M::NAME),
+            format!("expected {} of zero or more", M::NAME),
         ))
     }
 }
@@ -384,14 +384,14 @@ impl Quantity<Angle> {
             ),
             Raw::Text(_) => (
                 format!("{shown} is a right angle or more"),
-                "an angle from 0 to below 90 deg is wanted".into(),
+                "expected an angle from 0 to below 90 deg".into(),
             ),
         };
         Err(document.error(self.span.clone(), message, help))
     }
 }
 
-/// Reads a number or a text where something is wanted that is called `name`, as in `example`.
+/// Reads a number or a text of the quantity `name`, as in `example`.
 pub(super) struct RawSeed {
     pub name: &'static str,
     pub example: &'static str,

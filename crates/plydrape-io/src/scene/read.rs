@@ -62,7 +62,7 @@ fn short(name: &str) -> String {
     shown::name(&shown::excerpt(name, LONGEST_PATH))
 }
 
-/// What to do about a file that is not there, if that can be told.
+/// What to do about a file that is not there, if anything helps.
 fn not_found(path: &Path, error: &std::io::Error) -> Option<String> {
     if error.kind() != ErrorKind::NotFound {
         return None;
@@ -140,7 +140,7 @@ fn decoded(bytes: Vec<u8>, name: &str, old: Old) -> Result<Document, Error> {
             ),
         };
     }
-    if let Some(kind) = FileKind::of(&bytes)
+    if let Some(kind) = FileKind::detect(&bytes)
         && !matches!(kind, FileKind::Scene | FileKind::Table)
         && (std::str::from_utf8(&bytes).is_err() || bytes.contains(&0))
     {

@@ -6,7 +6,7 @@ use plydrape::ply::{Grid, Ply};
 
 /// A rectangle in a plane, spread along u and v from a corner.
 pub(super) struct Rectangle {
-    /// Its corner (m).
+    /// Corner (m).
     origin: [f64; 3],
     /// Unit vector along u.
     along_u: [f64; 3],

@@ -3,7 +3,7 @@
 use super::file::SceneKeys;
 use super::source::Document;
 use crate::Error;
-use crate::store::shown::millimetres;
+use crate::store::shown::millimeters;
 use crate::store::size::{self, PlanSheets};
 use plydrape::layup::Settings;
 use plydrape::material::{Material, Section};
@@ -115,12 +115,12 @@ impl Around<'_> {
                 span,
                 format!(
                     "the pads overlap: they are {} mm wide and {} mm apart",
-                    millimetres(2.0 * radius),
-                    millimetres(pitch)
+                    millimeters(2.0 * radius),
+                    millimeters(pitch)
                 ),
                 format!(
                     "a radius below {} mm leaves fabric between them",
-                    millimetres(0.5 * pitch)
+                    millimeters(0.5 * pitch)
                 ),
             ));
         }
@@ -130,10 +130,10 @@ impl Around<'_> {
                 span,
                 format!(
                     "the outermost pads hang over the boundary: their radius is {} mm, and there are {} mm of fabric beyond the grippers",
-                    millimetres(radius),
-                    millimetres(overhang)
+                    millimeters(radius),
+                    millimeters(overhang)
                 ),
-                format!("give overhang = \"{} mm\" or more in [ply], or smaller pads", millimetres(radius)),
+                format!("give overhang = \"{} mm\" or more in [ply], or smaller pads", millimeters(radius)),
             ));
         }
         Ok(())
@@ -146,18 +146,18 @@ impl Around<'_> {
         if mesh <= most * (1.0 + ROUNDING) {
             return Ok(mesh);
         }
-        let between = format!("{} mm of fabric between neighboring pads", millimetres(2.0 * most));
+        let between = format!("{} mm of fabric between neighboring pads", millimeters(2.0 * most));
         let Some(span) = self.mesh_span() else {
             let span = self.pad_span().unwrap_or_else(|| self.file.grippers_span().clone());
             return Err(self.document.error(
                 span,
                 format!(
                     "there are {between}, less than two lines of nodes {} mm apart need",
-                    millimetres(mesh)
+                    millimeters(mesh)
                 ),
                 format!(
                     "give mesh = \"{} mm\" or less in [sheet], or smaller pads",
-                    millimetres(most)
+                    millimeters(most)
                 ),
             ));
         };
@@ -165,9 +165,9 @@ impl Around<'_> {
             span,
             format!(
                 "lines of nodes {} mm apart meet neither pads nor boundary: there are {between}",
-                millimetres(mesh)
+                millimeters(mesh)
             ),
-            format!("{} mm or less puts a line between them", millimetres(most)),
+            format!("{} mm or less puts a line between them", millimeters(most)),
         ))
     }
 

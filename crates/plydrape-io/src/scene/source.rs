@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub(super) struct Document {
     /// The file as the user named it.
     pub file: String,
-    /// Its whole text.
+    /// Whole text.
     pub text: Arc<str>,
 }
 
@@ -57,7 +57,7 @@ impl Document {
         }
     }
 
-    /// A value as it stands in the file, for a message: a text in its quotes, others in ticks.
+    /// A value as it is written in the file, for a message: a text in its quotes, others in ticks.
     pub fn quoted(&self, span: &Range<usize>) -> String {
         let value = self.excerpt(span);
         if value.starts_with(['"', '\'']) {

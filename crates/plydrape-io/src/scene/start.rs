@@ -1,7 +1,7 @@
 //! Where the grippers start.
 
 use super::check::Surroundings;
-use super::choice::Place;
+use super::choice::PlaceChoice;
 use crate::Error;
 
 use super::file::GrippersTable;
@@ -91,8 +91,8 @@ fn rectangle(
     let distance = |n: usize| spacing.0[n].size(document, &usual::SPACING);
     let distances = [distance(0)?, distance(1)?];
     let lift = height.coordinate(document, &usual::HEIGHT)?;
-    let plane = ground(keys, around)?;
-    let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
+    let plane = plane_below(keys, around)?;
+    let direction = match (&keys.direction, target.filter(|_| is_centered(keys))) {
         (Some(direction), _) => heading(direction, document)? + turn,
         (None, Some(target)) => match target.drape.as_ref().filter(|_| ply.grid == Grid::NONE) {
             Some(net) => net.placement.heading,
@@ -118,11 +118,11 @@ fn rectangle(
             ));
         }
         (Some(origin), None) => match (&origin.value, target) {
-            (Place::At(origin), _) => coordinates(origin, document, &usual::PLACE)?,
-            (Place::Keyword(_), Some(target)) => {
+            (PlaceChoice::At(origin), _) => coordinates(origin, document, &usual::PLACE)?,
+            (PlaceChoice::Keyword(_), Some(target)) => {
                 shift(middle(&target.grippers), middle(&unmoved().grippers(ply, distances)))
             }
-            (Place::Keyword(_), None) => {
+            (PlaceChoice::Keyword(_), None) => {
                 return Err(document.error(
                     origin.span.clone(),
                     "the start shall be centered above the target, and the scene has no target",
@@ -146,12 +146,12 @@ fn rectangle(
 }
 
 /// Whether the rectangle shall be above the middle of the target.
-fn is_centred(keys: &GrippersTable) -> bool {
-    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, Place::Keyword(_)))
+fn is_centered(keys: &GrippersTable) -> bool {
+    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, PlaceChoice::Keyword(_)))
 }
 
 /// The plane above which the rectangle lies: the mold, or z = 0.
-fn ground(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, Error> {
+fn plane_below(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, Error> {
     let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     let Some(parallel) = keys.parallel_to_mold.as_ref().filter(|parallel| parallel.value) else {
         return Ok(level);

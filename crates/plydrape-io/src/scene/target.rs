@@ -69,7 +69,7 @@ pub(super) struct Laid {
     pub net: Net,
     /// How its seed and heading were chosen, if they were searched for.
     pub seeds: Option<Seeds>,
-    /// Where its boundary is wanted.
+    /// The target boundary.
     pub wanted: Option<Wanted>,
 }
 
@@ -101,7 +101,7 @@ pub(super) fn net(
     Ok(Laid { net, seeds, wanted })
 }
 
-/// The wanted boundary from a CSV file.
+/// The target boundary from a CSV file.
 fn wanted(
     file: &Located<String>,
     mold: &Mold,

@@ -44,7 +44,7 @@ pub(super) fn tool(
     Ok(Tool {
         turn_rate: match &table.turn_rate {
             Some(rate) => {
-                let usual = Usual::of::<AngularRate>(&Practice::TURN);
+                let usual = Usual::from_practice::<AngularRate>(&Practice::TURN);
                 rate.within_for(document, TURNS, "a frame", &usual)?
             }
             None => usual.turn_rate,
@@ -57,7 +57,7 @@ pub(super) fn tool(
         residual: table
             .residual
             .as_ref()
-            .map(|limit| limit.size(document, &Usual::of::<Length>(&Practice::GAP)))
+            .map(|limit| limit.size(document, &Usual::from_practice::<Length>(&Practice::GAP)))
             .transpose()?,
         flange: placed(table.flange.as_ref(), document, &usual::FLANGE)?,
         world: placed(table.world.as_ref(), document, &usual::COORDINATE)?,
@@ -65,7 +65,7 @@ pub(super) fn tool(
     })
 }
 
-/// The axes of pads without joints: those of the array as it stands at the start.
+/// The axes of pads without joints: those of the array at the start.
 fn fixed_pads(
     table: &ToolTable,
     layup: &Layup,
@@ -130,7 +130,7 @@ fn axis(
     };
     let speed = match &table.speed {
         Some(speed) => {
-            let usual = Usual::of::<Speed>(&Practice::SPEED);
+            let usual = Usual::from_practice::<Speed>(&Practice::SPEED);
             speed.within_for(document, SPEEDS, "an axis", &usual)?
         }
         None => limits.most(Name::Speed),

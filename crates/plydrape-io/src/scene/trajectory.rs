@@ -157,7 +157,7 @@ impl<'a> Steps<'a> {
             return Err(row.fault(
                 1,
                 format!(
-                    "gripper {} stands here for the second time at t = {written} s",
+                    "gripper {} is listed for the second time at t = {written} s",
                     gripper_name(gripper)
                 ),
                 "give every gripper one row at every time",
@@ -187,7 +187,7 @@ impl<'a> Steps<'a> {
         Ok(())
     }
 
-    /// Refuses a step in which a gripper is missing or stands straight above another.
+    /// Refuses a step in which a gripper is missing or straight above another.
     fn complete(&mut self) -> Result<(), Error> {
         let (Some(time), Some(points)) = (self.motion.times.last(), self.motion.positions.last())
         else {

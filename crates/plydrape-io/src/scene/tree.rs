@@ -17,7 +17,7 @@ use toml::de::{DeTable, DeValue};
 /// Asks [`Tree`] for a value with its place: a sequence of its first byte, the byte behind its last one, and the value.
 pub(super) const LOCATED: &str = "a value and its place";
 
-/// Why a text has not the keys that are wanted, in the words of serde or of the TOML parser, and the bytes of the text it is about.
+/// Why a text does not have the expected keys, as serde or the TOML parser says it, and the bytes of the text it is about.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub message: String,
@@ -25,7 +25,7 @@ pub(super) struct Fault {
 }
 
 impl Fault {
-    /// The same, about these bytes unless it is about fewer.
+    /// This fault, about these bytes unless it has a place already.
     fn at(mut self, span: Range<usize>) -> Self {
         self.span.get_or_insert(span);
         self
@@ -128,7 +128,7 @@ impl<'de> Deserializer<'de> for Tree<'_, '_> {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         if name == LOCATED {
-            return visitor.visit_seq(Place { value: self, given: 0 });
+            return visitor.visit_seq(PlacedValue { value: self, given: 0 });
         }
         self.deserialize_any(visitor)
     }
@@ -144,7 +144,7 @@ impl<'de> Deserializer<'de> for Tree<'_, '_> {
                 let word: StrDeserializer<'_, Fault> = (**word).into_deserializer();
                 visitor.visit_enum(word)
             }
-            _ => Err(Fault::custom(WORD_WANTED)),
+            _ => Err(Fault::custom(CHOICE_EXPECTED)),
         };
         read.map_err(|fault| fault.at(self.0.span()))
     }
@@ -155,8 +155,8 @@ impl<'de> Deserializer<'de> for Tree<'_, '_> {
     }
 }
 
-/// What is said of a value that is no text where a choice is wanted.
-pub(super) const WORD_WANTED: &str = "a choice is wanted";
+/// Message for a value that is no text where a choice is expected.
+pub(super) const CHOICE_EXPECTED: &str = "expected a choice";
 
 /// The values of an array, one after the other.
 struct Values<'t, 'i>(std::slice::Iter<'t, Spanned<DeValue<'i>>>);
@@ -203,12 +203,12 @@ where
 }
 
 /// The place of a value, and the value.
-struct Place<'t, 'i> {
+struct PlacedValue<'t, 'i> {
     value: Tree<'t, 'i>,
     given: u8,
 }
 
-impl<'de> SeqAccess<'de> for Place<'_, '_> {
+impl<'de> SeqAccess<'de> for PlacedValue<'_, '_> {
     type Error = Fault;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(

@@ -231,7 +231,7 @@ pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), Fault> {
     let text = text.trim();
     if let Some(inner) = without_curly_quotes(text) {
         let help = format!("write \"{inner}\"");
-        return Err(Fault::new("it stands in curly quotes", help));
+        return Err(Fault::new("it is in curly quotes", help));
     }
     let (number, rest) = text.split_at(number_length(text));
     let value: f64 =
@@ -295,7 +295,7 @@ fn product(text: &str, depth: usize) -> Result<(Option<Unit>, &str), Fault> {
         };
         let (power, tail) = power(tail)?;
 
-        // Into the product, or under the slash before it. A power belongs to what stands beside it: Nm² is N·m².
+        // Into the product, or under the slash before it. A power belongs to the factor beside it: Nm² is N·m².
         let (value, of) = total.get_or_insert((1.0, Dimension::NONE));
         for ((size, dimension), power) in
             before.map(|unit| (unit, 1)).into_iter().chain(last.map(|unit| (unit, power)))
@@ -403,9 +403,9 @@ fn joined(symbol: &str) -> Option<[Option<Unit>; 2]> {
     })
 }
 
-/// What stands before a power of ten that is written out.
+/// What precedes a power of ten that is written out.
 const TIMES: [char; 7] = ['*', '·', '⋅', '∙', '×', 'x', 'X'];
-/// What stands between symbols: products, and the quotient.
+/// Operators between symbols: products, and the quotient.
 const OPERATORS: &str = "*·⋅∙×./";
 /// Digits of a power above the line, by value, and its sign.
 const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];

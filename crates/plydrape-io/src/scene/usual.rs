@@ -12,7 +12,7 @@ use plydrape::measure::Practice;
 /// How far a plain number may be below and above what is found in practice. Units that are taken for each other differ by a thousand, and
 /// those that are left out are mostly the smaller ones.
 const MARGINS: [f64; 2] = [0.1, 2.0];
-/// The same of angles and shares: a degree is a sixtieth of a radian, and a percent a hundredth of one.
+/// How far a plain angle or share may be off: a degree is a sixtieth of a radian, and a percent a hundredth of one.
 const CLOSE_MARGINS: [f64; 2] = [1.0, 1.0];
 
 /// What is found in practice of one kind of value.
@@ -24,7 +24,7 @@ pub struct Usual {
     pub unit: &'static str,
     /// Smallest and largest that is found (in that unit); a smallest of 0 leaves small values alone.
     pub found: [f64; 2],
-    /// The same in words.
+    /// That range as text.
     pub range: &'static str,
     /// Units that are meant where one was left out.
     pub others: &'static [&'static str],
@@ -86,7 +86,7 @@ usual! {
     LANDED: "a tolerance of", "m", [0.0, 0.01], "tolerances of positions are up to 10 mm", LENGTHS;
     /// How far a ply lies from where it was planned.
     SHIFT: "a shift of", "m", [0.0, 0.05], "plies are laid down within 50 mm", LENGTHS;
-    /// The same as an angle.
+    /// How far a ply is turned from where it was planned.
     YAW: "a yaw of", "rad", [0.0, 0.175], "plies are laid down within 10 deg", &["deg"];
     /// Half a turn to either side.
     ANGLE: "an angle of", "rad", [0.0, 1.0001 * std::f64::consts::PI], "angles are up to half a turn, 3.1416 rad", &["deg"];
@@ -116,7 +116,7 @@ usual! {
     PAD_FORCE: "a pad that holds", "N", [0.01, 500.0], "pads hold 0.01 N to 500 N", &["mN"];
     /// How far a real cell is from its scene.
     ERROR: "an error of", "m", [0.0, 0.02], "errors of cells are up to 20 mm", LENGTHS;
-    /// The same of angles.
+    /// How far an angle of a real cell is from its scene.
     ANGLE_ERROR: "an error of", "rad", [0.0, 0.1], "errors of angles are up to 0.1 rad, 5.7 deg", &["deg"];
     /// The length of one catenary, or of what hangs between two grippers.
     SPAN: "a span of", "m", [0.002, 2.0], "spans are 2 mm to 2 m long", LENGTHS;
@@ -172,7 +172,7 @@ usual! {
 
 impl Usual {
     /// What is found in practice of a limit or what is like it.
-    pub(super) fn of<M: Measure>(practice: &Practice) -> Self {
+    pub(super) fn from_practice<M: Measure>(practice: &Practice) -> Self {
         let others: &[&str] = match M::UNIT {
             "m" => LENGTHS,
             "m/s" => &["mm/s"],
@@ -189,7 +189,7 @@ impl Usual {
         Usual { what, unit: M::UNIT, found, range: words, others, possible: [0.0, f64::INFINITY] }
     }
 
-    /// The same of values whose size is possible between two (in that unit) alone.
+    /// The usual values, with the range (in that unit) outside of which none is possible.
     pub(super) fn within(self, possible: [f64; 2]) -> Self {
         Usual { possible, ..self }
     }
@@ -234,7 +234,7 @@ impl Usual {
 
 /// What is usual of the duration of a motion.
 pub(super) fn duration() -> Usual {
-    Usual::of::<Time>(&Practice::DURATION)
+    Usual::from_practice::<Time>(&Practice::DURATION)
 }
 
 /// What is usual of an error of a cell.
@@ -332,7 +332,7 @@ mod tests {
             ("limits", "position = 2", "2 mm"),
             ("limits", "clearance = 5", "5 mm"),
             ("limits", "gripper_distance = 50", "50 mm"),
-            ("limits", "fibre_angle = 3", "3 deg"),
+            ("limits", "fiber_angle = 3", "3 deg"),
             ("limits", "out_of_plane = 1", "1 deg"),
             ("limits", "tilt_rate = 90", "90 deg/s"),
             ("limits", "speed = 250", "250 mm/s"),

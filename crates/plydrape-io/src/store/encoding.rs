@@ -5,7 +5,7 @@ use std::borrow::Cow;
 /// Bytes of a beginning that tell a text from a file that begins with zeros.
 const HEAD: usize = 64;
 
-/// The text of bytes that are UTF-16, by their mark or because every other byte of their beginning is zero; within, none where it is damaged.
+/// The text of bytes that are UTF-16, by their mark or because every other byte of their beginning is zero; within, `None` where it is damaged.
 pub(crate) fn wide(bytes: &[u8]) -> Option<Option<String>> {
     let zeros = |odd: usize| {
         let head = &bytes[..bytes.len().min(HEAD)];

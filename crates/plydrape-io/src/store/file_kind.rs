@@ -1,4 +1,4 @@
-//! What a file is, by how it begins, where another one was wanted; and which file was meant by a name that is none.
+//! What a file is, by how it begins, where another one was expected; and which file was meant by a name that is none.
 
 use crate::store::format::FORMAT;
 use std::path::Path;
@@ -27,11 +27,11 @@ const HEAD: usize = 4096;
 
 impl FileKind {
     /// The kind of a file, if its bytes tell.
-    pub fn of(bytes: &[u8]) -> Option<FileKind> {
+    pub fn detect(bytes: &[u8]) -> Option<FileKind> {
         Self::of_start(bytes, bytes.len() as u64)
     }
 
-    /// The same from the beginning of a file of so many bytes.
+    /// The kind of a file of `size` bytes, by its beginning.
     pub fn of_start(bytes: &[u8], size: u64) -> Option<FileKind> {
         let size = size - if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -102,7 +102,7 @@ impl FileKind {
         }
     }
 
-    /// Its name with an article.
+    /// Name with an article.
     pub fn name(self) -> &'static str {
         match self {
             FileKind::Stl => "a mesh (STL)",
@@ -122,7 +122,7 @@ impl FileKind {
         }
     }
 
-    /// What to do with it where a scene was wanted.
+    /// Remedy where a scene was expected.
     pub fn in_place_of_a_scene(self, name: &str) -> String {
         match self {
             FileKind::Stl | FileKind::Obj | FileKind::Abaqus => format!(
@@ -223,7 +223,7 @@ mod tests {
             (b"hello\n", None),
         ];
         for (bytes, kind) in cases {
-            assert_eq!(FileKind::of(bytes), kind, "{}", String::from_utf8_lossy(bytes));
+            assert_eq!(FileKind::detect(bytes), kind, "{}", String::from_utf8_lossy(bytes));
         }
     }
 

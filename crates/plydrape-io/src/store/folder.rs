@@ -173,7 +173,7 @@ impl Folder {
         self.refuse_taken(&[name])?;
         let (dir, earlier) = (&self.dir, Manifest::read(&self.dir)?);
         let stamp = stage_file(self.stage(), dir, name, content)?;
-        let new = Manifest::of(self.by, [(name.to_owned(), stamp)]);
+        let new = Manifest::new(self.by, [(name.to_owned(), stamp)]);
         let sealed = earlier.is_sealed();
         // the list first knows both contents, so that a cut in power leaves one that it knows
         self.list(&earlier.with(&new).replaced_by(&Manifest::default(), sealed))?;
@@ -213,7 +213,7 @@ impl Folder {
         self.put(files, true)
     }
 
-    /// The same, but files of an earlier run that are not written now stay.
+    /// Writes files; those of an earlier run that are not written now stay.
     ///
     /// # Errors
     /// As [`Folder::write`].
@@ -245,7 +245,7 @@ impl Folder {
             .filter(|name| earlier.holds(&dir, name) && !self.reads(name))
             .map(str::to_owned)
             .collect();
-        let new = Manifest::of(self.by, stamps.clone());
+        let new = Manifest::new(self.by, stamps.clone());
         let both = earlier.with(&new);
         // files that went were ours, and files that came are: what stays is listed as it was
         let rest = earlier.without_those_of(&new);

@@ -117,8 +117,8 @@ fn a_move_that_fails_in_one_folder_is_undone_in_all() {
 
 /// A list of two files that both hold `2`.
 fn of_two() -> Manifest {
-    let stamp = |name: &str| (name.into(), Stamp::of(&b"2"[..]).unwrap());
-    Manifest::of("simulate", ["a", "b"].map(stamp))
+    let stamp = |name: &str| (name.into(), Stamp::read(&b"2"[..]).unwrap());
+    Manifest::new("simulate", ["a", "b"].map(stamp))
 }
 
 /// Between the two lists a power cut may fall: both the old and the new files are known then.
@@ -152,7 +152,7 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     }
 }
 
-/// A link to a file elsewhere is not ours, whatever stands behind it.
+/// A link to a file elsewhere is not ours, whatever it leads to.
 #[cfg(unix)]
 #[test]
 fn a_link_is_not_followed() {

@@ -23,7 +23,7 @@ pub(crate) struct Stamp {
 struct Entry {
     /// The command that wrote it.
     by: String,
-    /// Its contents; more than one while files are being replaced.
+    /// Contents; more than one while files are being replaced.
     contents: Vec<Stamp>,
 }
 
@@ -44,7 +44,7 @@ impl Default for Manifest {
 
 impl Stamp {
     /// That of all that is left to read.
-    pub(crate) fn of(mut content: impl io::Read) -> io::Result<Self> {
+    pub(crate) fn read(mut content: impl io::Read) -> io::Result<Self> {
         let mut stamping = Stamping::new(io::sink());
         io::copy(&mut content, &mut stamping)?;
         Ok(stamping.stamp())
@@ -105,7 +105,7 @@ impl Manifest {
     }
 
     /// The list of a set of files that a command writes.
-    pub(crate) fn of(by: &str, files: impl IntoIterator<Item = (String, Stamp)>) -> Self {
+    pub(crate) fn new(by: &str, files: impl IntoIterator<Item = (String, Stamp)>) -> Self {
         let entry = |stamp| Entry { by: by.into(), contents: vec![stamp] };
         let files = files.into_iter().map(|(name, stamp)| (name, entry(stamp)));
         Manifest { sealed: true, files: files.collect() }
@@ -173,13 +173,13 @@ impl Manifest {
         };
         fs::symlink_metadata(&path).is_ok_and(|found| found.is_file())
             && fs::File::open(&path)
-                .and_then(Stamp::of)
+                .and_then(Stamp::read)
                 .is_ok_and(|stamp| contents.contains(&stamp))
     }
 
     /// The list as JSON, one line.
     pub(crate) fn text(&self) -> Result<String, Error> {
-        crate::store::json::of(self)
+        crate::store::json::to_text(self)
     }
 
     /// True for a file name without any path, other than the list's own.

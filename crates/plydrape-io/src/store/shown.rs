@@ -55,12 +55,12 @@ pub fn blanked(text: &str) -> String {
 
 /// A length (m) in millimeters, with three digits after the point at most.
 #[must_use]
-pub fn millimetres(length: f64) -> String {
+pub fn millimeters(length: f64) -> String {
     let text = format!("{:.3}", 1e3 * length);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The first line of a text, at most so many characters of it, with an ellipsis where more follows.
+/// The first line of a text, at most this many characters of it, with an ellipsis where more follows.
 #[must_use]
 pub fn excerpt(text: &str, characters: usize) -> String {
     let line = text.lines().next().unwrap_or_default();
@@ -75,7 +75,7 @@ pub fn excerpt(text: &str, characters: usize) -> String {
 #[must_use]
 pub fn picked_up(plan: &PlanRecord) -> Option<String> {
     let offset = plan.picked_up.as_ref()?.offset;
-    let [x, y] = offset.shift.map(millimetres);
+    let [x, y] = offset.shift.map(millimeters);
     // six digits, and a zero without a sign
     let yaw = (1e6 * offset.yaw.to_degrees()).round() / 1e6 + 0.0;
     Some(format!("replanned for a ply that lay off by x {x} mm, y {y} mm, yaw {yaw} deg"))
@@ -84,7 +84,7 @@ pub fn picked_up(plan: &PlanRecord) -> Option<String> {
 /// What a ply is and how it is held, in a line.
 #[must_use]
 pub fn ply(ply: &Ply) -> String {
-    let [a, b] = ply.cell.map(millimetres);
+    let [a, b] = ply.cell.map(millimeters);
     let Some(cut) = &ply.cut else {
         let warp = match ply.warp {
             Direction::U => "u",
@@ -95,7 +95,7 @@ pub fn ply(ply: &Ply) -> String {
     };
     let drawn = cut.outline.moved(|uv| cut.drawn(uv));
     let [low, high] = drawn.bounds();
-    let [width, height] = [0, 1].map(|n| millimetres(high[n] - low[n]));
+    let [width, height] = [0, 1].map(|n| millimeters(high[n] - low[n]));
     let holes = match drawn.holes().len() {
         0 => String::new(),
         1 => " with a hole".into(),
@@ -107,7 +107,7 @@ pub fn ply(ply: &Ply) -> String {
         Grid::NONE => format!("{} cups, {a} × {b} mm apart", ply.grippers()),
         Grid { nu, nv } => format!("{nu} × {nv} cups, {a} × {b} mm apart"),
     };
-    let warp = millimetres(warp * 1e-3);
+    let warp = millimeters(warp * 1e-3);
     format!("cut to {width} × {height} mm{holes}, held by {held}, warp at {warp}° in the drawing")
 }
 

@@ -5,7 +5,7 @@
 
 use crate::{Error, error};
 use plydrape::ply::Ply;
-use plydrape::scene::{Plan, PlanMethod};
+use plydrape::scene::{PlanMethod, PlanSettings};
 use std::env;
 
 /// Environment variable that holds another budget, as in `16 GB`.
@@ -81,7 +81,7 @@ pub fn budget() -> Result<f64, Error> {
     }
 }
 
-/// Refuses work that would take so many bytes, if that is beyond the budget; `what` names it with its numbers.
+/// Refuses work that would take this many bytes, if that is beyond the budget; `what` names it with its numbers.
 ///
 /// # Errors
 /// [`Error::TooLarge`] if it would, and as [`budget`].
@@ -117,7 +117,7 @@ pub struct PlanSheets {
 ///
 /// # Errors
 /// As [`check`].
-pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Error> {
+pub fn plan(ply: &Ply, plan: &PlanSettings, sheets: Option<PlanSheets>) -> Result<(), Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let (program, cores) = match plan.method {
         PlanMethod::Path => (0.0, cores),
@@ -135,7 +135,7 @@ pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Er
     })
 }
 
-/// Refuses derivatives of so many numbers to all gripper positions, as one array.
+/// Refuses derivatives of this many numbers to all gripper positions, as one array.
 ///
 /// # Errors
 /// As [`check`].
@@ -161,7 +161,7 @@ fn steps(what: &str, ply: &Ply, steps: usize) -> String {
     format!("{what} of {steps} with {grippers} grippers and {catenaries} catenaries")
 }
 
-/// Refuses a sheet of so many nodes whose drape keeps so many states.
+/// Refuses a sheet of this many nodes whose drape keeps this many states.
 ///
 /// # Errors
 /// As [`check`].
@@ -171,13 +171,13 @@ pub fn sheet(nodes: f64, states: usize) -> Result<(), Error> {
     })
 }
 
-/// Memory that the drape of a sheet of so many nodes takes, which keeps so many states (bytes).
+/// Memory that the drape of a sheet of this many nodes takes, which keeps this many states (bytes).
 #[must_use]
 pub fn of_sheet(nodes: f64, states: usize) -> f64 {
     (NODE + STATE * states as f64) * nodes
 }
 
-/// Refuses a mesh of so many triangles.
+/// Refuses a mesh of this many triangles.
 ///
 /// # Errors
 /// As [`check`].
@@ -185,7 +185,7 @@ pub fn mesh(triangles: f64) -> Result<(), Error> {
     check(TRIANGLE * triangles, || format!("a mesh of {triangles:.0} triangles"))
 }
 
-/// Refuses a result file of so many bytes.
+/// Refuses a result file of this many bytes.
 ///
 /// # Errors
 /// As [`check`].

@@ -3,7 +3,7 @@
 use plydrape::outcome::Forecast;
 use std::time::Duration;
 
-/// What a decision takes, or how long it still does where that is known, and a sample of so many cells that may follow it.
+/// What a decision takes, or how long it still does where that is known, and a sample of this many cells that may follow it.
 #[must_use]
 pub fn decision(forecast: &Forecast, left: Option<Duration>, cells: usize) -> String {
     let nodes = forecast.nodes;
@@ -26,7 +26,7 @@ pub fn sample(forecast: &Forecast, cells: usize) -> String {
     format!("at most {cells} cells with errors, {}", about(forecast.sample(cells)))
 }
 
-/// A time that is known within a factor of 1.5, in so many digits.
+/// A time that is known within a factor of 1.5, in this many digits.
 #[must_use]
 pub fn about(time: Duration) -> String {
     let seconds = time.as_secs_f64();

@@ -15,7 +15,7 @@ pub struct Row {
     pub accepted: bool,
     /// In which world that was judged; no sample of cells with errors is drawn.
     pub world: World,
-    /// The time of its motion (s); none without a drape.
+    /// The time of its motion (s); `None` without a drape.
     pub time_s: Option<f64>,
     /// Whether there is no drape.
     pub not_draped: bool,

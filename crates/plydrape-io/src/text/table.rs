@@ -44,7 +44,7 @@ pub fn model_name(model: Model) -> &'static str {
     }
 }
 
-/// A number with so many digits after the point; in exponent form if that would be too wide.
+/// A number with this many digits after the point; in exponent form if that would be too wide.
 pub(crate) fn fixed(value: Option<f64>, digits: usize) -> String {
     match value {
         None => "–".into(),
@@ -95,7 +95,7 @@ pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
         .max_by(|a, b| of_tool(a).cmp(&of_tool(b)).then(a.ratio().total_cmp(&b.ratio())))
 }
 
-/// Of the limits that hold, the one that is nearest to not holding; none of zero, which only zero keeps.
+/// Of the limits that hold, the one that is nearest to not holding; `None` for zero, which only zero keeps.
 #[must_use]
 pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
     let kept = limits.iter().filter(|v| v.ok && v.limit != 0.0);
@@ -255,7 +255,7 @@ mod tests {
         let before = (verdict_in_a_line(&result, &result.summary), verdict(&result, Ink::Plain));
         let mut also = sample::draped(4, 2, 3);
         let worst = Worst { value: 90.0, at: "gripper g0_0".into(), place: None };
-        also.summary.limits = vec![Verdict::of(Name::Tilt, worst, 40.0, Some(3))];
+        also.summary.limits = vec![Verdict::new(Name::Tilt, worst, 40.0, Some(3))];
         also.summary.status = Status::Torn;
         result.also = Some(sample::also(also));
         assert!(result.summary.accepted());

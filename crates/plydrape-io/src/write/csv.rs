@@ -5,7 +5,7 @@
 //! not evaluate has no column, and one without a meaning in a step leaves its cells empty. How the solver ended is there where catenaries
 //! decide.
 //!
-//! Beside the poses stand the expected loads of the ply on the grippers, and where mounts yield their preload and stiffness, see `loads.rs`. Where the scene says when pads let go, the column `vacuum` is 1 as long as a gripper
+//! Beside the poses are the expected loads of the ply on the grippers, and where mounts yield their preload and stiffness, see `loads.rs`. Where the scene says when pads let go, the column `vacuum` is 1 as long as a gripper
 //! holds and 0 from its release on; the tables then end with the last release.
 
 use crate::Error;
@@ -166,7 +166,7 @@ fn times(motion: &TimedMotion, rate: f64, until: Option<f64>) -> Result<Vec<f64>
     Ok(times)
 }
 
-/// What the column of the vacuum is made of; none where pads hold to the end.
+/// What the column of the vacuum is made of; `None` where pads hold to the end.
 fn vacuum(result: &ResultFile) -> Option<&[Event]> {
     result.scene.release.as_ref().map(|_| result.events())
 }
@@ -178,9 +178,9 @@ fn release_after(result: &ResultFile, end: f64) -> Option<f64> {
 
 /// The columns of a gripper's pose at a time.
 const POSE: [&str; 9] = ["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"];
-/// Those of the load on it.
+/// The columns of the load on a gripper.
 const LOAD: [&str; 3] = ["load x (N)", "load y (N)", "load z (N)"];
-/// Those of its mount. The stiffness is the same in every row, because a comment above the header stops most readers.
+/// The columns of a gripper's mount. The stiffness is the same in every row, because a comment above the header stops most readers.
 const MOUNT: [&str; 5] = [
     "preload x (mm)",
     "preload y (mm)",
@@ -296,7 +296,7 @@ mod tests {
         reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect()
     }
 
-    /// The header is what robot programs are told to expect.
+    /// The header is the one that robot programs expect.
     #[test]
     fn trajectory_has_exactly_the_promised_columns() {
         let text = trajectory(&sample::draped(4, 2, 3)).unwrap();

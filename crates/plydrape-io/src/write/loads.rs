@@ -43,15 +43,15 @@ pub(crate) struct Load {
 /// How stiff the mounts are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stiffness {
-    /// Along x and y (N/mm); none if rigid.
+    /// Along x and y (N/mm); `None` if rigid.
     pub lateral: Option<f64>,
-    /// Along z (N/mm); none if rigid.
+    /// Along z (N/mm); `None` if rigid.
     pub axial: Option<f64>,
 }
 
 impl Stiffness {
     /// That of mounts that yield along some axis.
-    fn of(pad: &PadSettings) -> Option<Self> {
+    fn new(pad: &PadSettings) -> Option<Self> {
         let [lateral, axial] =
             [pad.lateral_stiffness, pad.axial_stiffness].map(|k| k.map(|k| k * PER_MM));
         (lateral.is_some() || axial.is_some()).then_some(Stiffness { lateral, axial })
@@ -59,9 +59,9 @@ impl Stiffness {
 }
 
 impl Loads {
-    /// Those of a result; `None` without steps.
+    /// The loads of a result; `None` without steps.
     pub fn of(result: &ResultFile) -> Option<Self> {
-        let mounts = Stiffness::of(&result.scene.settings.pad);
+        let mounts = Stiffness::new(&result.scene.settings.pad);
         let mut times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
         let mut steps: Vec<Vec<Load>> = result.steps.iter().map(of_step).collect();
         let (end, loads) = times.last().copied().zip(steps.last().cloned())?;
@@ -73,7 +73,7 @@ impl Loads {
         Some(Loads { times, steps, mounts })
     }
 
-    /// Those at a time (s); none after the last step that was draped.
+    /// The loads at a time (s); `None` after the last step that was draped.
     pub fn at(&self, t: f64) -> Option<Vec<Load>> {
         let (after, last) = (self.times.partition_point(|time| *time <= t), self.times.len() - 1);
         if after == 0 {

@@ -6,7 +6,7 @@ use plydrape::layup::{Model, Release, ReleaseOrder};
 use plydrape::motion::TimedMotion;
 use plydrape::planner::PlanRecord;
 use plydrape::scene::{PlanMethod, Scene};
-use plydrape::sheet::{State, Tuning};
+use plydrape::sheet::{ClothState, SheetTuning};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn dome(grippers: &str, keep: usize) -> Scene {
     let text = format!(
         "[ply]\ngrippers = [3, 3]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
         [mold]\nkind = \"sphere\"\nradius = 0.6\nposition = [0, 0, -0.6]\n\
-        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.04\norigin = \"centred\"\n{grippers}\n\
+        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.04\norigin = \"centered\"\n{grippers}\n\
         [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 6\n\
         [model]\nkind = \"sheet\"\n[sheet]\nmesh = 0.05\nkeep = {keep}\n"
     );
@@ -37,13 +37,13 @@ fn draped(scene: &Scene) -> (ResultFile, tempfile::TempDir) {
 }
 
 /// All states of the sheet of a scene.
-fn states(scene: &Scene) -> Vec<State> {
+fn states(scene: &Scene) -> Vec<ClothState> {
     let mut seen = Vec::new();
-    let see = |_: &_, state: &State, _| {
+    let see = |_: &_, state: &ClothState, _| {
         seen.push(state.clone());
         ControlFlow::Continue(())
     };
-    plydrape::sheet::drape(&scene.layup, Tuning::default(), 5e-4, &|| false, see).unwrap();
+    plydrape::sheet::drape(&scene.layup, SheetTuning::default(), 5e-4, &|| false, see).unwrap();
     seen
 }
 

@@ -7,7 +7,7 @@ use plydrape::mold::patch::{Triangles, patch};
 const BEYOND: f64 = 0.15;
 
 /// The rectangle of the plan that the grippers cover in all steps and at the target: lowest and highest x and y
-/// (m); none of a result without steps and target.
+/// (m); `None` for a result without steps and target.
 pub(crate) fn extent(result: &ResultFile) -> Option<[[f64; 2]; 2]> {
     let places = result.steps.iter().flat_map(|step| &step.grippers).map(|g| g.position);
     let targets = result.scene.target_grippers().into_iter().flatten().copied();
@@ -21,7 +21,7 @@ pub(crate) fn extent(result: &ResultFile) -> Option<[[f64; 2]; 2]> {
     low.iter().chain(&high).all(|c| c.is_finite()).then_some([low, high])
 }
 
-/// The mold under all steps and the target, in at most so many triangles; none without a mold there.
+/// The mold under all steps and the target, in at most this many triangles; `None` without a mold there.
 #[must_use]
 pub fn mold_patch(result: &ResultFile, most: usize) -> Option<Triangles> {
     let mold = result.scene.mold.as_ref()?;

@@ -22,15 +22,15 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
-    /// The best fit of fabric points (m) to places (m); none if all places are one, or on one line while the fabric is not.
+    /// The best fit of fabric points (m) to places (m); `None` if all places are one, or on one line while the fabric is not.
     pub fn fit(fabric: &[[f64; 2]], places: &[[f64; 3]]) -> Option<Pose> {
         let share = 1.0 / places.len() as f64;
         let middle = [0, 1].map(|c| share * fabric.iter().map(|f| f[c]).sum::<f64>());
-        let centre = [0, 1, 2].map(|c| share * places.iter().map(|p| p[c]).sum::<f64>());
+        let center = [0, 1, 2].map(|c| share * places.iter().map(|p| p[c]).sum::<f64>());
         let moment = [0, 1].map(|c| {
             [0, 1, 2].map(|n| {
                 let terms = fabric.iter().zip(places);
-                terms.map(|(f, p)| (f[c] - middle[c]) * (p[n] - centre[n])).sum::<f64>()
+                terms.map(|(f, p)| (f[c] - middle[c]) * (p[n] - center[n])).sum::<f64>()
             })
         });
 
@@ -42,7 +42,7 @@ impl Pose {
         } else {
             polar(moment)?
         };
-        let origin = [0, 1, 2].map(|n| centre[n] - middle[0] * axes[0][n] - middle[1] * axes[1][n]);
+        let origin = [0, 1, 2].map(|n| center[n] - middle[0] * axes[0][n] - middle[1] * axes[1][n]);
         Some(Pose { origin, axes })
     }
 
@@ -118,15 +118,15 @@ mod tests {
                 let mut about = [0.0; 3];
                 about[axis - 3] = by;
                 // turned about the mean of the places, by a finite angle
-                let centre = [0, 1, 2].map(|n| places.iter().map(|p| p[n]).sum::<f64>() / 8.0);
+                let center = [0, 1, 2].map(|n| places.iter().map(|p| p[n]).sum::<f64>() / 8.0);
                 let turn = |p: [f64; 3]| {
                     let (sin, cos) = by.sin_cos();
                     let k = about.map(|a| a / by);
                     let side = cross(k, p);
                     [0, 1, 2].map(|n| p[n] * cos + side[n] * sin + k[n] * dot(k, p) * (1.0 - cos))
                 };
-                let arm = turn([0, 1, 2].map(|n| pose.origin[n] - centre[n]));
-                other.origin = [0, 1, 2].map(|n| centre[n] + arm[n]);
+                let arm = turn([0, 1, 2].map(|n| pose.origin[n] - center[n]));
+                other.origin = [0, 1, 2].map(|n| center[n] + arm[n]);
                 other.axes = pose.axes.map(turn);
             }
             assert!(misfit(&other, &fabric, &places) > least, "{axis} {by}");

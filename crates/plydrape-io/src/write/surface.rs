@@ -30,21 +30,21 @@ pub struct Surface {
     pub size: [usize; 2],
     /// Points (m), u running fastest.
     pub vertices: Vec<[f64; 3]>,
-    /// Distance of each point from the mold (m), negative inside it; none without a mold. The model follows
+    /// Distance of each point from the mold (m), negative inside it; `None` without a mold. The model follows
     /// the catenaries alone: between them the ply may be drawn a little inside.
     pub gap: Option<Vec<f64>>,
 }
 
 impl Surface {
-    /// The ply of a step of a result with so many intervals along each side of a cell, at least one. A strip
+    /// The ply of a step of a result with this many intervals along each side of a cell, at least one. A strip
     /// is one row of points.
     #[must_use]
     pub fn new(result: &ResultFile, step: &Step, intervals: usize) -> Self {
-        Surface::of(result, step, &result.curves(step), intervals)
+        Surface::from_curves(result, step, &result.curves(step), intervals)
     }
 
-    /// The same from the curves of the step.
-    pub(crate) fn of(
+    /// The surface between the curves of a step.
+    pub(crate) fn from_curves(
         result: &ResultFile,
         step: &Step,
         curves: &[Vec<Vec<Point>>],
@@ -122,7 +122,7 @@ pub fn shape(line: &CatenaryState, curves: &[Vec<Point>], ends: [Point; 2]) -> V
 const FLAT: f64 = 5e-4;
 
 /// The line in which a catenary touches the mold, first to last (m): its contact segment, and segments that lie flat beside
-/// it; none where it does not touch.
+/// it; `None` where it does not touch.
 fn touching(line: &CatenaryState, curves: &[Vec<Point>]) -> Option<Vec<Point>> {
     let contact = line.contact.as_ref()?;
     let flat = |span: &SpanState| span.hold == Hold::Lying && span.slack_ratio(line.length) < FLAT;

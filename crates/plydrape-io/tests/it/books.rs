@@ -10,7 +10,7 @@ use std::path::Path;
 /// What the plies of these books share: a plane, an array of 3 × 2 cups, straight paths.
 const SHARED: &str = "title = \"Part\"\n[mold]\nkind = \"plane\"\n[ply]\nmaterial = \"krogh2018\"\nthickness = \"0.3 mm\"\n\
     grippers = [3, 2]\ncell = [0.1, 0.1]\narray = { margin = \"10 mm\" }\n[grippers]\nspacing = [0.1, 0.1]\nheight = \"20 mm\"\n\
-    origin = \"centred\"\n[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"25 mm\"\n";
+    origin = \"centered\"\n[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"25 mm\"\n";
 
 fn read(text: &str) -> Result<Book, Error> {
     scene::parse_book(text, Path::new(""), "plies.toml")
@@ -175,9 +175,9 @@ fn what_is_wrong_in_a_book_is_refused_with_its_place_and_its_ply() {
             "ply a: `seeed` is no key here",
         ),
         (
-            good.replace("name = \"a\"\n", "name = \"a\"\ncolour = 1\n"),
-            "colour",
-            "`colour` is no key here",
+            good.replace("name = \"a\"\n", "name = \"a\"\ncolor = 1\n"),
+            "color",
+            "`color` is no key here",
         ),
         (good.replace("name = \"a\"\n", ""), "[[plies]]", "ply 1: the ply has no name"),
         (good.replace("name = \"a\"", "name = \"\""), "name = ", "the name is empty"),
@@ -202,7 +202,7 @@ fn what_is_wrong_in_a_book_is_refused_with_its_place_and_its_ply() {
     }
 }
 
-/// A book where one scene is wanted is said to be one, and what to do.
+/// A book in place of a scene is refused as a book, with what to do.
 #[test]
 fn a_book_is_no_scene() {
     let text = format!("{SHARED}{}", ply("a", SIZE, [0.0; 2]));

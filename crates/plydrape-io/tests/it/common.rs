@@ -118,7 +118,7 @@ pub fn settings(slopes: SlopeRule) -> Settings {
     }
 }
 
-/// The same with a ply that does not stretch.
+/// Settings of a ply that does not stretch.
 pub fn inextensible(slopes: SlopeRule) -> Settings {
     Settings { axial_stiffness: f64::INFINITY, ..settings(slopes) }
 }

@@ -29,7 +29,7 @@ fn posed(points: &[Point], turn: f64, climb: f64, towards: f64) -> Vec<Point> {
     points.iter().map(pose).collect()
 }
 
-/// Normal of the ply at a gripper, from its slopes along u and v; none where an edge is missing.
+/// Normal of the ply at a gripper, from its slopes along u and v; `None` where an edge is missing.
 fn normal(solver: &Solver, lines: &Lines, positions: &[Point], gripper: usize) -> Option<Point> {
     let tangent = |d| {
         let h = heading(lines, positions, gripper, d)?;

@@ -6,7 +6,7 @@ use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::motion::Motion;
 use plydrape::net::{Net, Placement};
-use plydrape::ply::{Fibres, Grid, Kind};
+use plydrape::ply::{Fibers, Grid, Kind};
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
 use std::sync::Arc;
@@ -389,10 +389,10 @@ fn a_cell_has_the_scale_of_its_bias_lines() {
                 // the difference of the diagonals is the shear
                 let shear = ((p * p - q * q) / (a * b)).asin();
                 let scale = plydrape::ply::shear::curved_scale;
-                let found = scale([a, b], Fibres::Sides, shear, curvature);
+                let found = scale([a, b], Fibers::Sides, shear, curvature);
                 let diagonals = (diagonals / (2.0 * (a * a + b * b))).sqrt();
-                // the same cell with fibres as its diagonals, whose halves cross at φ
-                let across = scale([p, q], Fibres::Diagonals, cos_phi.asin(), curvature);
+                // the same cell with fibers as its diagonals, whose halves cross at φ
+                let across = scale([p, q], Fibers::Diagonals, cos_phi.asin(), curvature);
                 let sides = ((a * a + b * b) / (2.0 * (p * p + q * q))).sqrt();
                 [(found, diagonals), (across, sides)]
             };

@@ -17,14 +17,14 @@ fn parse(ply: &str, rest: &str) -> Scene {
     scene::parse(&text, Path::new(""), "scene").unwrap_or_else(|error| panic!("{error}")).scene
 }
 
-const CYLINDER: &str = "origin = \"centred\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\
+const CYLINDER: &str = "origin = \"centered\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\
     [motion]\nkind = \"straight\"\nsteps = 2\n[target]\nseed = \"middle\"\n";
 
 fn drape(scene: &Scene) -> sheet::Drape {
     drape_sheet(scene).sheet.unwrap().drape
 }
 
-/// A rectangle that ends at its cups, whatever it is called: cut to a size, or told by its array alone.
+/// A rectangle that ends at its cups, whatever it is called: cut to a size, or given by its array alone.
 #[test]
 fn a_ply_that_is_cut_at_its_cups_is_the_ply_of_its_array() {
     let array = "grippers = [4, 2]\ncell = [0.1, 0.1]";
@@ -213,7 +213,7 @@ fn cups_hold_where_there_is_ply_around_them() {
     assert!(refused.help().contains("leave-off"), "{refused}");
 }
 
-/// A drape of a ply with a hole, across the yarns of which its cups stand, is written to every file and read back; the
+/// A drape of a ply with a hole, with rows of cups across its yarns, is written to every file and read back; the
 /// pattern has the outline of the drawing, and the boundary ends where the net puts it.
 #[test]
 fn a_cut_ply_is_written_to_every_file() {
@@ -264,7 +264,7 @@ fn a_cut_ply_is_written_to_every_file() {
     assert!(places.all(|uv| near(net.place(mold, uv).unwrap()) < 6e-3));
 }
 
-/// An outline is the same whether its points stand in the scene or in a drawing.
+/// An outline is the same whether its points are in the scene or in a drawing.
 #[test]
 fn an_outline_may_be_a_drawing() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/broken/tables");

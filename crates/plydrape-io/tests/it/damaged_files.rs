@@ -1,7 +1,7 @@
 //! What comes in through files: results with a forged check sum, files without end, and texts that would grow beyond all memory.
 
 use crate::common::{all_cases, drape, examples};
-use plydrape::scene::Plan;
+use plydrape::scene::PlanSettings;
 use plydrape_io::Error;
 use plydrape_io::export::{self, Format};
 use plydrape_io::read::formula;
@@ -297,7 +297,7 @@ fn a_plan_is_refused_for_its_sheet_too() {
     let scene = parse(SCENE).unwrap();
     let sheets = PlanSheets { nodes: 9e4, coarse_nodes: 1e3, keep: 40 };
     assert!(size::sheet(sheets.nodes, sheets.keep).is_ok());
-    let plan = Plan { steps: 10_000, ..scene.plan };
+    let plan = PlanSettings { steps: 10_000, ..scene.plan };
     assert!(size::plan(&scene.layup.ply, &plan, None).is_ok());
     let refused = size::plan(&scene.layup.ply, &plan, Some(sheets)).unwrap_err().to_string();
     assert!(

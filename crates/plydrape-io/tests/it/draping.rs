@@ -310,7 +310,7 @@ proptest! {
         let place = |step: usize| (0..grid.grippers()).map(|n| {
             let [i, j] = grid.id(n).map(|k| 0.099 * k as f64);
             let r = |k: usize| if step == 0 { 0.0 } else { wild * random[36 * (step - 1) + 3 * n + k] };
-            // whole millimetres now and then: exactly stacked grippers, exactly taut spans
+            // whole millimeters now and then: exactly stacked grippers, exactly taut spans
             let snap = |x: f64| if step == 2 { (x * 10.0).round() / 10.0 } else { x };
             [snap(i + r(0)), snap(j + r(1)), snap(0.05 - 0.02 * step as f64 + r(2))]
         }).collect::<Vec<_>>();

@@ -25,7 +25,7 @@ fn edges_off(result: &ResultFile) -> f64 {
     errors.copied().fold(0.0, f64::max)
 }
 
-/// What every drape by straight paths onto a curved mold has: every limit judged, wrinkles caught and
+/// What every drape by straight paths onto a curved mold has: every limit judged, wrinkles found and
 /// reported, fabric neither made nor lost, contact on the mold within `off` (m), and an ideal place for
 /// every gripper and landed point.
 fn straight_paths_leave_wrinkles(scene: &Scene, off: f64) -> ResultFile {
@@ -38,7 +38,7 @@ fn straight_paths_leave_wrinkles(scene: &Scene, off: f64) -> ResultFile {
     assert!(failed("slack_ratio") && failed("overstretch"));
     let judged =
         |name: &str| summary.limits.iter().any(|limit| limit.name.measure().name() == name);
-    assert!(judged("position") && judged("landing_gripper") && judged("fibre_angle"));
+    assert!(judged("position") && judged("landing_gripper") && judged("fiber_angle"));
     let (target, _, mold) = target(scene);
     let last = result.steps.last().expect("steps");
     for (gripper, ideal) in last.grippers.iter().zip(&target.grippers) {
@@ -67,7 +67,7 @@ fn straight_paths_leave_wrinkles(scene: &Scene, off: f64) -> ResultFile {
 /// between where edges landed and where they belong"; its first steps are not ours, hence the margin. A
 /// quarter turn changes nothing.
 #[test]
-fn a_dome_by_straight_paths_leaves_a_millimetre_and_looks_the_same_from_four_sides() {
+fn a_dome_by_straight_paths_leaves_a_millimeter_and_looks_the_same_from_four_sides() {
     let scene = example("04_dome");
     let (target, net, _) = target(&scene);
     assert!(net.missing.is_empty());

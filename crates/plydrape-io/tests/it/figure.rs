@@ -41,7 +41,7 @@ fn a_shear_map_says_what_its_net_reports() {
         };
         let net = Net::drape(&mold, layup).expect("a net");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("net_{name}"));
-        let findings = Findings::of(&net, &mold, None, None);
+        let findings = Findings::new(&net, &mold, None, None);
         write_all(&net, &mold, &findings, name, &folder, &[]).expect("files");
         let svg = figure::shear_map::svg(&net, name).expect("a map");
         let (largest, _) = net.report.largest_shear.expect("whole cells");

@@ -23,12 +23,11 @@ const RING: Strategy = Strategy {
 fn a_lifted_mold_has_the_derivatives_of_its_height() {
     let axis: Vec<f64> = (0..11).map(|n| 0.04 * f64::from(n) - 0.2).collect();
     let z = axis.iter().flat_map(|y| axis.iter().map(move |x| x * x - 0.5 * x * y + y * y * y));
-    let ground =
-        Arc::new(HeightGrid::new(axis.clone(), axis.clone(), z.collect()).expect("a grid"));
+    let mold = Arc::new(HeightGrid::new(axis.clone(), axis.clone(), z.collect()).expect("a grid"));
     let metric = [0.7, -0.2, 0.9];
-    let centre = [0.02, -0.03];
-    let lift = Rise { centre, metric, front: 0.06, curvature: 4.0, slope: 0.3, tip: 1e-4 };
-    let lifted = FrontSurface { mold: ground, rise: lift };
+    let center = [0.02, -0.03];
+    let lift = Rise { center, metric, front: 0.06, curvature: 4.0, slope: 0.3, tip: 1e-4 };
+    let lifted = FrontSurface { mold, rise: lift };
     let h = 1e-5;
     for (x, y) in [(0.03, -0.02), (0.1, 0.07), (-0.15, 0.12), (0.02, -0.19), (-0.11, -0.13)] {
         let here = lifted.at(x, y);
@@ -119,7 +118,7 @@ fn a_scaled_scene_has_the_scaled_trajectory() {
         let text = format!(
             "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 4]\ncell = [{c}, {c}]\nmaterial = \"krogh2018\"\n\
              [mold]\nkind = \"sphere\"\nradius = {r}\nposition = [0, 0, -{r}]\n\
-             [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centred\"\n\
+             [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centered\"\n\
              [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 30\n",
             c = 0.1 * s,
             r = 0.6 * s,

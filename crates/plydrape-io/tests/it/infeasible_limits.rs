@@ -21,7 +21,7 @@ fn flat(more: &str) -> Vec<Verdict> {
     found(Path::new(""), &text)
 }
 
-/// The same of 2 × 2 grippers with targets at positions (m).
+/// Infeasible limits of 2 × 2 grippers with targets at positions (m).
 fn with_targets(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
     let [a, b, c, d] = targets;
     let text = format!(

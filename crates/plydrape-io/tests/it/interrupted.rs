@@ -124,7 +124,7 @@ fn a_search_that_was_cut_off_goes_on_to_the_same_plan() {
         assert!(state.is_unfinished());
         let (again, on_the_way) = search(Some(&state));
         same(&again);
-        // what was judged before is not draped again: nobody is told of it, but for the generation in which it was cut off
+        // what was judged before is not draped again: no progress is reported, but for the generation in which it was cut off
         assert!(on_the_way.first().is_none_or(|(first, _)| first + 8 >= *drapes), "{drapes}");
         if let Some((_, text)) = on_the_way.last() {
             same(&search(Some(&plan::read(text, &echo).unwrap())).0);

@@ -1,4 +1,4 @@
-//! Plies that are cut, laid on their molds from scenes: what counts, where the boundary is wanted, and which seed is taken.
+//! Plies that are cut, laid on their molds from scenes: what counts, the target boundary, and which seed is taken.
 
 use plydrape::net::Net;
 use plydrape_io::scene::{self, IdealDrape};
@@ -22,7 +22,7 @@ position = [0, 0, "-0.6 m"]
 [grippers]
 spacing = ["98 mm", "98 mm"]
 height = "90 mm"
-origin = "centred"
+origin = "centered"
 [target]
 {target}
 [motion]
@@ -58,7 +58,7 @@ fn a_searched_seed_is_the_same_for_the_net_and_for_the_drape() {
     let uv = [0, 1].map(|n| 0.5 * (outline[0][n] + outline[1][n]));
     let place = net.place(&ideal.mold, uv).expect("on the dome");
     assert!((place[0] - 0.03).hypot(place[1] - 0.02) < 1e-7, "{place:?}");
-    let [u, _] = net.fibres(&ideal.mold, uv).expect("on the dome");
+    let [u, _] = net.fibers(&ideal.mold, uv).expect("on the dome");
     assert!((u[1].atan2(u[0]).to_degrees() - 20.0).abs() < 1e-3, "{u:?}");
 
     // and it shears less than from the middle
@@ -67,7 +67,7 @@ fn a_searched_seed_is_the_same_for_the_net_and_for_the_drape() {
     let plain = laid(home.path(), &text.replace("\"best\"", "\"middle\""));
     assert!(largest(net) < 0.95 * largest(&plain.net), "{} {}", largest(net), largest(&plain.net));
     let summary =
-        Summary::of(net, &Findings::of(net, &ideal.mold, None, ideal.seeds.clone()), None);
+        Summary::new(net, &Findings::new(net, &ideal.mold, None, ideal.seeds.clone()), None);
     let search = summary.search.expect("a search");
     assert!((search.held_max_shear_deg.unwrap().to_radians() - largest(&plain.net)).abs() < 1e-12);
     assert_eq!(search.max_shear_deg, summary.max_shear_deg);
@@ -107,7 +107,7 @@ fn trim_of_a_scene_is_measured_from_its_file() {
     arcs.iter().rev().for_each(|arc| row(-165.0, *arc));
     std::fs::write(home.path().join("edge.csv"), rows).unwrap();
     let ideal = laid(home.path(), &sheet("trim = \"edge.csv\""));
-    let findings = Findings::of(&ideal.net, &ideal.mold, ideal.wanted.as_ref(), None);
+    let findings = Findings::new(&ideal.net, &ideal.mold, ideal.wanted.as_ref(), None);
     let trim = findings.trim.expect("a trim");
     let (beyond, short) = (trim.beyond.unwrap().error, trim.short.unwrap().error);
     // chords of the file's points are 0.007 mm off the mold
@@ -120,7 +120,7 @@ fn trim_of_a_scene_is_measured_from_its_file() {
     let high = "x (mm),y (mm),z (mm)\n0,0,0\n100,0,0\n100,0,90\n";
     std::fs::write(home.path().join("high.csv"), high).unwrap();
     let message = refused(&sheet("trim = \"high.csv\""));
-    assert!(message.contains("point 3 of the wanted boundary lies 90.000 mm off"), "{message}");
+    assert!(message.contains("point 3 of the target boundary lies 90.000 mm off"), "{message}");
     assert!(message.contains("high.csv"), "{message}");
     let message = refused(&sheet("trim = \"nothing.csv\""));
     assert!(message.contains("nothing.csv"), "{message}");
@@ -139,8 +139,8 @@ fn what_hangs_over_between_nodes_is_not_accepted() {
     let (_, tail) = tail.split_once("[target]").unwrap();
     let ideal = laid(home.path(), &format!("{head}{formula}[target]{tail}"));
     assert!(ideal.net.missing.is_empty());
-    let findings = Findings::of(&ideal.net, &ideal.mold, None, None);
-    let summary = Summary::of(&ideal.net, &findings, None);
+    let findings = Findings::new(&ideal.net, &ideal.mold, None, None);
+    let summary = Summary::new(&ideal.net, &findings, None);
     assert!(!summary.accepted);
     assert!(summary.verdict().contains("4 mm beyond the mold's boundary"), "{}", summary.verdict());
     let boundary = summary.boundary.unwrap();
@@ -153,7 +153,7 @@ fn what_hangs_over_between_nodes_is_not_accepted() {
 fn boundary_and_seeds_are_written() {
     let home = tempfile::tempdir().unwrap();
     let ideal = laid(home.path(), &scene("seed = \"best\"\ndirection = \"best\""));
-    let findings = Findings::of(&ideal.net, &ideal.mold, None, ideal.seeds.clone());
+    let findings = Findings::new(&ideal.net, &ideal.mold, None, ideal.seeds.clone());
     let out = home.path().join("out");
     let files =
         plydrape_io::write::net::write_all(&ideal.net, &ideal.mold, &findings, "L", &out, &[])

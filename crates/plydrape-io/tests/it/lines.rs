@@ -18,7 +18,7 @@ fn parse(ply: &str, rest: &str) -> Scene {
     scene::parse(&text, Path::new(""), "scene").unwrap_or_else(|error| panic!("{error}")).scene
 }
 
-const CYLINDER: &str = "origin = \"centred\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\
+const CYLINDER: &str = "origin = \"centered\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\
     [motion]\nkind = \"straight\"\nsteps = 6\n[target]\nseed = \"middle\"\n";
 
 /// 40 mm of fabric around a square array of 100 mm.
@@ -151,7 +151,7 @@ fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
         let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
         let d = 0.1 * f64::sqrt(2.0);
         let (long, short) = (0.108, f64::sqrt(d * d - 0.108 * 0.108));
-        // a little less across, so that fibres and columns hang
+        // a little less across, so that fibers and columns hang
         let short_now = short - 5e-4;
         let at = |n: usize| {
             let [i, j] = ply.id(n).map(|k| k as f64);
@@ -175,7 +175,7 @@ fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
             }
         }
         assert_eq!([rows, columns], [6, 6]);
-        // fibres whose ends are apart by `long` and `short` cross at 2 atan(long/short)
+        // fibers whose ends are apart by `long` and `short` cross at 2 atan(long/short)
         let independent = 2.0 * (long / short).atan() - std::f64::consts::FRAC_PI_2;
         for (cell, shearing) in lines.cells().iter().zip(&problem.shearing) {
             let (path, _) = shearing.unwrap();
@@ -196,9 +196,9 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
     for n in 0..lines.catenaries() {
         let [a, b] = lines.ends(n).map(|gripper| target[gripper]);
         let length = lines.flat_length(n, 1.0);
-        // the net of the ideal drape has cells of millimetres
+        // the net of the ideal drape has cells of millimeters
         assert!((mold.path_length(a, b) - length).abs() < 1e-5, "{}", mold.path_length(a, b));
-        // rows run along the axis; fibres wind around it
+        // rows run along the axis; fibers wind around it
         assert!(n >= lines.edges() || distance(a, b) < length);
     }
     let mut solver = Solver::new(ply, &scene.layup.settings);
@@ -220,7 +220,7 @@ fn a_slack_ply_at_45_degrees_hangs_in_all_of_its_lines() {
     let weights = solver.problem().elements.iter().filter(|e| e.catenary < lines.edges());
     let weight: f64 = weights.map(|e| lines.tributary(e.catenary) * e.weight * e.run).sum();
     assert!((borne(ply, &solver) - weight).abs() < 1e-6 * weight);
-    // in the middle of a cell the fibres hang lower than the rows do at its sides
+    // in the middle of a cell the fibers hang lower than the rows do at its sides
     let middle = |n: usize| {
         let (span, force) = (solver.span(n), solver.force(n).unwrap());
         Profile::new(&span, force).station(0.5 * span.run).z

@@ -472,7 +472,7 @@ fn odd_questions_get_an_answer() {
 
 /// Every edge of a closed mesh is run along once in either direction.
 #[test]
-fn neighbours_run_along_their_edge_in_opposite_directions() {
+fn neighbors_run_along_their_edge_in_opposite_directions() {
     let sphere = sphere(4);
     let edges = sphere.triangles().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let edges: Vec<[u32; 2]> = edges.collect();

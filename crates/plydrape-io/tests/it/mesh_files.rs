@@ -442,7 +442,7 @@ fn broken_files_are_refused_with_place_and_remedy() {
         ("three_at_an_edge.obj", format!("{square}v 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n").into()),
         ("moebius.obj", moebius.into()),
         ("upright.obj", b"v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n".to_vec()),
-        ("millimetres_of_millimetres.obj", b"v 0 0 0\nv 1e-5 0 0\nv 0 1e-5 0\nf 1 2 3\n".to_vec()),
+        ("millimeters_of_millimeters.obj", b"v 0 0 0\nv 1e-5 0 0\nv 0 1e-5 0\nf 1 2 3\n".to_vec()),
         ("huge.obj", b"v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n".to_vec()),
         ("element_without_node.inp", inp("7, 1, 2, 3, 4", "7, 1, 2, 3, 8").into()),
         ("short_element.inp", inp("7, 1, 2, 3, 4", "7, 1, 2, 3").into()),
@@ -509,7 +509,7 @@ fn no_damage_to_a_file_makes_a_panic() {
     }
 }
 
-/// What stands in the file is quoted whole and never taken for the remedy.
+/// Text of the file is quoted whole and never taken for the remedy.
 #[test]
 fn a_semicolon_in_a_file_is_part_of_the_fault() {
     let fault = parse("a.obj", "wall; floor\n").unwrap_err();

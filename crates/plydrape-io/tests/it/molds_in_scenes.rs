@@ -170,9 +170,9 @@ fn a_seed_in_the_middle_of_a_flat_ply_moves_it_by_half() {
 }
 
 #[test]
-fn a_centred_start_has_its_middle_and_heading_above_the_target() {
+fn a_centered_start_has_its_middle_and_heading_above_the_target() {
     let target = "[target]\nseed = \"middle\"\norigin = [0.05, -0.02]\ndirection = \"30 deg\"";
-    let scene = scene(DOME, target, "origin = \"centred\"");
+    let scene = scene(DOME, target, "origin = \"centered\"");
     let start = &scene.layup.motion.positions[0];
     let target = scene.layup.target.expect("a target").grippers;
     let middle = |points: &[[f64; 3]], k: usize| points.iter().map(|p| p[k]).sum::<f64>() / 16.0;

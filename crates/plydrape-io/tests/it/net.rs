@@ -136,8 +136,8 @@ fn net_on_a_plane_is_affine() {
                 }
                 let between = net.place(&mold, [0.1234, 0.0567]).expect("within the ply");
                 assert!(distance(between, flat(0.1234, 0.0567)) < 1e-12);
-                let fibres = net.fibres(&mold, [0.001, 0.159]).expect("within the ply");
-                assert!(distance(fibres[0], u) < 1e-11 && distance(fibres[1], v) < 1e-11);
+                let fibers = net.fibers(&mold, [0.001, 0.159]).expect("within the ply");
+                assert!(distance(fibers[0], u) < 1e-11 && distance(fibers[1], v) < 1e-11);
                 for cell in &net.shear {
                     assert!((cell.expect("whole").angle - shear).abs() < 1e-11);
                 }
@@ -452,7 +452,7 @@ fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
                 }
             }
         }
-        // bars dip by half the angle they span, which shows in the corners of cells that are nearly shut
+        // bars lie lower by half the angle they span, which shows in the corners of cells that are nearly shut
         let tolerance = if edges == EdgeRule::Along { 5e-4 } else { 0.03 };
         assert!(worst < tolerance, "{edges:?} {worst}");
 
@@ -559,7 +559,7 @@ fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
         ..published()
     };
     let net = drape(&mold, layup);
-    // half a metre of arc holds twelve meshes of 40 mm on the generators
+    // half a meter of arc holds twelve meshes of 40 mm on the generators
     for n in 0..31_usize {
         let held = n.abs_diff(15) <= 12;
         assert_eq!(net.node([n, 15]).is_some(), held, "{n}");

@@ -3,7 +3,7 @@
 use insta::assert_binary_snapshot;
 use plydrape::ply::Outline;
 use plydrape_io::read::outline::{self, Options};
-use plydrape_io::write::pattern::{Gripper, Line, Pattern, boundary, dxf, pdf};
+use plydrape_io::write::pattern::{Gripper, Pattern, PatternLine, boundary, dxf, pdf};
 
 /// A ply of 300 mm by 200 mm without a corner, with a hole.
 fn ply() -> Outline {
@@ -24,11 +24,15 @@ fn grippers() -> Vec<Gripper> {
 const TITLE: &str = "Ply 3 – Größe 5 µm ^ (45°)";
 
 /// A square on a slope and an open line.
-fn lines() -> Vec<Line> {
+fn lines() -> Vec<PatternLine> {
     let square = vec![[0.0, 0.0, 0.0], [0.3, 0.0, 0.1], [0.3, 0.3, 0.1], [0.0, 0.3, 1.0 / 3.0]];
     vec![
-        Line { name: "ply 3, boundary".into(), points: square, closed: true },
-        Line { name: "hole".into(), points: vec![[0.1, 0.1, 0.0], [0.2, 0.1, 0.0]], closed: false },
+        PatternLine { name: "ply 3, boundary".into(), points: square, closed: true },
+        PatternLine {
+            name: "hole".into(),
+            points: vec![[0.1, 0.1, 0.0], [0.2, 0.1, 0.0]],
+            closed: false,
+        },
     ]
 }
 

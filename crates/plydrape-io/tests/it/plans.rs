@@ -11,7 +11,7 @@ use plydrape::motion::Motion;
 use plydrape::outcome::{Status, Summary};
 use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::Scene;
-use plydrape::sheet::{self, Tuning};
+use plydrape::sheet::{self, SheetTuning};
 use plydrape_io::plan;
 use plydrape_io::result::read;
 use plydrape_io::result::{ResultFile, Turned};
@@ -37,7 +37,7 @@ struct Example {
 }
 
 impl Example {
-    fn of(name: &str) -> Self {
+    fn new(name: &str) -> Self {
         let folder = examples().join(name);
         let text = std::fs::read_to_string(folder.join("scene.toml")).expect("a shipped scene");
         Example { folder, text }
@@ -73,7 +73,7 @@ impl Example {
     fn plan_made_before(&self) -> Option<PathBuf> {
         let name = self.folder.file_name()?.to_str()?;
         let made = Path::new(&std::env::var_os("PLYDRAPE_EXAMPLES")?).join(format!("{name}.plan"));
-        (self.text == Example::of(name).text && made.exists()).then_some(made)
+        (self.text == Example::new(name).text && made.exists()).then_some(made)
     }
 
     fn scene(&self) -> Scene {
@@ -177,7 +177,7 @@ fn moves_within_its_rates(poses: &Poses, s: f64, per_second: f64, what: &str) {
     }
 }
 
-/// The motion of a table, every so many samples; the last one is in it.
+/// The motion of a table, every this many samples; the last one is in it.
 fn motion(poses: &Poses, every: usize) -> Motion {
     let last = poses.len() - 1;
     let chosen: Vec<_> = (0..last).step_by(every.max(1)).chain([last]).map(|n| &poses[n]).collect();
@@ -237,7 +237,7 @@ fn variant_is_draped(scene: &Scene, s: f64, position: f64, what: &str) {
 /// The paper's example, and from twice as high.
 #[test]
 fn the_flat_mold_is_draped_from_two_heights() {
-    let example = Example::of("01_flat_sheared_mold");
+    let example = Example::new("01_flat_sheared_mold");
     example_is_draped(&example, POSITION[1]);
     let high = example.with("height = \"75 mm\"", "height = \"150 mm\"").scene();
     variant_is_draped(&high, 1.0, POSITION[1], "the flat mold from 150 mm");
@@ -246,7 +246,7 @@ fn the_flat_mold_is_draped_from_two_heights() {
 #[test]
 #[ignore = "long; the shallow mold and the saddle stand for others; scripts/soak runs it"]
 fn a_dome_and_one_of_a_tenth_are_draped() {
-    let example = Example::of("04_dome");
+    let example = Example::new("04_dome");
     example_is_draped(&example, POSITION[0]);
     let small = scaled(&example.scene(), 0.1);
     is_draped(&small, 0.1, None, POSITION[0], "the dome of a tenth");
@@ -254,7 +254,7 @@ fn a_dome_and_one_of_a_tenth_are_draped() {
 
 #[test]
 fn a_cylinder_is_draped_askew_to_both_sides() {
-    let example = Example::of("05_cylinder");
+    let example = Example::new("05_cylinder");
     example_is_draped(&example, POSITION[0]);
     let key = |side: &str| format!("direction = \"{side}30 deg\"");
     let mirrored = example.with(&key(""), &key("-")).with(&key(""), &key("-")).scene();
@@ -263,7 +263,7 @@ fn a_cylinder_is_draped_askew_to_both_sides() {
 
 #[test]
 fn a_saddle_is_draped_and_a_turned_one_too() {
-    let example = Example::of("06_saddle");
+    let example = Example::new("06_saddle");
     example_is_draped(&example, POSITION[0]);
     let turned = example
         .with("rotation = [0, 0, \"90 deg\"]", "rotation = [0, 0, \"125 deg\"]")
@@ -275,7 +275,7 @@ fn a_saddle_is_draped_and_a_turned_one_too() {
 #[test]
 #[ignore = "long; the shallow mold and the saddle stand for others; scripts/soak runs it"]
 fn a_mold_of_triangles_and_one_ten_times_as_large_are_draped() {
-    let example = Example::of("08_stl_mold");
+    let example = Example::new("08_stl_mold");
     example_is_draped(&example, POSITION[0]);
     let large = scaled(&example.scene(), 10.0);
     variant_is_draped(&large, 10.0, POSITION[0], "the triangles ten times as large");
@@ -283,7 +283,7 @@ fn a_mold_of_triangles_and_one_ten_times_as_large_are_draped() {
 
 #[test]
 fn a_shallow_doubly_curved_mold_is_draped_from_two_heights() {
-    let example = Example::of("10_shallow");
+    let example = Example::new("10_shallow");
     example_is_draped(&example, POSITION[0]);
     let high = example.with("height = \"50 mm\"", "height = \"100 mm\"").scene();
     variant_is_draped(&high, 1.0, POSITION[0], "the shallow mold from 100 mm");
@@ -293,7 +293,7 @@ fn a_shallow_doubly_curved_mold_is_draped_from_two_heights() {
 #[test]
 fn one_thread_and_two_write_the_same_bytes() {
     let few = "seed = 7\nsteps = 30\nevaluations = 24";
-    let example = Example::of("06_saddle")
+    let example = Example::new("06_saddle")
         .with("grippers = [4, 4]", "grippers = [3, 2]")
         .with_table("limits", |_| None, "height = \"1 um\"")
         .with_table("plan", |_| None, few);
@@ -327,7 +327,7 @@ fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
 #[test]
 fn a_hemisphere_too_steep_for_the_grippers_is_known_before_the_search() {
     let known =
-        planner::infeasible_limits::infeasible_limits(&Example::of("11_hemisphere").scene());
+        planner::infeasible_limits::infeasible_limits(&Example::new("11_hemisphere").scene());
     let [tilt] = &known[..] else { panic!("{known:?}") };
     assert!(tilt.name == Name::Tilt && (tilt.value - 57.08).abs() < 0.01, "{tilt:?}");
 }
@@ -337,7 +337,7 @@ fn a_hemisphere_too_steep_for_the_grippers_is_known_before_the_search() {
 #[ignore = "long; the cubic mold stands for molds beyond a plan; scripts/soak runs it"]
 fn a_plan_of_a_hemisphere_too_steep_says_so() {
     let few = "steps = 30\nevaluations = 10";
-    let scene = Example::of("11_hemisphere").with_table("plan", |_| None, few).scene();
+    let scene = Example::new("11_hemisphere").with_table("plan", |_| None, few).scene();
     let (result, _) = is_explained(&scene);
     let tilt = verdict(&result, "tilt");
     assert!(!tilt.ok && tilt.value >= 57.0, "{tilt:?}");
@@ -347,7 +347,7 @@ fn a_plan_of_a_hemisphere_too_steep_says_so() {
 #[test]
 fn the_cubic_mold_gets_a_plan_that_says_what_it_fails_by() {
     let few = "steps = 20\nevaluations = 2";
-    let scene = Example::of("07_cubic").with_table("plan", |_| None, few).scene();
+    let scene = Example::new("07_cubic").with_table("plan", |_| None, few).scene();
     let (result, limiting) = is_explained(&scene);
     assert!(!verdict(&result, "tilt").ok, "{limiting:?}");
 }
@@ -365,7 +365,7 @@ fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
         (workspace, "", "workspace", 100.0 * sin - 30.0, 0.0, "gripper g3_1"),
         ("", "move_limit = \"1 mm\"", "move_limit", way, 19.0, "gripper g3_1 in 19 moves"),
     ] {
-        let example = Example::of("01_flat_sheared_mold")
+        let example = Example::new("01_flat_sheared_mold")
             .with_table("limits", |_| None, limits)
             .with_table("plan", |_| None, &format!("{plan}{more}"));
         let scene = example.scene();
@@ -386,7 +386,7 @@ fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
 /// 101 mm apart with 100 mm of fabric between them.
 #[test]
 fn a_start_beyond_the_fabric_is_no_scene() {
-    let wide = Example::of("01_flat_sheared_mold")
+    let wide = Example::new("01_flat_sheared_mold")
         .with("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]");
     let refused = scene::parse(&wide.text, &wide.folder, "scene.toml").expect_err("overstretched");
     assert!(refused.message().contains("101") && !refused.help().is_empty(), "{refused:?}");
@@ -396,7 +396,7 @@ fn a_start_beyond_the_fabric_is_no_scene() {
 #[test]
 fn a_search_goes_on_from_the_plan_of_an_earlier_one() {
     let few = "steps = 30\nevaluations = 8\n";
-    let mut scene = Example::of("01_flat_sheared_mold").with_table("plan", |_| None, few).scene();
+    let mut scene = Example::new("01_flat_sheared_mold").with_table("plan", |_| None, few).scene();
     let first = planned(&scene);
     scene.plan.evaluations = 1;
     let on =
@@ -427,7 +427,7 @@ fn two_accepted_plans_do_not_depend_on_their_numerics() {
 }
 
 fn check_numerics(name: &str) {
-    let example = Example::of(name);
+    let example = Example::new(name);
     let Some(made) = example.plan_made_before() else {
         eprintln!("SKIPPED {name}: PLYDRAPE_EXAMPLES has no plan of it; scripts/examples makes it");
         return;
@@ -439,7 +439,7 @@ fn check_numerics(name: &str) {
     let times = result.steps.iter().map(|step| step.time).collect();
     let motion = Motion { times, positions: positions.collect() };
     let mut layup = Layup { motion: motion.clone(), ..example.scene().layup };
-    let height = |layup: &Layup, tuning: Tuning| {
+    let height = |layup: &Layup, tuning: SheetTuning| {
         let ended = sheet::drape(layup, tuning, HEIGHT * 1e-3, &|| false, |_, _, _| {
             ControlFlow::Continue(())
         });
@@ -447,9 +447,9 @@ fn check_numerics(name: &str) {
         assert_eq!(ended.status, sheet::Status::Converged, "{name}");
         ended.last.heights.iter().copied().fold(0.0, f64::max) * 1e3
     };
-    let usual = Tuning::default();
+    let usual = SheetTuning::default();
     let own = height(&layup, usual);
-    let exact = Tuning {
+    let exact = SheetTuning {
         step_tolerance: 0.1 * usual.step_tolerance,
         rest_tolerance: 0.1 * usual.rest_tolerance,
         ..usual

@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 fn on_mounts(mold: &str) -> Scene {
     let text = format!(
         "[ply]\ngrippers = [4, 3]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
-         [grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"50 mm\"\norigin = \"centred\"\n\
+         [grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"50 mm\"\norigin = \"centered\"\n\
          stiffness = {{ lateral = \"2 N/mm\", axial = \"5 N/mm\" }}\n\
          [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 10\n"
     );
@@ -129,7 +129,7 @@ fn mounts_tolerate_ten_times_the_errors_of_rigid_grippers() {
         scene.layup.motion = planned.motion.steps();
         scene.layup.settings.contact.stepping = Stepping::Cut;
         let watch = Watch { stop: &|| false, done: &|_, _| {} };
-        Tolerance::of(&scene, &watch).expect("not stopped").gripper_mm
+        Tolerance::new(&scene, &watch).expect("not stopped").gripper_mm
     };
     let [rigid, mounted] = [&rigid, &mounted].map(tolerated);
     assert!(mounted > 10.0 * rigid, "rigid {rigid}, on mounts {mounted}");

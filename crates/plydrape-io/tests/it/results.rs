@@ -91,7 +91,7 @@ fn a_result_says_the_errors_of_its_scene_and_holds_no_waves() {
     assert!(refused.contains("waves of one draw") && refused.contains("waviness"), "{refused}");
 }
 
-/// A mold from a result file is the mold that was draped on: the same feet under the same points.
+/// A mold from a result file is the mold that was draped on: the same closest points.
 #[test]
 fn molds_survive_the_file() {
     for scene in examples() {

@@ -193,7 +193,7 @@ fn a_plan_and_its_limits_are_read_in_si() {
     assert!((limits.most(Name::Speed) - 0.1).abs() < 1e-15, "{}", limits.most(Name::Speed));
 
     let scene = parse(text).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(scene.plan, plydrape::scene::Plan::default());
+    assert_eq!(scene.plan, plydrape::scene::PlanSettings::default());
     assert_eq!((scene.limits.most(Name::GripperDistance), scene.limits.workspace), (0.05, None));
 }
 

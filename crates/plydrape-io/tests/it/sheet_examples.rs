@@ -9,7 +9,7 @@ use plydrape_io::scene;
 /// a matter of rounding: the ridge of the saddle is 7.3 to 9.2 mm with other meshes and time steps. Contact is a step
 /// apart.
 #[test]
-fn straight_paths_end_with_ridges_of_millimetres() {
+fn straight_paths_end_with_ridges_of_millimeters() {
     let expected = [
         ("01_flat_sheared_mold", [2.4, 8.0], 23, 26),
         ("04_dome", [6.0, 10.0], 21, 24),

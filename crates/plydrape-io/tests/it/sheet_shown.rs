@@ -72,7 +72,7 @@ fn vtk_files_hold_the_states_that_were_kept() {
 }
 
 /// The page has every step with the grippers, and the ply in the states that were kept: the nearest one where there is none. Beside the sheet,
-/// which judges, stand the catenaries, which do not.
+/// which judges, are the catenaries, which do not.
 #[test]
 fn the_page_shows_every_step_and_the_other_model_beside() {
     let (result, _dir) = dome();

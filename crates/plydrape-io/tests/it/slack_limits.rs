@@ -98,7 +98,7 @@ fn a_preset_sets_its_figures_and_no_other_limit() {
     }
 }
 
-/// What the scene says itself stands over its preset, whichever is written first.
+/// Keys of the scene override its preset, whichever is written first.
 #[test]
 fn single_keys_stand_over_a_preset() {
     for text in
@@ -106,7 +106,7 @@ fn single_keys_stand_over_a_preset() {
     {
         let limits = scene(text).limits;
         near(limits.most(Name::Position), 1e-3, 1e-12);
-        near(limits.most(Name::FibreAngle), 3_f64.to_radians(), 1e-12);
+        near(limits.most(Name::FiberAngle), 3_f64.to_radians(), 1e-12);
     }
     let limits: Limits = scene("preset = \"ply-angle\"\nslack_angle = \"2 deg\"").limits;
     near(limits.most(Name::SlackRatio), 0.25 * 2_f64.to_radians().powi(2), 1e-12);

@@ -2,7 +2,7 @@
 
 use crate::common::{Point, RULES, free, inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::{EndCondition, Profile};
-use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
+use plydrape::equilibrium::{Direction, End, EquilibriumTuning, Solver, Status};
 use plydrape::layup::{Settings, SlopeRule};
 use plydrape::material::Section;
 use plydrape::ply::{Grid, Ply};
@@ -91,7 +91,7 @@ fn a_solve_that_is_cut_short_says_so() {
         let outcome = whole.solve(&positions, &free(&ply));
         assert_eq!(outcome.status, Status::Converged);
         assert!(outcome.residual <= 1e-8 && outcome.early_ends == Default::default());
-        let tuning = Tuning { iterations: 0, ..Tuning::default() };
+        let tuning = EquilibriumTuning { iterations: 0, ..EquilibriumTuning::default() };
         let mut cut = Solver::new(&ply, &settings(rule)).with_tuning(tuning);
         let outcome = cut.solve(&positions, &free(&ply));
         assert_eq!(outcome.status, Status::IterationLimit, "{outcome:?}");
@@ -276,7 +276,7 @@ fn derivatives_of_a_state_that_is_no_minimum_are_not_sound() {
     for seed in 0..40 {
         let ply = ply(5, 1, 0.1, 0.3143, 5e-3);
         let positions = flung(ply.grid, 0.08, 0.03, 700 + seed);
-        let tuning = Tuning { iterations: 0, ..Tuning::default() };
+        let tuning = EquilibriumTuning { iterations: 0, ..EquilibriumTuning::default() };
         for rule in RULES {
             let mut solver = Solver::new(&ply, &settings(rule)).with_tuning(tuning);
             solver.solve(&positions, &free(&ply));

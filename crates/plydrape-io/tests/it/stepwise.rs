@@ -145,7 +145,7 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
     let mut solver = Solver::new(&ply.scene.layup.ply, &ply.scene.layup.settings);
     let equilibrium = solver.solve(&positions, &ply.contacts);
     let shape =
-        Equilibrium::of(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
+        Equilibrium::new(&ply.scene.layup.ply, &solver, equilibrium, &positions, &ply.contacts);
     Solved { solver, shape, positions }
 }
 
@@ -245,7 +245,7 @@ proptest! {
         prop_assume!(kind(&ply, &low) == kind(&ply, &middle) && kind(&ply, &high) == kind(&ply, &middle));
         let far = differences(2.0 * h, &mut low, &mut high);
         for (n, (name, quantity)) in found.iter().enumerate() {
-            // a segment close to taut bends within micrometres: the error of second order follows
+            // a segment close to taut bends within micrometers: the error of second order follows
             let difference = (4.0 * near[n] - far[n]) / 3.0;
             let along: f64 = quantity.gradient.dot(&direction);
             // differences carry the solver's 1e-8 of the slopes over h

@@ -26,7 +26,7 @@ fn text(tool: &str) -> String {
     )
 }
 
-/// The same with pads that have a size.
+/// The scene with pads that have a size.
 fn padded(tool: &str) -> Scene {
     let text = text(tool).replace("height = 0.2", "height = 0.2\npad_radius = 0.01");
     scene_of(&text.replace("[ply]", "[ply]\noverhang = 0.01"))

@@ -83,7 +83,7 @@ fn change_of_shape(before: &[Point], after: &[Point]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-fn centre(places: &[Point]) -> Point {
+fn center(places: &[Point]) -> Point {
     [0, 1, 2].map(|n| places.iter().map(|p| p[n]).sum::<f64>() / places.len() as f64)
 }
 
@@ -262,7 +262,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             let mut closest = f64::INFINITY;
             let ([own, table], on_mold) = clear_of(&scene, &start, sag);
             let what = format!("{mold}: {far} m towards {toward}, heading {heading}");
-            let [from, to] = [&start, &way[count - 1]].map(|p| centre(p));
+            let [from, to] = [&start, &way[count - 1]].map(|p| center(p));
             for places in &spline[1..=(count - 1) * 6] {
                 let moved = start.iter().zip(places).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
                 let moved = moved.fold(0.0, f64::max);
@@ -272,7 +272,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
                 assert!(above > wanted, "{what}: {above} m over the mold after {moved} m");
                 if moved > margin {
                     closest = closest.min(above);
-                    let gone = centre(places);
+                    let gone = center(places);
                     let gone = (gone[0] - from[0]).hypot(gone[1] - from[1]);
                     if !on_mold && gone < 0.45 * (to[0] - from[0]).hypot(to[1] - from[1]) {
                         assert!(lowest - table > 0.98 * margin, "{what}: {lowest} over {table}");
@@ -280,9 +280,9 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
                     }
                 }
             }
-            let highest = positions[..count].iter().map(|p| centre(p)[2]).fold(f64::MIN, f64::max);
-            let formed = centre(&formation)[2] + TUNING.transport.formed_height * 0.1;
-            let is_lifted = highest > centre(&start)[2].max(formed) + 1e-9;
+            let highest = positions[..count].iter().map(|p| center(p)[2]).fold(f64::MIN, f64::max);
+            let formed = center(&formation)[2] + TUNING.transport.formed_height * 0.1;
+            let is_lifted = highest > center(&start)[2].max(formed) + 1e-9;
             // the way is rounded where it leaves the start: right beside an upright boundary it is higher for that
             let spare = if mold == BOWL && far < 1.0 { 0.04 } else { 4e-3 };
             assert!(!is_lifted || closest < margin + spare, "{what}: {closest} m at {highest} m");
@@ -295,7 +295,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
 /// have the lengths that they shall have meanwhile, to 0.01 %.
 #[test]
 fn a_start_right_above_keeps_its_straight_way() {
-    let scene = on(DOME, "spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"");
+    let scene = on(DOME, "spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centered\"");
     let (formation, positions) = to_ring(&scene, 90);
     assert_eq!(carried(&positions, 90), 1);
     let start = &scene.layup.motion.positions[0];
@@ -309,9 +309,9 @@ fn a_start_right_above_keeps_its_straight_way() {
             let straight = a[2] + t * (b[2] - a[2]);
             assert!((p[2] - straight).abs() < 1e-3, "step {k}: {p:?}, not at {straight}");
         }
-        let [a, b] = [start, &above].map(|places| centre(places));
+        let [a, b] = [start, &above].map(|places| center(places));
         let straight = [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
-        assert!(distance(centre(places), straight) < 1e-9, "step {k}");
+        assert!(distance(center(places), straight) < 1e-9, "step {k}");
         for ends in (0..lines.edges()).map(|edge| lines.ends(edge)) {
             let [now, before, after] =
                 [places, start, &above].map(|places| distance(places[ends[0]], places[ends[1]]));
@@ -323,7 +323,7 @@ fn a_start_right_above_keeps_its_straight_way() {
         }
     }
     for pair in positions.windows(2) {
-        assert!(centre(&pair[1])[2] < centre(&pair[0])[2] + 1e-12);
+        assert!(center(&pair[1])[2] < center(&pair[0])[2] + 1e-12);
     }
 }
 
@@ -378,7 +378,7 @@ fn a_transport_is_scaled_and_turned_with_its_scene() {
 fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     let beside = |scene: &Scene| -> Vec<Point> {
         let start = &scene.layup.motion.positions[0];
-        let (middle, half) = (centre(start), 45_f64.to_radians());
+        let (middle, half) = (center(start), 45_f64.to_radians());
         let (sin, cos) = half.sin_cos();
         let place = |p: &Point| {
             let [x, y] = [p[0] - middle[0], p[1] - middle[1]];

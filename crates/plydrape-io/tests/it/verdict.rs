@@ -214,7 +214,7 @@ fn a_cell_is_judged_by_the_shear_that_it_landed_with_in_both_senses() {
 }
 
 /// The same verdict from coarse and fine steps at a fine tolerance: examples 01, 04 and 06 by their straight paths, whose limits
-/// each keep their side, and whose caught slack and landing shear differ by no more than what a step of the coarsest catches.
+/// each keep their side, and whose slack and landing shear differ by no more than what a step of the coarsest catches.
 #[test]
 fn verdicts_converge_in_steps_and_tolerance() {
     for name in ["01_flat_sheared_mold", "04_dome", "06_saddle"] {
@@ -254,7 +254,7 @@ fn a_scaled_scene_has_the_same_verdict() {
             "[ply]\ngrippers = [4, 4]\ncell = [{c}, {c}]\n\
              [ply.material]\nname = \"scaled\"\nmass = 0.3143\nflexural_rigidity = {ei}\n\
              [mold]\nkind = \"sphere\"\nradius = {r}\nposition = [0, 0, -{r}]\n\
-             [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centred\"\n\
+             [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centered\"\n\
              [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 30\n\
              [model]\nkind = \"catenaries\"\naxial_stiffness = {ea}\n[contact]\ntolerance = {t}\n\
              [limits]\nposition = {lc}\nlanding_gripper = {lg}\nbridging = {b}\ngripper_load = {load}\n",

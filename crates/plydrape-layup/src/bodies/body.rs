@@ -12,7 +12,7 @@ use std::sync::{Arc, OnceLock};
 pub enum Shape {
     /// A cylinder about the z axis.
     Cylinder {
-        /// Its radius (m).
+        /// Radius (m).
         radius: f64,
         /// Where along z it begins (m).
         from: f64,
@@ -23,7 +23,7 @@ pub enum Shape {
     Box {
         /// Lengths of its sides (m).
         size: [f64; 3],
-        /// Its middle (m).
+        /// Middle (m).
         at: [f64; 3],
     },
     /// Triangles; of a closed surface, counterclockwise as seen from outside.
@@ -115,11 +115,11 @@ pub enum Mount {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Body {
-    /// Its name for reports.
+    /// Name for reports.
     pub name: String,
     /// What it moves with; there is one on every gripper, or one on the flange.
     pub on: Mount,
-    /// Its shape in the coordinates of that.
+    /// Shape in the coordinates of that.
     pub shape: Shape,
 }
 
@@ -128,11 +128,11 @@ pub struct Body {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Obstacle {
-    /// Its name for reports.
+    /// Name for reports.
     pub name: String,
     /// Where it stands, in the frame of the scene.
     pub pose: Pose,
-    /// Its shape in coordinates of its own.
+    /// Shape in coordinates of its own.
     pub shape: Shape,
 }
 
@@ -162,7 +162,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Those of lists.
+    /// Bodies and obstacles from lists.
     #[must_use]
     pub fn new(bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Self {
         Bodies { bodies: bodies.into(), obstacles: obstacles.into(), made: Made::default() }

@@ -83,12 +83,12 @@ impl Surface {
         });
         let axis = axis.unwrap_or(0);
         triangles.sort_by(|a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
-        let centre = ranges.map(|[low, high]| 0.5 * (low + high));
-        let reach = triangles.iter().flatten().map(|p| distance(*p, centre)).fold(0.0, f64::max);
+        let center = ranges.map(|[low, high]| 0.5 * (low + high));
+        let reach = triangles.iter().flatten().map(|p| distance(*p, center)).fold(0.0, f64::max);
         let half = triangles.len() / 2;
         let (a, b) = triangles.split_at_mut(half);
         let parts = [self.grow(a), self.grow(b)];
-        self.tree.push(Node { middle: centre, radius: reach, parts });
+        self.tree.push(Node { middle: center, radius: reach, parts });
         Patch::Node(self.tree.len() - 1)
     }
 

@@ -4,7 +4,7 @@ use super::body::Shape;
 use std::f64::consts::TAU;
 
 impl Shape {
-    /// Corners (m) and triangles, counterclockwise as seen from outside; a cylinder is a prism with so many `sides`.
+    /// Corners (m) and triangles, counterclockwise as seen from outside; a cylinder is a prism with this many `sides`.
     #[must_use]
     pub fn triangles(&self, sides: u32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
         match self {

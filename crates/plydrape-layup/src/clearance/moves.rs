@@ -55,7 +55,7 @@ struct Leg {
     quaternions: [[f64; 4]; 2],
     /// How much it turns (rad).
     turn: f64,
-    /// The axis that it turns about, by so much (rad).
+    /// The axis that it turns about, by this much (rad).
     spin: [f64; 3],
 }
 
@@ -168,21 +168,21 @@ impl Moves for Straight {
 pub(super) struct Legs(pub Vec<Straight>);
 
 impl Legs {
-    fn of(&self, time: f64) -> (&Straight, f64) {
+    fn leg(&self, time: f64) -> (&Straight, f64) {
         let n = (time.max(0.0) as usize).min(self.0.len() - 1);
         (&self.0[n], time - n as f64)
     }
 
     /// The leg of an interval within it, and the times in it.
     fn within(&self, [from, to]: [f64; 2]) -> (&Straight, [f64; 2]) {
-        let (leg, begin) = self.of(from);
+        let (leg, begin) = self.leg(from);
         (leg, [begin, begin + to - from])
     }
 }
 
 impl Moves for Legs {
     fn pose(&self, of: Origin, time: f64) -> Pose {
-        let (leg, time) = self.of(time);
+        let (leg, time) = self.leg(time);
         leg.pose(of, time)
     }
 

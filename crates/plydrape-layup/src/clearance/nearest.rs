@@ -24,7 +24,7 @@ use rayon::prelude::*;
 pub struct Part {
     /// Index of the body in [`crate::bodies::Bodies::bodies`].
     pub body: usize,
-    /// Index of its gripper; none on the flange.
+    /// Index of its gripper; `None` on the flange.
     pub gripper: Option<usize>,
 }
 
@@ -42,7 +42,7 @@ pub enum Near {
 /// The nearest pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// Their distance (m); negative where they penetrate each other, by so much.
+    /// Their distance (m); negative where they penetrate each other, by this much.
     pub distance: f64,
     /// A body.
     pub part: Part,
@@ -82,7 +82,7 @@ fn part_label(Part { body, gripper }: Part, layup: &Layup, ply: &Ply) -> String 
     }
 }
 
-/// The nearest pair at one time, with its time 0, resolved by a share of a `limit` (m); none of a layup without bodies, or without anything that they could meet.
+/// The nearest pair at one time, with its time 0, resolved by a share of a `limit` (m); `None` for a layup without bodies, or without anything that they could meet.
 #[must_use]
 pub fn at(layup: &Layup, limit: f64, poses: &Poses) -> Option<Nearest> {
     along(layup, limit, &Straight::new(poses, poses), &[0.0], f64::INFINITY)
@@ -229,7 +229,7 @@ struct Course<'a> {
     pair: Pair,
     /// The most that its distance can change from the first sample to each (m).
     change: Vec<f64>,
-    /// Its distance where it was asked for (m); none is known otherwise.
+    /// Distance where it was asked for (m); none is known otherwise.
     found: Vec<Option<f64>>,
 }
 
@@ -339,7 +339,7 @@ impl<'a> Search<'a> {
         TUNING.resolution * if least.is_finite() { least.abs().max(self.limit) } else { self.limit }
     }
 
-    /// The same of one pair between its distances: what is found of the mold has half of the resolution.
+    /// The resolution for one pair; distances to the mold are found with half of it.
     fn resolution_of(&self, pair: Pair) -> f64 {
         match pair.1 {
             Other::Mold => 0.5 * self.resolution(),

@@ -32,7 +32,7 @@ pub(super) struct OverMold<'a> {
     steepness: Steepness,
     /// Sharpest curvature of its hollows (1/m); infinite where it is not known.
     hollow: f64,
-    /// Its triangles as a body.
+    /// Triangles as a body.
     triangles: Option<Arc<Solid>>,
 }
 

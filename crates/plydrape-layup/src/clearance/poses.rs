@@ -3,7 +3,7 @@
 use crate::geometry::vector::{along, dot, sub};
 use crate::layup::Layup;
 use crate::mold::Pose;
-use crate::ply::{Neighbours, orientations};
+use crate::ply::{Neighbors, orientations};
 
 /// Where everything is that bodies are mounted on, at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,19 +48,19 @@ impl Poses {
     /// Of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbors, or with the frame where they have no
     /// joints: before any drape.
     #[must_use]
-    pub fn by_neighbours(layup: &Layup, neighbours: &[Neighbours], positions: &[[f64; 3]]) -> Self {
+    pub fn by_neighbors(layup: &Layup, neighbors: &[Neighbors], positions: &[[f64; 3]]) -> Self {
         let turned = match layup.fixed_pads(positions) {
             Some(fixed) => vec![fixed; positions.len()],
-            None => orientations(&layup.ply, neighbours, positions),
+            None => orientations(&layup.ply, neighbors, positions),
         };
         Poses::of(layup, positions, &turned, positions)
     }
 
-    /// The same carried as one body: each place p becomes `centre + R (p − from)`. Stems turn with a flange, and stay upright without.
+    /// The same carried as one body: each place p becomes `center + R (p − from)`. Stems turn with a flange, and stay upright without.
     #[must_use]
-    pub fn carried(&self, from: [f64; 3], centre: [f64; 3], turn: &[[f64; 3]; 3]) -> Self {
+    pub fn carried(&self, from: [f64; 3], center: [f64; 3], turn: &[[f64; 3]; 3]) -> Self {
         let turned = |v: [f64; 3]| turn.map(|row| dot(row, v));
-        let position = |pose: &Pose| along(centre, 1.0, turned(sub(pose.position, from)));
+        let position = |pose: &Pose| along(center, 1.0, turned(sub(pose.position, from)));
         let moved = |pose: &Pose| Pose { position: position(pose), axes: pose.axes.map(turned) };
         let stem = |pose: &Pose| match self.flange {
             Some(_) => moved(pose),

@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_4, SQRT_2};
 /// The limit of clearances that are resolved (m).
 const LIMIT: f64 = 5e-3;
 
-/// A layup of so many grippers, without a mold.
+/// A layup of this many grippers, without a mold.
 fn layup(grid: Grid, bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Layup {
     let (ply, settings) = (cloth(grid), Settings::default());
     let place = |n: usize| {
@@ -516,9 +516,9 @@ fn a_scaled_cell_has_scaled_clearances() {
                 .map(|p: [f64; 3]| p.map(|c| scale * c))
                 .collect::<Vec<_>>()
         };
-        let neighbours = layup.ply.neighbours();
+        let neighbors = layup.ply.neighbors();
         let poses = [step(0.0), step(0.2), step(0.5)]
-            .map(|step| Poses::by_neighbours(&layup, &neighbours, &step));
+            .map(|step| Poses::by_neighbors(&layup, &neighbors, &step));
         let legs = poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
         along(&layup, LIMIT * scale, &Legs(legs), &[0.0, 1.0, 2.0], f64::INFINITY).unwrap()
     };

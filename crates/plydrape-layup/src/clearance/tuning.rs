@@ -2,7 +2,7 @@
 
 /// Resolutions of clearances.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Tuning {
+pub(super) struct ClearanceTuning {
     /// By how much two bodies may come nearer between two samples than is reported, as a share of what is reported, or of
     /// the limit where that is more. A hundredth is 0.05 mm of 5 mm: less than a gripper repeats its place.
     pub resolution: f64,
@@ -20,5 +20,11 @@ pub(super) struct Tuning {
 }
 
 /// The constants in use.
-pub(super) const TUNING: Tuning =
-    Tuning { resolution: 0.01, sampled: 1e-3, first: 8, halvings: 30, patches: 200_000, far: 0.05 };
+pub(super) const TUNING: ClearanceTuning = ClearanceTuning {
+    resolution: 0.01,
+    sampled: 1e-3,
+    first: 8,
+    halvings: 30,
+    patches: 200_000,
+    far: 0.05,
+};

@@ -1,4 +1,4 @@
-//! Where a mold stands and how it is turned.
+//! Position and rotation of a mold.
 
 use super::rotation::quaternion;
 use super::vector::{along, sub};
@@ -65,7 +65,7 @@ impl Pose {
         Pose { position, axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
     }
 
-    /// Its turn as a unit quaternion (x, y, z, w).
+    /// Turn as a unit quaternion (x, y, z, w).
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         quaternion(self.axes)

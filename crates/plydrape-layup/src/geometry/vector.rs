@@ -42,7 +42,7 @@ pub fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The unit vector along `a`; none if `a` has (all but) no length.
+/// The unit vector along `a`; `None` if `a` has (all but) no length.
 #[must_use]
 pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let length = norm(a);

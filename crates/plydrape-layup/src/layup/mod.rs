@@ -92,6 +92,6 @@ impl Layup {
 pub struct Target {
     /// Final gripper positions (m), in the order of [`crate::ply::Ply::index`].
     pub grippers: Vec<[f64; 3]>,
-    /// The ideal drape, of which the grippers are nodes; none where their positions were given.
+    /// The ideal drape, of which the grippers are nodes; `None` where their positions were given.
     pub drape: Option<Arc<Net>>,
 }

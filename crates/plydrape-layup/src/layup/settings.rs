@@ -68,7 +68,7 @@ impl Model {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SheetSettings {
-    /// Largest distance between neighboring lines of nodes (m); none for a tenth of the shorter side of a cell.
+    /// Largest distance between neighboring lines of nodes (m); `None` for a tenth of the shorter side of a cell.
     pub mesh: Option<f64>,
     /// Fabric beyond the outermost grippers, on all sides (m).
     pub overhang: f64,
@@ -101,14 +101,14 @@ pub enum SheetTime {
 pub struct PadSettings {
     /// Radius of the pad that holds the fabric flat (m); zero holds one point.
     pub radius: f64,
-    /// Stiffness of the mount along the ply (N/m); none if rigid.
+    /// Stiffness of the mount along the ply (N/m); `None` if rigid.
     pub lateral_stiffness: Option<f64>,
-    /// Stiffness of the mount across the ply (N/m); none if rigid.
+    /// Stiffness of the mount across the ply (N/m); `None` if rigid.
     pub axial_stiffness: Option<f64>,
-    /// Largest load along the ply that a pad holds before the fabric slides under it (N); none if it never slides.
+    /// Largest load along the ply that a pad holds before the fabric slides under it (N); `None` if it never slides.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub slip_force: Option<f64>,
-    /// Largest load across the ply that a pad holds (N); none if it holds any.
+    /// Largest load across the ply that a pad holds (N); `None` if it holds any.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub holding_force: Option<f64>,
 }

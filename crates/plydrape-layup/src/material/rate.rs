@@ -1,8 +1,8 @@
 //! Shear that takes time: what resin between the yarns adds to the shear force.
 //!
-//! A Maxwell element stands beside the shear curve, τ = τ∞(γ) + q with q̇ = G₁ γ̇ − q/θ. A shear that is much slower than the
+//! A Maxwell element acts in parallel to the shear curve, τ = τ∞(γ) + q with q̇ = G₁ γ̇ − q/θ. A shear that is much slower than the
 //! relaxation time θ is resisted by G₁ θ γ̇, as by a viscous liquid; one that is much faster by G₁ γ, as by a spring; and where the
-//! ply stands, q falls as e^(−t/θ). Resin flows the sooner the warmer it is, so θ depends on the temperature by the law of Arrhenius,
+//! ply is at rest, q falls as e^(−t/θ). Resin flows the sooner the warmer it is, so θ depends on the temperature by the law of Arrhenius,
 //! while G₁ does not (time–temperature superposition).
 
 /// What resin adds to the shear force per length of a ply.
@@ -31,8 +31,8 @@ impl ShearRate {
         self.stiffness * self.time()
     }
 
-    /// The same ply with relaxation times that are all so many times as long: a motion along which that ply is draped is to it what a
-    /// motion that is so many times as fast is to this one, but for its inertia.
+    /// The same ply with relaxation times that are all this many times as long: a motion along which that ply is draped is to it what a
+    /// motion that is this many times as fast is to this one, but for its inertia.
     #[must_use]
     pub fn slower(&self, factor: f64) -> Self {
         let mut slower = self.clone();

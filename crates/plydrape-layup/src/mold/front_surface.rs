@@ -20,7 +20,7 @@ pub struct FrontSurface {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise {
     /// Where the front starts from (m).
-    pub centre: [f64; 2],
+    pub center: [f64; 2],
     /// The metric of the front: r² = q₀ x² + 2 q₁ x y + q₂ y² about the center.
     pub metric: [f64; 3],
     /// How far the front has come, in r (m).
@@ -51,14 +51,14 @@ impl Rise {
     /// Distance r of a place from where the front starts (m).
     #[must_use]
     pub fn radius(&self, [x, y]: [f64; 2]) -> f64 {
-        let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
+        let [dx, dy] = [x - self.center[0], y - self.center[1]];
         let [q0, q1, q2] = self.metric;
         (q0 * dx * dx + 2.0 * q1 * dx * dy + q2 * dy * dy).max(0.0).sqrt()
     }
 
     /// The added height at (x, y) (m).
     fn at(&self, x: f64, y: f64) -> Height {
-        let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
+        let [dx, dy] = [x - self.center[0], y - self.center[1]];
         let [q0, q1, q2] = self.metric;
         let half = [q0 * dx + q1 * dy, q1 * dx + q2 * dy];
         let r = (half[0] * dx + half[1] * dy + self.tip * self.tip).sqrt();

@@ -210,7 +210,7 @@ fn upward(height: &Height) -> [f64; 3] {
     unit([-fx, -fy, 1.0]).unwrap_or([0.0, 0.0, 1.0])
 }
 
-/// The step towards the closest point; none where nothing comes closer. Directions in which the boundary
+/// The step towards the closest point; `None` where nothing comes closer. Directions in which the boundary
 /// holds the point are left out.
 fn newton(
     xy: [f64; 2],

@@ -84,11 +84,11 @@ impl Layer {
         let width = ramp(thickness);
         let [low, high] = bounds(&rings);
         let bounds = [low.map(|c| c - width), high.map(|c| c + width)];
-        let grid = Grid::of(&rings, bounds, width);
+        let grid = Grid::new(&rings, bounds, width);
         Ok(Layer { thickness, rings, bounds, grid })
     }
 
-    /// Its thickness (m).
+    /// Thickness (m).
     #[must_use]
     pub fn thickness(&self) -> f64 {
         self.thickness
@@ -106,7 +106,7 @@ impl Layer {
         self.at(place).0 > 0.0
     }
 
-    /// Its height (m), slope, and second derivatives (1/m) at a place in plan.
+    /// Height (m), slope, and second derivatives (1/m) at a place in plan.
     fn at(&self, place: [f64; 2]) -> (f64, [f64; 2], [f64; 3]) {
         let none = (0.0, [0.0; 2], [0.0; 3]);
         let full = (self.thickness, [0.0; 2], [0.0; 3]);
@@ -161,7 +161,7 @@ impl Relief for Layers {
 }
 
 impl Grid {
-    fn of(rings: &[Vec<[f64; 2]>], [low, high]: [[f64; 2]; 2], width: f64) -> Self {
+    fn new(rings: &[Vec<[f64; 2]>], [low, high]: [[f64; 2]; 2], width: f64) -> Self {
         let size = [0, 1].map(|n| high[n] - low[n]);
         let side = size[0].max(size[1]) / CELLS as f64;
         let count = size.map(|s| ((s / side).ceil() as usize).max(1));

@@ -85,7 +85,7 @@ pub struct Separation {
 /// A line of fabric on a mold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceCurve {
-    /// Its points, all on the mold (m).
+    /// Points, all on the mold (m).
     pub points: Vec<[f64; 3]>,
     /// Arc length at each point (m), ascending.
     pub arc: Vec<f64>,
@@ -107,7 +107,7 @@ impl SurfaceCurve {
         }
     }
 
-    /// Its last point (m).
+    /// Last point (m).
     ///
     /// # Panics
     /// Never for a line that a mold has given: it has at least one point.
@@ -116,7 +116,7 @@ impl SurfaceCurve {
         self.points[self.points.len() - 1]
     }
 
-    /// Its point at an arc length (m), on the chord between two of its points.
+    /// Point at an arc length (m), on the chord between two of its points.
     #[must_use]
     pub fn at(&self, arc: f64) -> [f64; 3] {
         let last = self.points.len() - 1;

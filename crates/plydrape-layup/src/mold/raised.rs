@@ -27,7 +27,7 @@ pub trait Relief {
 pub struct Raise {
     /// The height w (m).
     pub height: f64,
-    /// Its slope in space.
+    /// Slope in space.
     pub gradient: [f64; 3],
     /// ∂²w/∂x², ∂²w/∂x∂y and ∂²w/∂y² (1/m).
     pub hessian: [f64; 3],

@@ -19,7 +19,7 @@ pub enum Face {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cylinder {
-    /// Its axis is the local x axis.
+    /// Pose; the local x axis is the axis.
     pub pose: Pose,
     /// Radius (m).
     pub radius: f64,
@@ -31,7 +31,7 @@ pub struct Cylinder {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere {
-    /// Its center is the local origin.
+    /// Pose; the local origin is the center.
     pub pose: Pose,
     /// Radius (m).
     pub radius: f64,
@@ -43,7 +43,7 @@ pub struct Sphere {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Torus {
-    /// Its ring lies in the local xy plane.
+    /// Ring lies in the local xy plane.
     pub pose: Pose,
     /// Radius of the ring that the tube follows (m).
     pub ring_radius: f64,
@@ -68,15 +68,15 @@ impl Arc {
 }
 
 fn arc(h: f64, z: f64, radius: f64, face: Face) -> Arc {
-    let from_centre = length(h, z);
+    let from_center = length(h, z);
     match face {
         Face::Outside => {
             let outward =
-                if from_centre > 0.0 { [h / from_centre, z / from_centre] } else { [0.0, 1.0] };
+                if from_center > 0.0 { [h / from_center, z / from_center] } else { [0.0, 1.0] };
             Arc {
                 point: outward.map(|c| radius * c),
                 normal: outward,
-                distance: from_centre - radius,
+                distance: from_center - radius,
                 beyond: false,
             }
         }
@@ -91,11 +91,11 @@ fn arc(h: f64, z: f64, radius: f64, face: Face) -> Arc {
         }
         Face::Inside => {
             let outward =
-                if from_centre > 0.0 { [h / from_centre, z / from_centre] } else { [0.0, -1.0] };
+                if from_center > 0.0 { [h / from_center, z / from_center] } else { [0.0, -1.0] };
             Arc {
                 point: outward.map(|c| radius * c),
                 normal: outward.map(|c| -c),
-                distance: radius - from_centre,
+                distance: radius - from_center,
                 beyond: false,
             }
         }

@@ -20,7 +20,7 @@ impl Saddle {
         Steepness { slope: (reach[0] / a).hypot(reach[1] / b), bend: (1.0 / a).max(1.0 / b) }
     }
 
-    /// Its height at (x, y) (m).
+    /// Height at (x, y) (m).
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Height {
         let [a, b] = self.radii;

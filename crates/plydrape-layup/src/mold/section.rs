@@ -36,7 +36,7 @@ impl Course {
 
 /// Where a step along a curve leads.
 struct Step {
-    /// Its end, on the mold (m).
+    /// End, on the mold (m).
     end: [f64; 3],
     /// How the curve runs there.
     course: Course,

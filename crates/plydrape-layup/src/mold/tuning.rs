@@ -5,7 +5,7 @@
 /// Lengths enter only as ratios, so a mold and its scaled copy give the same answers; tolerances of rounding are
 /// relative to the coordinates, because these are what is rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Tuning {
+pub(super) struct MoldTuning {
     /// Newton steps for a closest point of a height field, or for its point on a vertical line; from above a mold it
     /// takes three to six.
     pub newton_steps: usize,
@@ -143,7 +143,7 @@ pub(super) struct Tuning {
 }
 
 /// The values in use.
-pub(super) const TUNING: Tuning = Tuning {
+pub(super) const TUNING: MoldTuning = MoldTuning {
     newton_steps: 60,
     newton_step: 1e-7,
     unseen_step: 1e-6,

@@ -84,7 +84,7 @@ impl TimedMotion {
     /// of the time law, see [`Self::spacing`] and [`Self::law`].
     ///
     /// # Errors
-    /// Those of positions as [`Self::new`], and [`Error::MotionLaw`] if knots and rows are none of a motion of these positions.
+    /// The errors of positions as [`Self::new`], and [`Error::MotionLaw`] if knots and rows do not fit these positions.
     pub fn recorded(
         planned: &[Vec<[f64; 3]>],
         spacing: &[f64],
@@ -180,7 +180,7 @@ impl TimedMotion {
     /// as this motion keeps them.
     ///
     /// # Errors
-    /// Those of [`Self::new`], and [`Error::MotionSteps`] or [`Error::MotionGrippers`] if there are not as many positions as steps
+    /// The errors of [`Self::new`], and [`Error::MotionSteps`] or [`Error::MotionGrippers`] if there are not as many positions as steps
     /// and grippers.
     pub fn moved(&self, planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, Error> {
         check::positions(planned)?;
@@ -367,7 +367,7 @@ impl TimedMotion {
     /// moment.
     ///
     /// # Errors
-    /// Those of [`Self::samples`].
+    /// The errors of [`Self::samples`].
     pub fn standing_samples(&self, rate: f64, standing: f64) -> Result<Vec<f64>, Error> {
         let times = check::samples(rate, standing, self.grippers())?;
         let between = times.get(1..times.len().saturating_sub(1)).unwrap_or_default();
@@ -377,7 +377,7 @@ impl TimedMotion {
     /// The motion at [`Self::samples`]; more steps than were planned, or fewer.
     ///
     /// # Errors
-    /// Those of [`Self::samples`].
+    /// The errors of [`Self::samples`].
     pub fn sampled(&self, rate: f64) -> Result<Motion, Error> {
         let times = self.samples(rate)?;
         let positions = times.iter().map(|t| self.at(*t)).collect();

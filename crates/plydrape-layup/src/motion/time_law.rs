@@ -321,14 +321,14 @@ mod tests {
     fn the_time_law_does_not_depend_on_units() {
         for (length, bounds) in CASES {
             let duration = TimeLaw::new(length, &bounds).duration;
-            for (metre, second) in [(1e-9, 1.0), (1e6, 1.0), (1.0, 1e-3), (1e-9, 1e3)] {
+            for (meter, second) in [(1e-9, 1.0), (1e6, 1.0), (1.0, 1e-3), (1e-9, 1e3)] {
                 let scaled = Bounds {
-                    speed: bounds.speed * metre / second,
-                    acceleration: bounds.acceleration * metre / (second * second),
-                    jerk: bounds.jerk * metre / (second * second * second),
+                    speed: bounds.speed * meter / second,
+                    acceleration: bounds.acceleration * meter / (second * second),
+                    jerk: bounds.jerk * meter / (second * second * second),
                 };
-                let ratio = TimeLaw::new(length * metre, &scaled).duration / (duration * second);
-                assert!((ratio - 1.0).abs() < 1e-14, "{ratio} {metre} {second}");
+                let ratio = TimeLaw::new(length * meter, &scaled).duration / (duration * second);
+                assert!((ratio - 1.0).abs() < 1e-14, "{ratio} {meter} {second}");
             }
         }
     }

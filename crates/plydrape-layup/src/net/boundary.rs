@@ -25,12 +25,12 @@ pub struct PlyPoint {
 
 /// A part of the boundary that lies on the mold without a gap.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct BoundaryLine {
     /// The ring it belongs to: 0 is the outer boundary, holes follow.
     pub ring: usize,
     /// All of its ring: its last point is followed by its first, which is not repeated.
     pub closed: bool,
-    /// Its points in turn, the ply to the left seen from outside.
+    /// Points in turn, the ply to the left seen from outside.
     pub points: Vec<PlyPoint>,
     /// Unit normal of the mold at each point, towards the ply.
     pub normals: Vec<[f64; 3]>,
@@ -61,14 +61,14 @@ pub struct Farthest {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
     /// The parts that lie on the mold.
-    pub lines: Vec<Line>,
+    pub lines: Vec<BoundaryLine>,
     /// Their length along the mold (m).
     pub length: f64,
     /// Length of fabric of the outer boundary that has no place on the mold (m).
     pub outer_left_out: f64,
     /// What lies beyond the boundary of the mold.
     pub off_mold: LeftOut,
-    /// The fabric farthest beyond it; none if all is on the mold.
+    /// The fabric farthest beyond it; `None` if all is on the mold.
     pub farthest: Option<Farthest>,
     /// What the net has no place for, because the ply folds.
     pub folded: LeftOut,
@@ -96,7 +96,7 @@ impl Lie {
 type Sample = ([f64; 2], Lie);
 
 impl Net {
-    /// The outline of the ply, of one that is not cut the rectangle that the net covers; none of a strip without width.
+    /// The outline of the ply, of one that is not cut the rectangle that the net covers; `None` for a strip without width.
     #[must_use]
     pub fn ply_outline(&self) -> Option<Outline> {
         let placement = &self.placement;
@@ -107,7 +107,7 @@ impl Net {
         self.outline.clone().or_else(whole)
     }
 
-    /// The ply's boundary on the mold, and what of the ply has no place there; none of a strip without width.
+    /// The ply's boundary on the mold, and what of the ply has no place there; `None` for a strip without width.
     #[must_use]
     pub fn boundary(&self, mold: &Mold) -> Option<Boundary> {
         let outline = self.ply_outline()?;
@@ -181,7 +181,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The same of a point of the ply, which may be the farthest beyond the mold.
+    /// Where a point of the ply lies; it may be the farthest beyond the mold.
     fn lie_of_ply(&mut self, uv: [f64; 2]) -> Lie {
         let lie = self.lie(uv);
         if let Lie::Off(point) = lie
@@ -222,7 +222,7 @@ impl Walk<'_> {
                 pairs.map(|[a, b]| EdgeRule::Along.length(&line[a].1, &line[b].1)).sum::<f64>();
             let point =
                 |(uv, s): &([f64; 2], SurfacePoint)| PlyPoint { fabric: *uv, place: s.point };
-            self.found.lines.push(Line {
+            self.found.lines.push(BoundaryLine {
                 ring,
                 closed,
                 points: line.iter().map(point).collect(),
@@ -266,7 +266,7 @@ impl Walk<'_> {
     /// Area of the ply that has no place on the mold.
     fn areas(&mut self, outline: &Outline) {
         let placement = self.net.placement;
-        let coverage = Coverage::of(&placement, Some(outline));
+        let coverage = Coverage::new(&placement, Some(outline));
         let [nu, nv] = placement.nodes;
         for [i, j] in (0..nv - 1).flat_map(|j| (0..nu - 1).map(move |i| [i, j])) {
             if coverage.share([i, j]) > 0.0 {

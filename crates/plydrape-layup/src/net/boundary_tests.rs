@@ -89,7 +89,7 @@ fn on_a_sphere_the_middles_of_the_sides_are_an_arc_away() {
 }
 
 /// A square of 400 mm on a flat mold that ends 150 mm from its middle along x: 50 mm hang over, at one side and half of each
-/// neighbour.
+/// neighbor.
 #[test]
 fn what_hangs_over_a_straight_boundary_is_measured() {
     let saddle = Saddle { radii: [1e9, 1e9] };
@@ -180,7 +180,7 @@ fn a_ply_over_a_ridge_crosses_it_by_its_width() {
 }
 
 /// A flat rectangle of 400 mm × 300 mm against one that is 10 mm larger at two sides, 4 mm smaller at one and as large at the
-/// last: each error stands, with its place, and a curve the other way around says the same.
+/// last: each error is kept, with its place, and a curve the other way around says the same.
 #[test]
 fn trim_of_a_flat_rectangle_is_the_distance_of_its_sides() {
     let mold = plane();
@@ -248,7 +248,7 @@ fn trim_around_a_cylinder_is_measured_along_it() {
     assert!((trim.short.unwrap().error + 0.06).abs() < 5e-8, "{:?}", trim.short);
 }
 
-/// A wanted boundary that is not on the mold, or none, is refused with its point.
+/// A target boundary that is not on the mold, or none, is refused with its point.
 #[test]
 fn a_wanted_boundary_lies_on_the_mold() {
     let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.1, 0.1, 0.02]];

@@ -92,7 +92,7 @@ impl Build<'_> {
         }
     }
 
-    /// A node from its two neighbors nearer to the seed and the node between them; none without these.
+    /// A node from its two neighbors nearer to the seed and the node between them; `None` without these.
     fn corner(&self, [i, j]: Node, [a, b]: Node) -> Option<Result<SurfacePoint, SurfacePoint>> {
         let (along_u, along_v) = (self.at([i - a, j])?, self.at([i, j - b])?);
         let inner = self.at([i - a, j - b])?;

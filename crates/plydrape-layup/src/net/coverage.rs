@@ -20,7 +20,7 @@ pub struct Coverage {
 impl Coverage {
     /// Of a net over an outline, or over all that it covers.
     #[must_use]
-    pub fn of(placement: &Placement, outline: Option<&Outline>) -> Self {
+    pub fn new(placement: &Placement, outline: Option<&Outline>) -> Self {
         let nodes = placement.nodes;
         let Some(outline) = outline.filter(|_| nodes.iter().all(|n| *n > 1)) else {
             return Coverage { nodes, on_ply: Vec::new(), share: Vec::new() };
@@ -130,7 +130,7 @@ mod tests {
         let outline =
             Outline::new(vec![[0.0, 0.02], [0.31, 0.05], [0.02, 0.29]], vec![hole]).unwrap();
         let placement = placement([36, 31], 0.01);
-        let coverage = Coverage::of(&placement, Some(&outline));
+        let coverage = Coverage::new(&placement, Some(&outline));
         let mut area = 0.0;
         for j in 0..30 {
             for i in 0..35 {
@@ -154,7 +154,7 @@ mod tests {
         let placement = placement([4, 3], 0.1);
         let outline =
             Outline::rectangle(placement.fabric([0, 0]), placement.fabric([3, 2])).unwrap();
-        let coverage = Coverage::of(&placement, Some(&outline));
+        let coverage = Coverage::new(&placement, Some(&outline));
         assert!((0..12).all(|n| coverage.node([n % 4, n / 4])));
         assert!((0..6).all(|n| coverage.counts([n % 3, n / 3])));
     }

@@ -202,6 +202,6 @@ impl Build<'_> {
         // by v and then by u: [i, j], [i+1, j], [i, j+1], [i+1, j+1]
         corners.sort_by_key(|(n, _)| [n[1], n[0]]);
         let [s00, s10, s01, s11] = corners.map(|(_, point)| point);
-        CellShear::of([&s00, &s10, &s11, &s01], self.rule()).angle
+        CellShear::new([&s00, &s10, &s11, &s01], self.rule()).angle
     }
 }

@@ -12,7 +12,7 @@ use crate::geometry::vector::{along, cross, dot, norm, sub};
 /// A condition on a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Condition<'a> {
-    /// So much fabric away from a node (m).
+    /// This much fabric away from a node (m).
     Length(&'a SurfacePoint, f64),
     /// On the straightest line that leaves a node across this unit vector.
     Straight(&'a SurfacePoint, [f64; 3]),
@@ -22,7 +22,7 @@ pub(super) enum Condition<'a> {
 
 /// How a condition's gap is closed at a trial.
 struct Slope {
-    /// Its gradient, a tangent of the mold.
+    /// Gradient, a tangent of the mold.
     gradient: [f64; 3],
     /// Curvature of its level line (1/m).
     bend: f64,
@@ -106,7 +106,7 @@ fn size(gaps: [f64; 2]) -> f64 {
     gaps[0].abs().max(gaps[1].abs())
 }
 
-/// The step that closes both gaps, no longer than half a mesh width; none where their gradients are
+/// The step that closes both gaps, no longer than half a mesh width; `None` where their gradients are
 /// parallel.
 fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
     let [p, q] = [slopes[0].gradient, slopes[1].gradient];

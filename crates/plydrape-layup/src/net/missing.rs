@@ -9,7 +9,7 @@ use std::fmt;
 pub enum Reason {
     /// It lies beyond the mold's boundary.
     OffMold,
-    /// Its two edges have no common end on the mold, or only with a cell shut or turned over; beyond the
+    /// The two edges of the node have no common end on the mold, or only with a cell shut or turned over; beyond the
     /// boundary that counts as [`Reason::OffMold`].
     Folded,
     /// It hangs on a node that folded.
@@ -24,9 +24,9 @@ pub struct Missing {
     pub node: [usize; 2],
     /// Why.
     pub reason: Reason,
-    /// The last trial for its place (m); none where there was no trial.
+    /// The last trial for its place (m); `None` where there was no trial.
     pub near: Option<[f64; 3]>,
-    /// How far beyond the mold's boundary it lies (m); none where there was no trial.
+    /// How far beyond the mold's boundary it lies (m); `None` where there was no trial.
     pub beyond: Option<f64>,
 }
 

@@ -31,7 +31,7 @@ mod surface_point;
 mod trim;
 mod tuning;
 
-pub use boundary::{Boundary, Farthest, LeftOut, Line, PlyPoint};
+pub use boundary::{Boundary, BoundaryLine, Farthest, LeftOut, PlyPoint};
 pub use coverage::Coverage;
 pub use edge::EdgeRule;
 pub use missing::{Missing, Reason};
@@ -54,10 +54,10 @@ use surface_point::{ExtendedSurface, SurfacePoint};
 pub struct Net {
     /// The input.
     pub placement: Placement,
-    /// The outline of a ply that is cut; none where the ply is all that the net covers.
+    /// The outline of a ply that is cut; `None` where the ply is all that the net covers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub outline: Option<Outline>,
-    /// Place of each node (m); none where it has no place on the mold.
+    /// Place of each node (m); `None` where it has no place on the mold.
     pub nodes: Vec<Option<[f64; 3]>>,
     /// The nodes of the ply without a place, those closest to the seed first.
     pub missing: Vec<Missing>,
@@ -73,7 +73,7 @@ impl Net {
     /// Drapes a ply on a mold that is all that the net covers. Nodes that find no place are [`Net::missing`], not an error.
     ///
     /// # Errors
-    /// Those of a placement with which no net can be begun: [`Error::NetNoNodes`], [`Error::NetMeshWidth`], [`Error::NetSeedNode`],
+    /// The errors of a placement with which no net can be begun: [`Error::NetNoNodes`], [`Error::NetMeshWidth`], [`Error::NetSeedNode`],
     /// [`Error::NetSeedPlace`], [`Error::NetUpright`] or [`Error::NetShear`].
     pub fn drape(mold: &Mold, placement: Placement) -> Result<Self, Error> {
         Net::drape_cut(mold, placement, None)
@@ -82,13 +82,13 @@ impl Net {
     /// Drapes a ply that is cut, if it has an outline: only what is on the ply counts, see [`Coverage`].
     ///
     /// # Errors
-    /// Those of [`Net::drape`].
+    /// The errors of [`Net::drape`].
     pub fn drape_cut(
         mold: &Mold,
         placement: Placement,
         outline: Option<Outline>,
     ) -> Result<Self, Error> {
-        let coverage = Coverage::of(&placement, outline.as_ref());
+        let coverage = Coverage::new(&placement, outline.as_ref());
         let net = Net::drape_covered(mold, placement, &coverage)?;
         Ok(Net { outline, ..net })
     }
@@ -134,7 +134,7 @@ impl Net {
                 let ring = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 shear.push(match ring {
                     [Some(a), Some(b), Some(c), Some(d)] if coverage.counts([i, j]) => {
-                        Some(CellShear::of([a, b, c, d], placement.edges))
+                        Some(CellShear::new([a, b, c, d], placement.edges))
                     }
                     _ => None,
                 });
@@ -147,7 +147,7 @@ impl Net {
     /// Which nodes and cells are on the ply.
     #[must_use]
     pub fn coverage(&self) -> Coverage {
-        Coverage::of(&self.placement, self.outline.as_ref())
+        Coverage::new(&self.placement, self.outline.as_ref())
     }
 
     /// The node at grid indices `[i, j]` (m), if it has a place.

@@ -27,9 +27,9 @@ impl Net {
         (!closest.beyond).then_some(closest.point)
     }
 
-    /// Unit tangents of u and v at the fabric point `uv` (m); none where [`Net::place`] is none.
+    /// Unit tangents of u and v at the fabric point `uv` (m); `None` where [`Net::place`] is none.
     #[must_use]
-    pub fn fibres(&self, mold: &Mold, uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
+    pub fn fibers(&self, mold: &Mold, uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
         let (patch, at) = self.patch(uv)?;
         let [(p, dp), (q, dq)] = [0, 1].map(|n| weights(at[n], patch.size[n]));
         let closest = mold.closest_point(self.sum(&patch, p, q));
@@ -45,7 +45,7 @@ impl Net {
         ])
     }
 
-    /// Where a fabric point (m) lies on a mold or on its extension; none where the net has no nodes.
+    /// Where a fabric point (m) lies on a mold or on its extension; `None` where the net has no nodes.
     pub(super) fn surface_point(
         &self,
         surface: &ExtendedSurface,
@@ -56,7 +56,7 @@ impl Net {
         Some(surface.under(self.sum(&patch, p, q)))
     }
 
-    /// A vector along u at a fabric point (m), about tangent to the mold; none where the net has no nodes.
+    /// A vector along u at a fabric point (m), about tangent to the mold; `None` where the net has no nodes.
     pub(super) fn tangent_u(&self, uv: [f64; 2]) -> Option<[f64; 3]> {
         let (patch, at) = self.patch(uv)?;
         let [(_, dp), (q, _)] = [0, 1].map(|n| weights(at[n], patch.size[n]));

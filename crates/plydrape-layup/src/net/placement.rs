@@ -35,7 +35,7 @@ pub struct Placement {
     pub place: [f64; 3],
     /// Direction of u there, seen in plan from x towards y (rad): of its tangent, or of the first bar.
     pub heading: f64,
-    /// Pre-shear γ (rad): v stands at 90° − γ from u, to the left of u seen from outside.
+    /// Pre-shear γ (rad): v is at 90° − γ from u, to the left of u seen from outside.
     pub shear: f64,
     /// How the generators run.
     pub generators: Generators,
@@ -56,7 +56,7 @@ impl Placement {
         [0, 1].map(|n| self.origin[n] + node[n] as f64 * self.mesh[n])
     }
 
-    /// The node at a fabric point (m); none where there is none.
+    /// The node at a fabric point (m); `None` where there is none.
     #[must_use]
     pub fn node(&self, uv: [f64; 2]) -> Option<[usize; 2]> {
         let share = [0, 1].map(|n| (uv[n] - self.origin[n]) / self.mesh[n]);

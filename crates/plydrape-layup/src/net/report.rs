@@ -22,7 +22,7 @@ pub struct Report {
     pub first: Vec<Missing>,
     /// Largest error of an edge between placed nodes, measured by the placement's rule (m).
     pub largest_edge_error: f64,
-    /// Largest magnitude of a cell's shear (rad) and its cell; none without whole cells.
+    /// Largest magnitude of a cell's shear (rad) and its cell; `None` without whole cells.
     pub largest_shear: Option<(f64, [usize; 2])>,
     /// Mean magnitude of the cells' shear (rad); 0 without whole cells.
     pub mean_shear: f64,

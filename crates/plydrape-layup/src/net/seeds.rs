@@ -31,20 +31,20 @@ pub struct Free {
 pub struct Choice {
     /// The seed: a node of the net.
     pub seed: [usize; 2],
-    /// Its fabric point, and where it lies (m).
+    /// Fabric point, and where it lies (m).
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub at: PlyPoint,
     /// Heading of u at the seed, seen in plan (rad).
     pub heading: f64,
     /// The heading of u that is asked of the held point (rad).
     pub held_heading: f64,
-    /// Largest shear on the ply with the net that all choices are compared with (rad); none if it has no whole cell.
+    /// Largest shear on the ply with the net that all choices are compared with (rad); `None` if it has no whole cell.
     pub largest_shear: Option<f64>,
-    /// The same with the net of the scene, of the few that were compared with that (rad).
+    /// Largest shear with the net of the scene (rad), of the few choices that were compared with that.
     pub largest_shear_fine: Option<f64>,
     /// Nodes of the ply without a place, with the net that the choice was compared with last.
     pub missing: usize,
-    /// Distance of the held point from where it should lie (m), and turn of u there (rad); none if it has no place.
+    /// Distance of the held point from where it should lie (m), and turn of u there (rad); `None` if it has no place.
     pub off: Option<(f64, f64)>,
 }
 
@@ -68,7 +68,7 @@ impl Seeds {
     /// cut. Where no choice keeps the held point in place, the placement itself is taken.
     ///
     /// # Errors
-    /// Those of [`Net::drape`] if no net can be begun at the held point.
+    /// The errors of [`Net::drape`] if no net can be begun at the held point.
     pub fn search(
         mold: &Mold,
         placement: Placement,
@@ -197,7 +197,7 @@ impl<'a> Search<'a> {
         };
         let first = [0, 1].map(|n| placement.seed[n] as isize - (before[n] * step) as isize);
         let in_place = if step > 1 { TUNING.about_in_place } else { TUNING.in_place };
-        Search { mold, held, coverage: Coverage::of(&held, outline), step, first, in_place }
+        Search { mold, held, coverage: Coverage::new(&held, outline), step, first, in_place }
     }
 
     /// A node in the net of the scene.
@@ -216,7 +216,7 @@ impl<'a> Search<'a> {
         self.choice_from(self.reference(held_heading).as_ref(), seed, held_heading)
     }
 
-    /// The same from the net of the held point.
+    /// A choice, from the net of the held point.
     fn choice_from(&self, reference: Option<&Net>, seed: [usize; 2], held_heading: f64) -> Choice {
         let held = Placement { heading: held_heading, ..self.held };
         let at = PlyPoint { fabric: held.fabric(seed), place: held.place };
@@ -333,7 +333,7 @@ impl<'a> Search<'a> {
             let cost = |seed: &[usize; 2]| self.choice_from(reference.as_ref(), *seed, heading);
             choices.par_extend(new.par_iter().map(cost));
         };
-        // in the middles of so many equal parts
+        // in the middles of this many equal parts
         let place = |k: usize, n: usize| {
             let share = (k as f64 + 0.5) / TUNING.seeds as f64;
             (share * (nodes[n] - 1) as f64).round() as usize
@@ -462,7 +462,7 @@ mod tests {
         // the middle of the box, and u there
         let at = best.node([20, 20]).unwrap();
         assert!(distance(at, placement.place) < 1e-6 * 0.01, "{}", distance(at, placement.place));
-        let u = best.fibres(&mold, [0.2, 0.2]).unwrap()[0];
+        let u = best.fibers(&mold, [0.2, 0.2]).unwrap()[0];
         assert!((u[1].atan2(u[0]) - 0.4).abs() < 1e-5);
         // what was chosen costs what the map says
         let choice = seeds.choices[seeds.chosen];

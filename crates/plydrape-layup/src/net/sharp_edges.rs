@@ -16,20 +16,20 @@ use std::collections::HashMap;
 pub struct SharpEdges {
     /// Their length under the ply (m).
     pub length: f64,
-    /// The largest angle by which the mold turns across one of them (rad), and where; none without any.
+    /// The largest angle by which the mold turns across one of them (rad), and where; `None` without any.
     pub sharpest: Option<(f64, PlyPoint)>,
 }
 
 type Triangle = [[f64; 3]; 3];
 
 impl Net {
-    /// The sharp edges of a mold that the ply runs over; none of a mold that has no edges to tell.
+    /// The sharp edges of a mold that the ply runs over; `None` for a mold that has no edges to tell.
     #[must_use]
     pub fn sharp_edges(&self, mold: &Mold) -> Option<SharpEdges> {
         let Mold::Mesh(mesh) = mold else { return None };
         let outline = self.ply_outline()?;
         let width = self.placement.mesh[0].max(self.placement.mesh[1]);
-        let cells = Cells::of(self, 2.0 * width);
+        let cells = Cells::new(self, 2.0 * width);
         let mut found = SharpEdges { length: 0.0, sharpest: None };
         for edge in mesh.sharp_edges(TUNING.sharp) {
             let [a, b] = edge.ends;
@@ -69,7 +69,7 @@ struct Cells {
 }
 
 impl Cells {
-    fn of(net: &Net, side: f64) -> Self {
+    fn new(net: &Net, side: f64) -> Self {
         let [nu, nv] = net.placement.nodes;
         let mut by_cube: HashMap<[i64; 3], Vec<[usize; 2]>> = HashMap::new();
         for j in 0..nv - 1 {

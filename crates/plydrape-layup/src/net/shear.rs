@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CellShear {
-    /// Mean over the corners (rad), positive where u and v stand at less than 90°. What the mold's curvature
+    /// Mean over the corners (rad), positive where u and v meet at less than 90°. What the mold's curvature
     /// adds to all four angles cancels.
     pub angle: f64,
     /// Mean over the corners of how far each is from 90° (rad), as KinDrape reports it.
@@ -19,7 +19,7 @@ pub struct CellShear {
 
 impl CellShear {
     /// Of the cell with nodes [i, j], [i+1, j], [i+1, j+1] and [i, j+1].
-    pub(super) fn of(ring: [&SurfacePoint; 4], rule: EdgeRule) -> Self {
+    pub(super) fn new(ring: [&SurfacePoint; 4], rule: EdgeRule) -> Self {
         // the angle of the second and fourth corner is the supplement of that between u and v
         let signed: [f64; 4] = std::array::from_fn(|n| {
             let angle = rule.angle(ring[n], ring[(n + 1) % 4], ring[(n + 3) % 4]);

@@ -1,10 +1,10 @@
-//! How far the ply's boundary lies from where it is wanted.
+//! Distance of the ply's boundary from a target boundary.
 //!
 //! Lengths along the mold follow formula (14) of `docs/theory/net.md`: exact on planes, cylinders and spheres, of fourth
-//! order in the distance on other molds. The side follows from the wanted boundary at its closest point: it runs around the
+//! order in the distance on other molds. The side follows from the target boundary at its closest point: it runs around the
 //! ply in the sense of the ply's own boundary.
 
-use super::boundary::{Boundary, Line, PlyPoint};
+use super::boundary::{Boundary, BoundaryLine, PlyPoint};
 use super::edge::EdgeRule;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
@@ -12,7 +12,7 @@ use crate::Error;
 use crate::geometry::vector::{along, between, cross, distance, dot, norm, sub, unit};
 use crate::mold::Mold;
 
-/// A boundary that is wanted: a closed line on the mold.
+/// A target boundary: a closed line on the mold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
     points: Vec<SurfacePoint>,
@@ -20,7 +20,7 @@ pub struct Wanted {
     pub distance: f64,
 }
 
-/// Where the ply ends beside its wanted boundary.
+/// Where the ply ends beside its target boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TrimPlace {
@@ -31,13 +31,13 @@ pub struct TrimPlace {
     pub at: PlyPoint,
 }
 
-/// The outer boundary of a ply compared with a wanted one, along the mold.
+/// The outer boundary of a ply compared with a target, along the mold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Trim {
-    /// Where the ply reaches farthest beyond; none where it does nowhere.
+    /// Where the ply reaches farthest beyond; `None` where it does nowhere.
     pub beyond: Option<TrimPlace>,
-    /// Where it ends farthest inside; none where it does nowhere.
+    /// Where it ends farthest inside; `None` where it does nowhere.
     pub short: Option<TrimPlace>,
     /// Mean of the signed distance over the length of the boundary (m).
     pub mean: f64,
@@ -47,13 +47,13 @@ pub struct Trim {
     pub compared: f64,
     /// Length of fabric of that boundary that has no place on the mold, and so is not compared (m).
     pub not_compared: f64,
-    /// The point of the wanted boundary that is farthest from the ply's, as far as that is on the mold: place (m) and
+    /// The point of the target boundary that is farthest from the ply's, as far as that is on the mold: place (m) and
     /// distance (m). It is larger than the others where the ply has a notch.
     pub farthest_wanted: ([f64; 3], f64),
 }
 
 impl Wanted {
-    /// A wanted boundary through points on a mold (m), in turn around the ply in either sense; between them it runs straight
+    /// A target boundary through points on a mold (m), in turn around the ply in either sense; between them it runs straight
     /// over the mold. `mesh` is a mesh width of the net (m), the scale of all tolerances.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl Wanted {
         Ok(Wanted { points, distance: farthest })
     }
 
-    /// Its lines, end to end.
+    /// Lines, end to end.
     fn lines(&self) -> Vec<[SurfacePoint; 2]> {
         let count = self.points.len();
         (0..count).map(|n| [self.points[n], self.points[(n + 1) % count]]).collect()
@@ -119,12 +119,12 @@ fn follow(
 }
 
 impl Boundary {
-    /// Compares the outer boundary of the ply with a wanted one; none if nothing of it is on the mold.
+    /// Compares the outer boundary of the ply with a target; `None` if nothing of it is on the mold.
     #[must_use]
     pub fn trim(&self, mold: &Mold, wanted: &Wanted) -> Option<Trim> {
         let surface = ExtendedSurface::new(mold);
         let curve = wanted.lines();
-        let outer: Vec<&Line> = self.lines.iter().filter(|line| line.ring == 0).collect();
+        let outer: Vec<&BoundaryLine> = self.lines.iter().filter(|line| line.ring == 0).collect();
         let own: Vec<[SurfacePoint; 2]> = outer.iter().flat_map(|line| pieces(line)).collect();
 
         let mut found: Vec<Vec<Beside>> = Vec::with_capacity(outer.len());
@@ -190,18 +190,18 @@ struct Beside {
     tangent: [f64; 3],
 }
 
-fn point(line: &Line, n: usize) -> SurfacePoint {
+fn point(line: &BoundaryLine, n: usize) -> SurfacePoint {
     SurfacePoint { point: line.points[n].place, normal: line.normals[n], beyond: 0.0 }
 }
 
 /// The lines between neighboring points.
-fn pieces(line: &Line) -> Vec<[SurfacePoint; 2]> {
+fn pieces(line: &BoundaryLine) -> Vec<[SurfacePoint; 2]> {
     let count = line.points.len();
     let last = if line.closed { count } else { count - 1 };
     (0..last).map(|n| [point(line, n), point(line, (n + 1) % count)]).collect()
 }
 
-/// What of a curve of lines end to end is closest to a point; none if it has no lines.
+/// What of a curve of lines end to end is closest to a point; `None` if it has no lines.
 fn beside(
     surface: &ExtendedSurface,
     from: &SurfacePoint,

@@ -2,7 +2,7 @@
 
 /// Tolerances and limits of the net of the ideal drape.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tuning {
+pub(crate) struct NetTuning {
     /// Distance of the seed from the mold, as a share of the smaller mesh width, up to which it lies on the mold.
     pub seed_distance: f64,
     /// Vertical part of the unit normal at the seed up to which the mold is upright there, so that a heading in plan has no
@@ -43,7 +43,7 @@ pub(crate) struct Tuning {
     pub boundary_sag: f64,
     /// Most times that the boundary is halved between two net lines where it bends.
     pub boundary_halvings: usize,
-    /// The same where it leaves the mold: the place where it does is known to 10⁻⁹ of the mesh width.
+    /// Most halvings where the boundary leaves the mold: the place where it does is known to 10⁻⁹ of the mesh width.
     pub boundary_end_halvings: usize,
     /// Distance along the boundary, as a share of the mesh width, up to which two points are one.
     pub same_boundary_point: f64,
@@ -58,7 +58,7 @@ pub(crate) struct Tuning {
     pub edge_part: f64,
     /// Distance, as a share of the mesh width, up to which a place of the mold is under a cell.
     pub under: f64,
-    /// Distance of a wanted boundary from the mold, as a share of the mesh width, beyond which it belongs to another mold.
+    /// Distance of a target boundary from the mold, as a share of the mesh width, beyond which it belongs to another mold.
     pub curve_distance: f64,
     /// Seeds tried along u and along v.
     pub seeds: usize,
@@ -75,14 +75,14 @@ pub(crate) struct Tuning {
     /// Distance of the middle from its place, as a share of the mesh width, and turn there (rad), at which the net of the scene
     /// has reached it.
     pub in_place: f64,
-    /// The same of the net that choices are compared with, and up to which a choice may be taken.
+    /// Distance and turn at which the net that choices are compared with is in place, and up to which a choice may be taken.
     pub about_in_place: f64,
     /// Choices that are compared once more with the net of the scene.
     pub finalists: usize,
 }
 
 /// The constants in use.
-pub(crate) const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: NetTuning = NetTuning {
     seed_distance: 1e-4,
     upright: 1e-6,
     largest_shear: 89.0 / 180.0 * std::f64::consts::PI,

@@ -1,12 +1,12 @@
 //! The cells between fiber lines, from the places of the cups in the fabric.
 
 use super::Outline;
-use super::lines::{Fibres, Pair, Quad, fibre_quad};
+use super::lines::{Fibers, Pair, Quad, fiber_quad};
 use super::tuning::TUNING;
 use std::collections::BTreeMap;
 
 /// Cells with straight fiber sides: four lines that close, with no cup inside and fabric along both diagonals.
-pub(super) fn fibre_cells(
+pub(super) fn fiber_cells(
     places: &[[f64; 2]],
     outline: &Outline,
     [u, v]: &[Vec<Pair>; 2],
@@ -30,7 +30,7 @@ pub(super) fn fibre_cells(
         let is_there = diagonals.iter().all(|line| outline.has_line(*line));
         if is_there && !places.iter().any(inside) {
             let trellis = [way[0], q[1] - p[1]];
-            cells.push(fibre_quad([*low, *right, *top, *left], trellis));
+            cells.push(fiber_quad([*low, *right, *top, *left], trellis));
         }
     }
     cells
@@ -74,8 +74,8 @@ pub(super) fn bias_cells(
             if is_there && half[0].hypot(half[1]) <= side + same {
                 let corners = [low, right, high, left];
                 let name = corners.into_iter().min().unwrap_or(low);
-                let fibres = Fibres::Diagonals;
-                cells.push(Quad { name, corners, trellis: half, fibres, bias });
+                let fibers = Fibers::Diagonals;
+                cells.push(Quad { name, corners, trellis: half, fibers, bias });
             }
         }
     }

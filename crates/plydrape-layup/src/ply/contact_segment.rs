@@ -30,7 +30,7 @@ pub struct ContactSegment {
 /// A cell at the moment when one of its diagonals landed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LandedCell {
-    /// Its shear angle γ (rad), positive where the rising diagonal is the longer one.
+    /// Shear angle γ (rad), positive where the rising diagonal is the longer one.
     pub shear: f64,
     /// By how much the mold's curvature scales its diagonals, [`crate::ply::shear::curved_scale`].
     pub scale: f64,

@@ -9,7 +9,7 @@ use crate::geometry::vector::{along, sub, unit};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Cut {
-    /// Its boundary and holes, in fabric coordinates (m).
+    /// Boundary and holes, in fabric coordinates (m).
     pub outline: Outline,
     /// The cups that hold it; none of them where the ply's grid says where they are.
     pub held: Vec<Held>,
@@ -26,7 +26,7 @@ pub struct Cut {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Held {
-    /// Its column and row in the array; of a list of cups its number, and 0.
+    /// Column and row in the array; of a list of cups its number, and 0.
     pub id: GripperId,
     /// Fabric coordinates of its middle (m).
     pub place: [f64; 2],
@@ -34,11 +34,11 @@ pub struct Held {
 
 /// Two neighboring grippers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Neighbours {
+pub struct Neighbors {
     /// Their indices.
     pub grippers: [usize; 2],
-    /// The yarns that run from one to the other; none where their line crosses the yarns.
-    pub fibre: Option<Direction>,
+    /// The yarns that run from one to the other; `None` where their line crosses the yarns.
+    pub fiber: Option<Direction>,
     /// Whether no gripper is farther out on one of its sides.
     pub border: bool,
 }
@@ -67,13 +67,13 @@ impl Ply {
         self.held().map_or(self.grid.grippers(), <[Held]>::len)
     }
 
-    /// Its grippers in rows: its array, or one row of all of them where they are no whole array along the yarns.
+    /// Grippers in rows: its array, or one row of all of them where they are no whole array along the yarns.
     #[must_use]
     pub fn rows(&self) -> Grid {
         self.held().map_or(self.grid, |held| Grid { nu: held.len(), nv: 1 })
     }
 
-    /// Its cups, where they are no array along the yarns.
+    /// Cups, where they are no array along the yarns.
     fn held(&self) -> Option<&[Held]> {
         self.cut.as_ref().map(|cut| cut.held.as_slice()).filter(|held| !held.is_empty())
     }
@@ -84,7 +84,7 @@ impl Ply {
         self.held().map_or_else(|| self.grid.id(index), |held| held[index].id)
     }
 
-    /// Position of a gripper in all per-gripper arrays; none of one that does not hold the ply.
+    /// Position of a gripper in all per-gripper arrays; `None` for one that does not hold the ply.
     #[must_use]
     pub fn index(&self, id: GripperId) -> Option<usize> {
         match self.held() {
@@ -151,7 +151,7 @@ impl Ply {
     /// The grippers next to each other: along the columns and rows of an array to the next cup that holds, in a list those
     /// with no third one between them (Gabriel and Sokal 1969).
     #[must_use]
-    pub fn neighbours(&self) -> Vec<Neighbours> {
+    pub fn neighbors(&self) -> Vec<Neighbors> {
         let count = self.grippers();
         let pairs: Vec<[usize; 2]> = match self.held() {
             None => {
@@ -166,12 +166,12 @@ impl Ply {
             let way = [q[0] - p[0], q[1] - p[1]];
             let length = way[0].hypot(way[1]);
             let along = |n: usize| way[1 - n].abs() <= 1e-9 * length;
-            let fibre = match [along(0), along(1)] {
+            let fiber = match [along(0), along(1)] {
                 [true, _] => Some(Direction::U),
                 [_, true] => Some(Direction::V),
                 _ => None,
             };
-            Neighbours { grippers: [a, b], fibre, border: self.is_border([p, q], count) }
+            Neighbors { grippers: [a, b], fiber, border: self.is_border([p, q], count) }
         };
         pairs.into_iter().map(one).collect()
     }
@@ -198,11 +198,11 @@ impl Ply {
 #[must_use]
 pub fn tangents(
     ply: &Ply,
-    neighbours: &[Neighbours],
+    neighbors: &[Neighbors],
     positions: &[[f64; 3]],
     gripper: usize,
 ) -> [[f64; 3]; 2] {
-    let [u, v] = tangent_shares(ply, neighbours, gripper).map(|shares| {
+    let [u, v] = tangent_shares(ply, neighbors, gripper).map(|shares| {
         let ways = shares
             .iter()
             .map(|(other, share)| sub(positions[*other], positions[gripper]).map(|c| share * c));
@@ -219,9 +219,9 @@ pub fn tangents(
 
 /// Orientation (x, y, z, w) of each gripper by the lines to its neighbors at positions (m), whatever the ply between them does.
 #[must_use]
-pub fn orientations(ply: &Ply, neighbours: &[Neighbours], positions: &[[f64; 3]]) -> Vec<[f64; 4]> {
+pub fn orientations(ply: &Ply, neighbors: &[Neighbors], positions: &[[f64; 3]]) -> Vec<[f64; 4]> {
     let orientation = |n: usize| {
-        let [u, v] = tangents(ply, neighbours, positions, n);
+        let [u, v] = tangents(ply, neighbors, positions, n);
         of_tangents(u, v)
     };
     (0..positions.len()).map(orientation).collect()
@@ -232,10 +232,10 @@ pub fn orientations(ply: &Ply, neighbours: &[Neighbours], positions: &[[f64; 3]]
 #[must_use]
 pub fn tangent_shares(
     ply: &Ply,
-    neighbours: &[Neighbours],
+    neighbors: &[Neighbors],
     gripper: usize,
 ) -> [Vec<(usize, f64)>; 2] {
-    let beside = neighbours.iter().filter(|pair| pair.grippers.contains(&gripper));
+    let beside = neighbors.iter().filter(|pair| pair.grippers.contains(&gripper));
     let others: Vec<usize> =
         beside.map(|pair| pair.grippers[usize::from(pair.grippers[0] == gripper)]).collect();
     let [u, v] = ply.place(gripper);
@@ -260,7 +260,7 @@ pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
 }
 
 /// Shares of ways in space in the vectors along u and v that fit them over ways in the fabric (m) best, by least squares and but for
-/// a factor; none of a direction in which there are none.
+/// a factor; none for a direction in which there are none.
 fn shares(ways: &[[f64; 2]]) -> [Vec<f64>; 2] {
     let sum = |of: fn(&[f64; 2]) -> f64| ways.iter().map(of).sum::<f64>();
     let (uu, uv, vv) = (sum(|[u, _]| u * u), sum(|[u, v]| u * v), sum(|[_, v]| v * v));
@@ -314,7 +314,7 @@ mod tests {
     }
 
     fn pairs(ply: &Ply) -> Vec<[GripperId; 2]> {
-        ply.neighbours().iter().map(|pair| pair.grippers.map(|n| ply.id(n))).collect()
+        ply.neighbors().iter().map(|pair| pair.grippers.map(|n| ply.id(n))).collect()
     }
 
     fn array(nu: usize, nv: usize, holds: impl Fn(GripperId) -> bool) -> Vec<Held> {
@@ -326,7 +326,7 @@ mod tests {
     /// Where the cup in the middle is off, its row and its column go on to the next one; where all hold, neighbors are
     /// those of the grid, in its order.
     #[test]
-    fn neighbours_are_the_next_cups_that_hold() {
+    fn neighbors_are_the_next_cups_that_hold() {
         let whole = ply(array(3, 3, |_| true));
         let grid = Grid { nu: 3, nv: 3 };
         let lines = Lines::array(grid, [0.1; 2]);
@@ -342,7 +342,7 @@ mod tests {
 
     /// A list of places in rows and columns has the same neighbors as the array, whatever their order.
     #[test]
-    fn a_list_in_rows_and_columns_has_the_neighbours_of_the_array() {
+    fn a_list_in_rows_and_columns_has_the_neighbors_of_the_array() {
         let mut list = array(4, 3, |_| true);
         list.reverse();
         for (n, held) in list.iter_mut().enumerate() {
@@ -350,7 +350,7 @@ mod tests {
         }
         let by_place = |ply: &Ply| {
             let place = |n: usize| ply.place(n).map(|c| (c * 1e3).round() as i64);
-            let mut all: Vec<_> = ply.neighbours().iter().map(|p| p.grippers.map(place)).collect();
+            let mut all: Vec<_> = ply.neighbors().iter().map(|p| p.grippers.map(place)).collect();
             all.iter_mut().for_each(|pair| pair.sort());
             all.sort();
             all
@@ -361,7 +361,7 @@ mod tests {
     #[test]
     fn border_lines_have_grippers_on_one_side_only() {
         let ply = ply(array(4, 3, |_| true));
-        for pair in ply.neighbours() {
+        for pair in ply.neighbors() {
             let [a, b] = pair.grippers.map(|n| ply.id(n));
             let rim = |axis: usize, last: usize| a[axis] == b[axis] && [0, last].contains(&a[axis]);
             assert_eq!(pair.border, rim(0, 3) || rim(1, 2), "{a:?} {b:?}");

@@ -9,7 +9,7 @@
 //! In both, each bias line is the diagonal of a trellis of fibers: of the cell itself, or of the parallelogram of half
 //! fibers around the bias line. So one set of formulas, that of [`super::shear`], holds for both.
 
-use super::cells::{bias_cells, fibre_cells};
+use super::cells::{bias_cells, fiber_cells};
 use super::tuning::TUNING;
 use super::{Catenary, Grid, GripperId, Kind, Outline, Ply};
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ pub struct Lines {
     pitch: [f64; 2],
     grippers: usize,
     lines: Vec<FabricLine>,
-    fibres: usize,
+    fibers: usize,
     cells: Vec<LineCell>,
     /// The fiber lines at each gripper: `[direction][before, after]`.
     beside: Vec<[[Option<usize>; 2]; 2]>,
@@ -47,25 +47,25 @@ struct FabricLine {
 /// A cell of the fabric between four cups.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineCell {
-    /// Its name: the gripper at its first corner.
+    /// Name: the gripper at its first corner.
     pub id: GripperId,
-    /// Its corners in order around it.
+    /// Corners in order around it.
     pub corners: [usize; 4],
     /// Sides along u and along v (m) of the trellis whose diagonals its bias lines are, of the nominal ply: the cell's own sides,
     /// or half of each fiber that is its diagonal.
     pub trellis: [f64; 2],
     /// Which of its lines are fibers.
-    pub fibres: Fibres,
-    /// Its bias lines: the rising ones, and the falling ones.
+    pub fibers: Fibers,
+    /// Bias lines: the rising ones, and the falling ones.
     pub bias: [BiasLines; 2],
 }
 
 /// Which lines of a cell are fibers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fibres {
-    /// Its four sides; bias lines are its diagonals.
+pub enum Fibers {
+    /// Four sides; bias lines are its diagonals.
     Sides,
-    /// Its two diagonals; bias lines are its sides.
+    /// Two diagonals; bias lines are its sides.
     Diagonals,
 }
 
@@ -96,7 +96,7 @@ pub(super) struct Quad {
     pub name: usize,
     pub corners: [usize; 4],
     pub trellis: [f64; 2],
-    pub fibres: Fibres,
+    pub fibers: Fibers,
     pub bias: [Vec<Pair>; 2],
 }
 
@@ -111,7 +111,7 @@ impl PartialEq for FoundLines {
 }
 
 impl Ply {
-    /// Its lines between cups; none where the sheet alone can drape it.
+    /// Lines between cups; none where the sheet alone can drape it.
     #[must_use]
     pub fn lines(&self) -> Arc<Lines> {
         let lines = self.found.0.get_or_init(|| Arc::new(Lines::of(self)));
@@ -150,7 +150,7 @@ impl Lines {
         let v = v.map(|ends| Pair { ends, way: [0.0, b] }).collect();
         let quad = |[i, j]: [usize; 2]| {
             let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            fibre_quad(corners, cell)
+            fiber_quad(corners, cell)
         };
         let cells = (0..along).flat_map(|j| (0..across).map(move |i| [i, j])).map(quad).collect();
         let families = if nv > 1 { 2.0 } else { 1.0 };
@@ -164,8 +164,8 @@ impl Lines {
         let id = |n| grid.id(n);
         let mut lines = Lines { grid, pitch: cell, grippers: grid.grippers(), ..Lines::default() };
         lines.join([u, v], cells, |n| (id(n), id(n).map(|k| k as f64)));
-        let fibres = lines.fibres;
-        lines.lines[..fibres].iter_mut().for_each(|line| line.tributary = share(line));
+        let fibers = lines.fibers;
+        lines.lines[..fibers].iter_mut().for_each(|line| line.tributary = share(line));
         lines
     }
 
@@ -178,13 +178,13 @@ impl Lines {
         // rows at 45° to the yarns: cups on one yarn are a diagonal of the array apart
         let turned = ply.is_turned();
         let pitch = if turned { [ply.cell[0].hypot(ply.cell[1]); 2] } else { ply.cell };
-        let mut edges = [0, 1].map(|d| fibre_lines(&places, outline, d, pitch));
-        let mut cells = fibre_cells(&places, outline, &edges, pitch);
+        let mut edges = [0, 1].map(|d| fiber_lines(&places, outline, d, pitch));
+        let mut cells = fiber_cells(&places, outline, &edges, pitch);
         let side = ply.cell[0].max(ply.cell[1]);
         cells.extend(bias_cells(&places, outline, &edges, side));
         let mut held = vec![false; count];
         edges.iter().flatten().flat_map(|edge| edge.ends).for_each(|n| held[n] = true);
-        let is_bias = cells.iter().any(|cell| cell.fibres == Fibres::Diagonals);
+        let is_bias = cells.iter().any(|cell| cell.fibers == Fibers::Diagonals);
         // a cup without a line would hold nothing, and an array across the yarns has no shear without cells
         if !held.iter().all(|held| *held) || (turned && !is_bias) {
             edges = [Vec::new(), Vec::new()];
@@ -206,9 +206,9 @@ impl Lines {
         quads: Vec<Quad>,
         at: impl Fn(usize) -> (GripperId, [f64; 2]),
     ) {
-        let fibres = edges[0].len() + edges[1].len();
+        let fibers = edges[0].len() + edges[1].len();
         let (pitch, mut beside) = (self.pitch, vec![[[None; 2]; 2]; self.grippers]);
-        let mut lines = Vec::with_capacity(fibres + 2 * quads.len());
+        let mut lines = Vec::with_capacity(fibers + 2 * quads.len());
         let line = |kind, Pair { ends, way }: Pair| {
             let [(from, start), (to, _)] = ends.map(&at);
             let way = [0, 1].map(|d| way[d] / pitch[d]);
@@ -233,17 +233,17 @@ impl Lines {
                         cells_of.push([None; 2]);
                         lines.len() - 1
                     });
-                    let of: &mut [Option<usize>; 2] = &mut cells_of[n - fibres];
+                    let of: &mut [Option<usize>; 2] = &mut cells_of[n - fibers];
                     of[usize::from(of[0].is_some())] = Some(number);
                     bias[d].lines[bias[d].count] = n;
                     bias[d].count += 1;
                 }
             }
-            let Quad { name, corners, trellis, fibres, .. } = quad;
-            cells.push(LineCell { id: at(name).0, corners, trellis, fibres, bias });
+            let Quad { name, corners, trellis, fibers, .. } = quad;
+            cells.push(LineCell { id: at(name).0, corners, trellis, fibers, bias });
         }
         self.chains = chains(&lines, &beside, &edges);
-        (self.lines, self.fibres, self.beside) = (lines, fibres, beside);
+        (self.lines, self.fibers, self.beside) = (lines, fibers, beside);
         (self.cells, self.cells_of) = (cells, cells_of);
     }
 
@@ -253,16 +253,16 @@ impl Lines {
         self.lines.is_empty()
     }
 
-    /// The array whose lines these all are; none where cups or lines are missing, or rows cross the yarns.
+    /// The array whose lines these all are; `None` where cups or lines are missing, or rows cross the yarns.
     #[must_use]
     pub fn whole_array(&self) -> Option<Grid> {
         let Grid { nu, nv } = self.grid;
         let edges = nu.saturating_sub(1) * nv + nu * nv.saturating_sub(1);
-        let whole = self.fibres == edges && self.cells.len() == self.grid.cells();
-        (whole && self.fibres > 0).then_some(self.grid)
+        let whole = self.fibers == edges && self.cells.len() == self.grid.cells();
+        (whole && self.fibers > 0).then_some(self.grid)
     }
 
-    /// The same as a grid without cells where they are not all lines of a whole array.
+    /// The array; a grid without cells where it is not whole.
     #[must_use]
     pub fn surface(&self) -> Grid {
         self.whole_array().unwrap_or(Grid::NONE)
@@ -283,7 +283,7 @@ impl Lines {
     /// Number of fiber lines; they come first.
     #[must_use]
     pub fn edges(&self) -> usize {
-        self.fibres
+        self.fibers
     }
 
     /// A line by its index.
@@ -304,9 +304,9 @@ impl Lines {
         &self.cells
     }
 
-    /// The cells of a bias line, one or two; none of a fiber line.
+    /// The cells of a bias line, one or two; none for a fiber line.
     pub fn cells_of(&self, index: usize) -> impl Iterator<Item = usize> + Clone + use<> {
-        let cells = index.checked_sub(self.fibres).map_or([None; 2], |n| self.cells_of[n]);
+        let cells = index.checked_sub(self.fibers).map_or([None; 2], |n| self.cells_of[n]);
         cells.into_iter().flatten()
     }
 
@@ -351,7 +351,7 @@ impl Lines {
 
     /// The grippers before and behind one along a direction; itself where no line goes on.
     #[must_use]
-    pub fn neighbours(&self, gripper: usize, direction: usize) -> [usize; 2] {
+    pub fn neighbors(&self, gripper: usize, direction: usize) -> [usize; 2] {
         let [before, after] = self.beside[gripper][direction];
         [
             before.map_or(gripper, |n| self.lines[n].ends[0]),
@@ -366,17 +366,17 @@ impl Lines {
 }
 
 /// A cell whose sides are fibers, from its corners in order around it.
-pub(super) fn fibre_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
+pub(super) fn fiber_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
     let [low, right, top, left] = corners;
     let [a, b] = trellis;
     let pair = |ends, way| vec![Pair { ends, way }];
     let bias = [pair([low, top], [a, b]), pair([right, left], [-a, b])];
     let name = corners.into_iter().min().unwrap_or(low);
-    Quad { name, corners, trellis, fibres: Fibres::Sides, bias }
+    Quad { name, corners, trellis, fibers: Fibers::Sides, bias }
 }
 
 /// The fiber lines along a direction between cups on one yarn, in ascending order of v, then u of their first ends.
-fn fibre_lines(
+fn fiber_lines(
     places: &[[f64; 2]],
     outline: &Outline,
     direction: usize,

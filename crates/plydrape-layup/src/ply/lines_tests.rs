@@ -3,7 +3,7 @@
 use super::*;
 use crate::ply::{Cut, Held, cloth, shear};
 
-/// A cut ply with cups of a square array of 100 mm, its rows turned by so many degrees from u, that hold where asked; 40 mm of
+/// A cut ply with cups of a square array of 100 mm, its rows turned by this many degrees from u, that hold where asked; 40 mm of
 /// fabric around them.
 fn held(size: [usize; 2], degrees: f64, holds: impl Fn(GripperId) -> bool) -> Ply {
     with_holes(size, degrees, holds, Vec::new())
@@ -128,18 +128,18 @@ fn rows_at_45_degrees_are_bias_lines() {
             (lines.edges()..lines.catenaries()).filter(|n| lines.cells_of(*n).count() == 2);
         assert_eq!(shared.count(), 3 + 4);
         for cell in lines.cells() {
-            assert_eq!(cell.fibres, Fibres::Diagonals);
+            assert_eq!(cell.fibers, Fibers::Diagonals);
             assert!(cell.bias.iter().all(|bias| bias.list().len() == 2));
             assert!(cell.trellis.iter().all(|half| (half - 0.5 * diagonal).abs() < 1e-12));
         }
         // the name of a cell is its lowest cup in the array
         assert_eq!(lines.cells()[4].id, [1, 1]);
     }
-    // where a cup is off, its four cells are none, and its two fibres go on to the next cup; its four neighbours along the rows and
-    // columns are joined by fibres, which are the sides of a cell
+    // where a cup is off, its four cells are none, and its two fibers go on to the next cup; its four neighbors along the rows and
+    // columns are joined by fibers, which are the sides of a cell
     let lines = held([5, 5], 45.0, |id| id != [2, 2]).lines();
-    let of = |fibres| lines.cells().iter().filter(|cell| cell.fibres == fibres).count();
-    assert_eq!([of(Fibres::Diagonals), of(Fibres::Sides)], [12, 1]);
+    let of = |fibers| lines.cells().iter().filter(|cell| cell.fibers == fibers).count();
+    assert_eq!([of(Fibers::Diagonals), of(Fibers::Sides)], [12, 1]);
     let long = |n: &usize| lines.flat_length(*n, 1.0) > 0.2;
     assert_eq!((0..lines.edges()).filter(long).count(), 2);
 }
@@ -156,12 +156,12 @@ fn rows_at_other_angles_have_no_lines() {
 /// The rectangle whose diagonals are two fibers that cross at 90° + γ: its sides keep s₁² + s₂² = d², and the formulas of the
 /// trellis of half fibers give back γ and the other side.
 #[test]
-fn sides_of_a_cell_of_fibre_diagonals_obey_the_trellis_rule() {
+fn sides_of_a_cell_of_fiber_diagonals_obey_the_trellis_rule() {
     let d: f64 = 0.14;
     let trellis = [0.5 * d; 2];
     for degrees in [1.0_f64, 12.0, 40.0] {
         let gamma = degrees.to_radians();
-        // half the angle between the fibres, seen from the middle of the longer side
+        // half the angle between the fibers, seen from the middle of the longer side
         let half = 0.5 * (std::f64::consts::FRAC_PI_2 + gamma);
         let [long, short] = [d * half.sin(), d * half.cos()];
         assert!((long * long + short * short - d * d).abs() < 1e-15);

@@ -14,15 +14,15 @@ mod tuning;
 
 pub use crate::gripper::{GripperId, gripper_name, read_gripper_name};
 pub use contact_segment::{ContactSegment, LandedCell};
-pub use cut::{Cut, Held, Neighbours, directions, orientations, tangent_shares, tangents};
+pub use cut::{Cut, Held, Neighbors, directions, orientations, tangent_shares, tangents};
 pub use flat::flat_axes;
 pub use grid::{Catenary, Grid, Kind};
-pub use lines::{BiasLines, Fibres, FoundLines, LineCell, Lines};
+pub use lines::{BiasLines, Fibers, FoundLines, LineCell, Lines};
 pub use outline::{Outline, Ring};
 pub use places::{FARTHEST, STEEPEST, is_near};
 pub use ruck::Ruck;
 
-use crate::material::{Line, Material, Section};
+use crate::material::{LineSection, Material, Section};
 
 /// A woven ply held by grippers: a rectangle that ends at its array of grippers, or as it is cut.
 ///
@@ -44,10 +44,10 @@ pub struct Ply {
     /// unless an error of the length is examined. Fabric coordinates are those of the nominal ply all the same.
     #[cfg_attr(feature = "serde", serde(default = "nominal", skip_serializing_if = "is_nominal"))]
     pub length_factor: f64,
-    /// How it is cut and where it is held; none of a rectangle with a gripper at every node of its grid.
+    /// How it is cut and where it is held; none for a rectangle with a gripper at every node of its grid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub cut: Option<Cut>,
-    /// Its lines, see [`Ply::lines`]; empty until they are asked for. Whoever changes [`Self::cut`] of a ply empties it.
+    /// Lines, see [`Ply::lines`]; empty until they are asked for. Whoever changes [`Self::cut`] of a ply empties it.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub found: FoundLines,
 }
@@ -76,7 +76,7 @@ pub enum Direction {
 }
 
 impl Ply {
-    /// A rectangle of a material that is held at every node of an array, with cells of so much fabric along u and v (m) and its warp
+    /// A rectangle of a material that is held at every node of an array, with cells of this much fabric along u and v (m) and its warp
     /// along u.
     #[must_use]
     pub fn of_array(grid: Grid, cell: [f64; 2], material: Material) -> Self {
@@ -142,9 +142,9 @@ impl Ply {
     /// With areal properties each fiber line stands for a strip as wide as it is to the next one: `b` for the lines along
     /// u, `a` for those along v. A bias line is no tow; it takes the mean of the array's pitches, and of both rigidities.
     #[must_use]
-    pub fn line(&self, kind: Kind) -> Line {
+    pub fn line(&self, kind: Kind) -> LineSection {
         match self.material.section {
-            Section::Line { mass, flexural_rigidity } => Line { mass, flexural_rigidity },
+            Section::Line { mass, flexural_rigidity } => LineSection { mass, flexural_rigidity },
             Section::Areal { mass, warp_rigidity, weft_rigidity } => {
                 let (along_u, along_v) = match self.warp {
                     Direction::U => (warp_rigidity, weft_rigidity),
@@ -157,7 +157,7 @@ impl Ply {
                     Kind::EdgeV => (wide_v, along_v),
                     Kind::Rising | Kind::Falling => ((a + b) / 2.0, (along_u + along_v) / 2.0),
                 };
-                Line { mass: mass * width, flexural_rigidity: rigidity * width }
+                LineSection { mass: mass * width, flexural_rigidity: rigidity * width }
             }
         }
     }

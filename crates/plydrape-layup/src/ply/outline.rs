@@ -54,24 +54,24 @@ impl Outline {
     /// A rectangle between two of its corners (m).
     ///
     /// # Errors
-    /// Those of [`Outline::new`] if it bounds nothing.
+    /// The errors of [`Outline::new`] if it bounds nothing.
     pub fn rectangle([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Result<Self, Error> {
         Outline::new(vec![[a, b], [c, b], [c, d], [a, d]], Vec::new())
     }
 
-    /// Its boundary (m), counterclockwise.
+    /// Boundary (m), counterclockwise.
     #[must_use]
     pub fn boundary(&self) -> &[[f64; 2]] {
         &self.boundary
     }
 
-    /// Its holes (m), each clockwise.
+    /// Holes (m), each clockwise.
     #[must_use]
     pub fn holes(&self) -> &[Ring] {
         &self.holes
     }
 
-    /// Its boundary and its holes (m).
+    /// Boundary and holes (m).
     pub fn rings(&self) -> impl Iterator<Item = &[[f64; 2]]> {
         std::iter::once(&self.boundary).chain(&self.holes).map(Vec::as_slice)
     }
@@ -87,7 +87,7 @@ impl Outline {
         self.rings().map(area).sum()
     }
 
-    /// Its lowest and highest coordinates (m).
+    /// Lowest and highest coordinates (m).
     #[must_use]
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         bounds(&self.boundary)
@@ -153,9 +153,9 @@ impl Outline {
         clipped.filter(|part| area(part) != 0.0).collect()
     }
 
-    /// Center of the ply's area in a rectangle between two corners (m); none where there is none.
+    /// Center of the ply's area in a rectangle between two corners (m); `None` where there is none.
     #[must_use]
-    pub fn centre_in(&self, low: [f64; 2], high: [f64; 2]) -> Option<[f64; 2]> {
+    pub fn center_in(&self, low: [f64; 2], high: [f64; 2]) -> Option<[f64; 2]> {
         let (mut total, mut moment) = (0.0, [0.0; 2]);
         for part in self.rings().map(|ring| clip(ring, low, high)) {
             for [a, b] in lines(&part) {
@@ -166,9 +166,9 @@ impl Outline {
                 moment = [0, 1].map(|n| moment[n] + area * (p[n] + q[n]) / 3.0);
             }
         }
-        let centre = [0, 1].map(|n| low[n] + moment[n] / total);
-        let within = |n: usize| (low[n]..=high[n]).contains(&centre[n]);
-        (total > 0.0 && within(0) && within(1)).then_some(centre)
+        let center = [0, 1].map(|n| low[n] + moment[n] / total);
+        let within = |n: usize| (low[n]..=high[n]).contains(&center[n]);
+        (total > 0.0 && within(0) && within(1)).then_some(center)
     }
 }
 
@@ -268,17 +268,17 @@ fn checked(mut ring: Ring, n: usize) -> Result<Ring, Error> {
 
 /// Refuses lines that meet other than end to end; lines are taken in the order of their lowest x.
 fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
-    struct Line {
+    struct RingSide {
         ring: usize,
         place: usize,
         ends: [[f64; 2]; 2],
     }
-    let of = |(ring, points): (usize, &Ring)| -> Vec<Line> {
-        let number = |(place, ends)| Line { ring, place, ends };
+    let of = |(ring, points): (usize, &Ring)| -> Vec<RingSide> {
+        let number = |(place, ends)| RingSide { ring, place, ends };
         lines(points).enumerate().map(number).collect()
     };
-    let mut all: Vec<Line> = rings.iter().enumerate().flat_map(of).collect();
-    let span = |line: &Line| {
+    let mut all: Vec<RingSide> = rings.iter().enumerate().flat_map(of).collect();
+    let span = |line: &RingSide| {
         let [a, b] = line.ends;
         [a[0].min(b[0]), a[0].max(b[0])]
     };
@@ -287,8 +287,8 @@ fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
         for b in all[n + 1..].iter().take_while(|b| span(b)[0] <= span(a)[1]) {
             let count = rings[a.ring].len();
             let next = |p: usize, q: usize| (p + 1) % count == q;
-            let neighbours = a.ring == b.ring && (next(a.place, b.place) || next(b.place, a.place));
-            let met = if neighbours { folded_back(a.ends, b.ends) } else { meet(a.ends, b.ends) };
+            let neighbors = a.ring == b.ring && (next(a.place, b.place) || next(b.place, a.place));
+            let met = if neighbors { folded_back(a.ends, b.ends) } else { meet(a.ends, b.ends) };
             if let Some(at) = met {
                 let (first, second) = (a.ring.min(b.ring), a.ring.max(b.ring));
                 return Err(Error::OutlineCrosses { a: first, b: second, at });
@@ -298,7 +298,7 @@ fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Where two lines that share no end meet or touch; none where they do not.
+/// Where two lines that share no end meet or touch; `None` where they do not.
 fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let (p, q) = (sub(b, a), sub(d, c));
     let sides =

@@ -28,10 +28,10 @@ pub struct Ruck {
 }
 
 impl Ruck {
-    /// The ruck of a slack s (m) in a line of flexural rigidity EI (N·m²) and weight per length (N/m); none without
+    /// The ruck of a slack s (m) in a line of flexural rigidity EI (N·m²) and weight per length (N/m); `None` without
     /// slack, or in a line without rigidity, which crumples instead.
     #[must_use]
-    pub fn of(slack: f64, flexural_rigidity: f64, weight: f64) -> Option<Ruck> {
+    pub fn from_slack(slack: f64, flexural_rigidity: f64, weight: f64) -> Option<Ruck> {
         if !(slack > 0.0 && flexural_rigidity > 0.0 && weight > 0.0) {
             return None;
         }
@@ -51,7 +51,7 @@ impl Ruck {
     #[must_use]
     pub fn of_free_edge(length: f64, flexural_rigidity: f64, weight: f64) -> Option<Ruck> {
         let turn = weight * length.powi(3) / (6.0 * flexural_rigidity);
-        Ruck::of(9.0 / 28.0 * turn * turn * length, flexural_rigidity, weight)
+        Ruck::from_slack(9.0 / 28.0 * turn * turn * length, flexural_rigidity, weight)
     }
 
     /// Height above the floor (m).
@@ -78,7 +78,7 @@ impl Ruck {
         self.amplitude * (y.cos() + COSINE + 0.5 * COSINE * square)
     }
 
-    /// Its steepest angle (rad).
+    /// Steepest angle (rad).
     #[must_use]
     pub fn steepest(&self) -> f64 {
         // w' = −Ck (sin y + c y) is steepest where cos y = −c
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn a_ruck_is_a_heavy_beam_that_leaves_the_floor_smoothly() {
         for slack in [1e-6, 1e-5, 1e-4] {
-            let ruck = Ruck::of(slack, RIGIDITY, WEIGHT).unwrap();
+            let ruck = Ruck::from_slack(slack, RIGIDITY, WEIGHT).unwrap();
             let a = ruck.half_width();
             let h = a / 200.0;
             let w = |n: i32| ruck.at(h * f64::from(n));
@@ -125,9 +125,9 @@ mod tests {
 
     /// 4.1 mm·(s/mm)^(4/7) for the paper's ply, within the 5 % that the law is known to.
     #[test]
-    fn a_millimetre_of_slack_in_the_papers_ply_rises_by_four() {
+    fn a_millimeter_of_slack_in_the_papers_ply_rises_by_four() {
         for slack in [0.1_f64, 1.0, 3.0] {
-            let height = Ruck::of(slack * 1e-3, RIGIDITY, WEIGHT).unwrap().height() * 1e3;
+            let height = Ruck::from_slack(slack * 1e-3, RIGIDITY, WEIGHT).unwrap().height() * 1e3;
             let printed = 4.1 * slack.powf(4.0 / 7.0);
             assert!((height / printed - 1.0).abs() < 0.05, "{slack}: {height} {printed}");
         }
@@ -145,7 +145,7 @@ mod tests {
             (0..10_000).map(|n| 0.5 * slope((n as f64 + 0.5) * step).powi(2) * step).sum();
         let [found, summed] = [
             Ruck::of_free_edge(length, rigidity, weight).unwrap(),
-            Ruck::of(short, rigidity, weight).unwrap(),
+            Ruck::from_slack(short, rigidity, weight).unwrap(),
         ];
         assert!((found.height() / summed.height() - 1.0).abs() < 1e-7);
         let twice = Ruck::of_free_edge(2.0 * length, rigidity, weight).unwrap();

@@ -1,7 +1,7 @@
 //! Shear of a cell: the trellis of sides a, b whose one diagonal is stretched, eqs. (6)–(8) of
 //! `docs/theory/ply.md`, after Krogh et al. 2018, section 2.3.
 
-use super::Fibres;
+use super::Fibers;
 use super::tuning::TUNING;
 use num_dual::DualNum;
 
@@ -36,7 +36,7 @@ pub fn onset<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T, f
     share * share * (-share * 2.0 + 3.0)
 }
 
-/// How the shear angle (rad) changes with the sides a, b and the stretched diagonal, each changing by so much (m);
+/// How the shear angle (rad) changes with the sides a, b and the stretched diagonal, each changing by this much (m);
 /// 0 where the cell has folded.
 #[must_use]
 pub fn angle_tangent(sides: [f64; 2], stretched: f64, change: [f64; 3]) -> f64 {
@@ -79,11 +79,11 @@ pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
 /// d₁² + d₂² = 2(a² + b²) + A²/3. Two half fibers a, b at an angle of π/2 ± γ have s² = a² + b² ± 2ab sin γ − A²/3 between
 /// their ends. Ours.
 #[must_use]
-pub fn curved_scale([a, b]: [f64; 2], fibres: Fibres, shear: f64, gaussian_curvature: f64) -> f64 {
+pub fn curved_scale([a, b]: [f64; 2], fibers: Fibers, shear: f64, gaussian_curvature: f64) -> f64 {
     let area = a * b * shear.cos();
-    let squares = match fibres {
-        Fibres::Sides => 6.0 * (a * a + b * b),
-        Fibres::Diagonals => -3.0 * (a * a + b * b),
+    let squares = match fibers {
+        Fibers::Sides => 6.0 * (a * a + b * b),
+        Fibers::Diagonals => -3.0 * (a * a + b * b),
     };
     let excess = gaussian_curvature * area * area / squares;
     let most = TUNING.curvature_excess;

@@ -2,7 +2,7 @@
 
 /// Limits at which a free segment or a cell degenerates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tuning {
+pub(crate) struct PlyTuning {
     /// Length of a free segment, as a share of its catenary, up to which it has no length. 1e-9: shorter segments are left by
     /// rounding.
     pub shortest_segment: f64,
@@ -26,7 +26,7 @@ pub(crate) struct Tuning {
 }
 
 /// The constants in use.
-pub(crate) const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: PlyTuning = PlyTuning {
     shortest_segment: 1e-9,
     shortest_path: 0.5,
     folded_diagonal: 1e-6,

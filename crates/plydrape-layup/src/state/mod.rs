@@ -68,7 +68,7 @@ pub struct FabricPoint {
 pub struct CellState {
     /// Which cell.
     pub site: Site,
-    /// Its middle in space (m).
+    /// Middle in space (m).
     pub place: Point,
     /// Shear angle (rad), not negative.
     pub shear: f64,

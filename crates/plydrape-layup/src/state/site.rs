@@ -2,7 +2,7 @@
 
 use crate::clearance::{Near, Part, label};
 use crate::layup::Layup;
-use crate::ply::{Fibres, gripper_name};
+use crate::ply::{Fibers, gripper_name};
 
 /// A part of the layup.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,7 @@ impl Site {
                 let lines = ply.lines();
                 let c = lines.catenary(n);
                 let is_side =
-                    lines.cells_of(n).any(|cell| lines.cells()[cell].fibres == Fibres::Diagonals);
+                    lines.cells_of(n).any(|cell| lines.cells()[cell].fibers == Fibers::Diagonals);
                 let kind = match (c.kind.is_edge(), is_side) {
                     (true, _) => "edge",
                     (false, true) => "bias line",

@@ -33,7 +33,7 @@ impl Tool {
     /// The largest rates along a motion between its samples at a rate (Hz), which begins and ends at rest.
     ///
     /// # Errors
-    /// Those of [`TimedMotion::samples`].
+    /// The errors of [`TimedMotion::samples`].
     pub fn peaks(&self, motion: &TimedMotion, rate: f64) -> Result<ToolPeaks, Error> {
         // as many samples as at that rate, evenly: the last pair of a motion may be as short as rounding
         let count = motion.samples(rate)?.len();

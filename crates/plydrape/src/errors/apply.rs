@@ -131,13 +131,13 @@ impl PickUpError {
         }
         let [low, high] = ply.held_bounds();
         let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
-        let neighbours = ply.neighbours();
+        let neighbors = ply.neighbors();
         let at = points.to_vec();
         for (n, p) in points.iter_mut().enumerate() {
             let place = ply.place(n);
             let off = [0, 1].map(|axis| place[axis] - middle[axis]);
             let delta = [self.offset[0] - self.yaw * off[1], self.offset[1] + self.yaw * off[0]];
-            let [u, v] = tangents(ply, &neighbours, &at, n);
+            let [u, v] = tangents(ply, &neighbors, &at, n);
             *p = along(along(*p, -delta[0], u), -delta[1], v);
         }
     }

@@ -86,9 +86,9 @@ pub enum RelativeError {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MoldError {
-    /// Its shift, and its turn about the middle of the target.
+    /// Shift, and turn about the middle of the target.
     pub motion: RigidError,
-    /// Waves on its surface; none where it has no waviness.
+    /// Waves on its surface; `None` where it has no waviness.
     pub waves: Option<Waves>,
 }
 
@@ -158,7 +158,7 @@ impl Stream {
         })
     }
 
-    /// The waves of a waviness; none without one, or without a wavelength.
+    /// The waves of a waviness; `None` without one, or without a wavelength.
     fn waves(&self, waviness: Term, wavelength: f64) -> Option<Waves> {
         if waviness.is_zero() || wavelength.is_nan() || wavelength <= 0.0 {
             return None;

@@ -63,7 +63,7 @@ impl Overhang {
     /// Rigidity per width (N·m) of each strip by its overhang (m).
     ///
     /// # Errors
-    /// Those of [`rigidity_of_overhang`], and [`Error::FitRange`] if an overhang or the weight is not positive.
+    /// The errors of [`rigidity_of_overhang`], and [`Error::FitRange`] if an overhang or the weight is not positive.
     pub fn rigidities(&self, overhangs: &[f64]) -> Result<Vec<f64>, Error> {
         positive("the weight per area", self.weight, "N/m^2")?;
         for overhang in overhangs {
@@ -76,7 +76,7 @@ impl Overhang {
     /// Rigidity per width (N·m) from the overhangs (m) of strips.
     ///
     /// # Errors
-    /// Those of [`Self::rigidities`], and [`Error::FitTooFew`] if there is none.
+    /// The errors of [`Self::rigidities`], and [`Error::FitTooFew`] if there is none.
     pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, Error> {
         if overhangs.is_empty() {
             return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
@@ -290,7 +290,7 @@ const FALL: f64 = 0.1;
 pub struct MomentFit {
     /// Moment per width over curvature, never falling.
     pub curve: MomentCurve,
-    /// Scatter between specimens as a share of the moment; none from one specimen.
+    /// Scatter between specimens as a share of the moment; `None` from one specimen.
     pub scatter: Option<f64>,
     /// The largest curvature of each specimen (1/m).
     pub reach: Vec<f64>,

@@ -26,11 +26,11 @@ const LEFT: f64 = 1e-3;
 /// A bias strip in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimedSpecimen {
-    /// Its name in errors.
+    /// Name in errors.
     pub name: String,
-    /// Its measures.
+    /// Measures.
     pub test: BiasExtension,
-    /// Its record: displacement (m) and force (N).
+    /// Record: displacement (m) and force (N).
     pub points: Vec<[f64; 2]>,
     /// Times of the points, rising (s).
     pub times: Vec<f64>,
@@ -70,7 +70,7 @@ struct Record {
 }
 
 impl Record {
-    fn of(specimen: &TimedSpecimen) -> Result<Self, Error> {
+    fn new(specimen: &TimedSpecimen) -> Result<Self, Error> {
         let TimedSpecimen { name, test, points, times } = specimen;
         let trellis = ShearTest::Bias(*test);
         trellis.check()?;
@@ -159,10 +159,10 @@ fn solved(records: &[Record], relaxation: Option<f64>) -> Option<(DVector<f64>, 
 /// What resin adds to the shear force of a ply, and the curve of very slow shear that goes with it, from bias strips in time.
 ///
 /// # Errors
-/// Those of [`ShearTest::check`]; [`Error::FitTooFew`] and [`Error::FitPoint`] for a record; [`Error::FitNoRate`] if the tests do not
+/// The errors of [`ShearTest::check`]; [`Error::FitTooFew`] and [`Error::FitPoint`] for a record; [`Error::FitNoRate`] if the tests do not
 /// show it.
 pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
-    let records: Result<Vec<Record>, Error> = specimens.iter().map(Record::of).collect();
+    let records: Result<Vec<Record>, Error> = specimens.iter().map(Record::new).collect();
     let records = records?;
     let none = || Error::FitNoRate;
     let pauses = records.iter().flat_map(|record| record.times.windows(2));

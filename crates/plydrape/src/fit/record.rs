@@ -133,7 +133,7 @@ pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault
     Ok(Loading { points: 0..stop, remarks })
 }
 
-/// The index of the peak of loads that have fallen from it at their end, by more than noise; none where they have not.
+/// The index of the peak of loads that have fallen from it at their end, by more than noise; `None` where they have not.
 pub(super) fn peak_before_end(loads: &[f64]) -> Option<usize> {
     let calm = medians(loads, (loads.len() / WINDOWS).min(WIDEST));
     let peak = (0..calm.len()).max_by(|a, b| calm[*a].total_cmp(&calm[*b]))?;

@@ -51,11 +51,11 @@ pub enum ShearTest {
 /// A specimen of a shear test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShearSpecimen {
-    /// Its name in errors.
+    /// Name in errors.
     pub name: String,
     /// How it was tested, with its own measures.
     pub test: ShearTest,
-    /// Its record in the order of time: displacement (m) and force (N).
+    /// Record in the order of time: displacement (m) and force (N).
     pub points: Vec<[f64; 2]>,
 }
 
@@ -66,13 +66,13 @@ pub struct ShearFit {
     pub angle: Vec<f64>,
     /// Mean shear force per length τ, never falling (N/m).
     pub force: Vec<f64>,
-    /// Standard deviation between specimens (N/m); none from one specimen.
+    /// Standard deviation between specimens (N/m); `None` from one specimen.
     pub deviation: Option<Vec<f64>>,
     /// Scatter between specimens as a share of the force, root mean square over the angles.
     pub scatter: Option<f64>,
     /// Coefficients of γ, γ², γ³ (N/m) by least squares, and their standard errors from the residuals.
     pub polynomial: [[f64; 2]; POWERS],
-    /// Where the curve turns up (rad): the corner of the best two straight lines; none where it does not.
+    /// Where the curve turns up (rad): the corner of the best two straight lines; `None` where it does not.
     pub locking: Option<f64>,
     /// The largest shear angle of each specimen (rad).
     pub reach: Vec<f64>,
@@ -111,7 +111,7 @@ impl ShearTest {
         }
     }
 
-    /// Shear angle γ (rad) at a displacement δ of the machine (m); none beyond what the kinematics allow.
+    /// Shear angle γ (rad) at a displacement δ of the machine (m); `None` beyond what the kinematics allow.
     #[must_use]
     pub fn angle(&self, displacement: f64) -> Option<f64> {
         let cosine = match self {
@@ -162,7 +162,7 @@ impl ShearSpecimen {
     /// The curve τ(γ) of the loading: angles (rad) ascending from 0, forces (N/m); and what is to be known of the record.
     ///
     /// # Errors
-    /// Those of [`ShearTest::check`]; [`Error::FitPoint`] if the record shows what no specimen does; [`Error::FitReach`] if fewer than
+    /// The errors of [`ShearTest::check`]; [`Error::FitPoint`] if the record shows what no specimen does; [`Error::FitReach`] if fewer than
     /// three points of it have a shear angle above zero.
     pub fn curve(&self) -> Result<([Vec<f64>; 2], Vec<Remark>), Error> {
         self.test.check()?;
@@ -233,7 +233,7 @@ impl ShearSpecimen {
 /// The shear law of all specimens, each with its own measures.
 ///
 /// # Errors
-/// Those of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
+/// The errors of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
 pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
     let found: Result<Vec<_>, _> = specimens.iter().map(ShearSpecimen::curve).collect();
     let (curves, remarks): (Vec<[Vec<f64>; 2]>, Vec<_>) = found?.into_iter().unzip();
@@ -339,7 +339,7 @@ fn polynomial(points: &[[f64; 2]]) -> [[f64; 2]; POWERS] {
     std::array::from_fn(|n| [solution[n], (variance * inverse[(n, n)]).sqrt()])
 }
 
-/// The corner of the two straight lines, one from 0, that are nearest to the table; none where the second is not much steeper.
+/// The corner of the two straight lines, one from 0, that are nearest to the table; `None` where the second is not much steeper.
 fn corner(x: &[f64], y: &[f64]) -> Option<f64> {
     let mut best: Option<(f64, f64, f64)> = None;
     for k in 2..x.len().checked_sub(2)? {

@@ -3,9 +3,9 @@
 /// Where a standard error comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sure {
-    /// The standard deviation between so many specimens, over the root of their number.
+    /// The standard deviation between this many specimens, over the root of their number.
     Specimens(usize),
-    /// The residuals of one specimen's points, by the covariance of the fit, with so many degrees of freedom. It says nothing of
+    /// The residuals of one specimen's points, by the covariance of the fit, with this many degrees of freedom. It says nothing of
     /// how specimens differ.
     Residuals(usize),
     /// Nothing: one value of one specimen.
@@ -17,11 +17,11 @@ pub enum Sure {
 pub struct Estimate {
     /// The value (SI).
     pub value: f64,
-    /// Its standard error (SI); infinite where nothing says it.
+    /// Standard error (SI); infinite where nothing says it.
     pub error: f64,
     /// Where the error comes from.
     pub sure: Sure,
-    /// Standard deviation between specimens, as a share of the value; none from one specimen.
+    /// Standard deviation between specimens, as a share of the value; `None` from one specimen.
     pub scatter: Option<f64>,
 }
 
@@ -41,7 +41,7 @@ impl Estimate {
         }
     }
 
-    /// The interval that holds the true value in 95 of 100 tests, by Student's distribution; none where nothing says it.
+    /// The interval that holds the true value in 95 of 100 tests, by Student's distribution; `None` where nothing says it.
     #[must_use]
     pub fn interval(&self) -> Option<[f64; 2]> {
         let degrees = match self.sure {
@@ -104,7 +104,7 @@ pub(super) fn between(x: &[f64], y: &[f64], at: f64) -> f64 {
     y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1])
 }
 
-/// The straight line nearest to points by least squares: its value at 0 and its slope; none where they have one x.
+/// The straight line nearest to points by least squares: its value at 0 and its slope; `None` where they have one x.
 pub(super) fn line(points: &[[f64; 2]]) -> Option<(f64, f64)> {
     let count = points.len() as f64;
     let sum = |f: fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();

@@ -96,7 +96,7 @@ fn a_bias_extension_gives_its_law_back() {
     assert!(fit.locking.is_some());
 }
 
-/// The same for a picture frame, F = L² τ γ'/δ' with δ = 2 L cos φ.
+/// A picture frame gives its law back, F = L² τ γ'/δ' with δ = 2 L cos φ.
 #[test]
 fn a_picture_frame_gives_its_law_back() {
     let law = |gamma: f64| 20.0 * gamma;

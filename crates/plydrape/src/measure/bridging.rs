@@ -1,7 +1,7 @@
 //! Bridging: the gap between ply and mold between two touches of one edge, of which the model follows one.
 //!
 //! A diagonal is no fiber: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
-//! the fabric lies in. Its gaps stand in its record.
+//! the fabric lies in. Its gaps are in its record.
 
 use super::{Bound, Description, Found, Measure, Most, Observation, Scope, Unit};
 use crate::layup::Layup;
@@ -12,7 +12,7 @@ pub struct Bridging;
 impl Measure for Bridging {
     fn description(&self) -> Description {
         let own =
-            Description::of_catenaries("bridging", "bridging_mm", "bridging", Unit::MILLIMETRE);
+            Description::of_catenaries("bridging", "bridging_mm", "bridging", Unit::MILLIMETER);
         Description { scope: Scope::End, ..own }
     }
 

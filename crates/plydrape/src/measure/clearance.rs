@@ -16,7 +16,7 @@ pub struct Clearance;
 
 impl Measure for Clearance {
     fn description(&self) -> Description {
-        let own = Description::new("clearance", "clearance_mm", "clearance", Unit::MILLIMETRE);
+        let own = Description::new("clearance", "clearance_mm", "clearance", Unit::MILLIMETER);
         Description { sense: Sense::AtLeast, worth: Worth::Kept, ..own }
     }
 

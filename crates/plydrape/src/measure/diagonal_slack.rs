@@ -14,7 +14,7 @@ impl Measure for DiagonalSlack {
             "diagonal_slack",
             "diagonal_slack_mm",
             "slack of diagonals",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         )
     }
 

@@ -32,13 +32,13 @@ impl Most {
         }
     }
 
-    /// The largest of them, none of none.
+    /// The largest of them, `None` for none.
     #[must_use]
     pub fn found(self) -> Option<Found> {
         self.0
     }
 
-    /// The largest of them in a unit of so much (SI).
+    /// The largest of them in a unit of this much (SI).
     #[must_use]
     pub fn in_units_of(self, unit: f64) -> Option<Found> {
         self.0.map(|most| Found { value: most.value / unit, ..most })

@@ -7,7 +7,7 @@ pub struct Gap;
 
 impl Measure for Gap {
     fn description(&self) -> Description {
-        Description::new("gap", "gap_mm", "gap", Unit::MILLIMETRE)
+        Description::new("gap", "gap_mm", "gap", Unit::MILLIMETER)
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

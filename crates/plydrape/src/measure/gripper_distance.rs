@@ -15,7 +15,7 @@ impl Measure for GripperDistance {
             "gripper_distance",
             "gripper_distance_mm",
             "gripper distance",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         );
         Description { sense: Sense::AtLeast, worth: Worth::Kept, ..own }
     }

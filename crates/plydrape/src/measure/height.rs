@@ -10,7 +10,7 @@ pub struct Height;
 impl Measure for Height {
     fn description(&self) -> Description {
         let own =
-            Description::of_sheet("height", "height_mm", "height over the mold", Unit::MILLIMETRE);
+            Description::of_sheet("height", "height_mm", "height over the mold", Unit::MILLIMETER);
         Description { scope: Scope::End, ..own }
     }
 

@@ -59,7 +59,7 @@ impl<'a> Judge<'a> {
             .filter_map(|name| Some((*name, name.measure().evaluate(&seen)?)))
             .collect();
         self.keep(state, &found);
-        found.iter().map(|(name, found)| (*name, Worst::of(found, self.layup))).collect()
+        found.iter().map(|(name, found)| (*name, Worst::new(found, self.layup))).collect()
     }
 
     fn observation<'b>(&'b self, state: &'b PlyState) -> Observation<'b> {
@@ -91,13 +91,13 @@ impl<'a> Judge<'a> {
     pub fn verdicts(&self) -> Vec<Verdict> {
         let judged = Name::ALL.iter().filter_map(|name| {
             let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
-            Some(Verdict::of(*name, Worst::of(found, self.layup), limit, Some(*step)))
+            Some(Verdict::new(*name, Worst::new(found, self.layup), limit, Some(*step)))
         });
         let mut out: Vec<Verdict> = judged.collect();
         if let Some((step, Unsolved { why, residual })) = self.unsolved {
             let worst = Worst { value: residual, at: why.into(), place: None };
             let verdict =
-                Verdict::of(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));
+                Verdict::new(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));
             out.push(Verdict { ok: false, ..verdict });
         }
         out

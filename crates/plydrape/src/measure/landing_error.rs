@@ -10,7 +10,7 @@ pub struct LandingError;
 
 impl Measure for LandingError {
     fn description(&self) -> Description {
-        Description::new("landing_error", "landing_error_mm", "landing error", Unit::MILLIMETRE)
+        Description::new("landing_error", "landing_error_mm", "landing error", Unit::MILLIMETER)
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -17,7 +17,7 @@ impl Measure for LandingGripper {
             "landing_gripper",
             "landing_gripper_mm",
             "landing of grippers",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         );
         Description { scope: Scope::End, ..own }
     }

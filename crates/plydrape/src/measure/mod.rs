@@ -20,7 +20,7 @@ mod contact_share;
 mod diagonal_slack;
 mod duration;
 mod equilibrium;
-mod fibre_angle;
+mod fiber_angle;
 mod force;
 mod found;
 mod gap;
@@ -160,7 +160,7 @@ pub enum Worth {
 pub struct Description {
     /// Name of its limit in scenes and verdicts, `landing_shear`.
     pub name: &'static str,
-    /// Its key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
+    /// Key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
     pub key: &'static str,
     /// What it is called in tables and charts.
     pub label: &'static str,
@@ -206,7 +206,7 @@ impl Description {
 
 /// Something that is measured of a drape.
 pub trait Measure: Sync {
-    /// Its names, its unit, and how its limit counts.
+    /// Names, unit, and how its limit counts.
     fn description(&self) -> Description;
 
     /// [`Description::name`].
@@ -340,7 +340,7 @@ measures! {
     landing_error: LandingError,
     landing_gripper: LandingGripper,
     landing_shear: LandingShear,
-    fibre_angle: FibreAngle,
+    fiber_angle: FiberAngle,
     gap: Gap,
     sag_ratio: SagRatio,
     slope: Slope,
@@ -377,10 +377,16 @@ impl Name {
         Name::ALL.iter().filter_map(|name| Some((*name, name.measure().bound()?)))
     }
 
-    /// Its name as tables have it, `landing shear`: that of files in words, in their spelling.
+    /// The measure that had a name before version 0.1.0; such names are read until version 0.2.0.
+    #[must_use]
+    pub fn renamed(old: &str) -> Option<Name> {
+        (old == "fiber_angle").then_some(Name::FiberAngle)
+    }
+
+    /// The name in tables, as `landing shear`.
     #[must_use]
     pub fn title(self) -> String {
-        self.measure().name().replace('_', " ").replace("fibre", "fiber")
+        self.measure().name().replace('_', " ")
     }
 }
 

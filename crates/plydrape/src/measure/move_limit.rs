@@ -7,7 +7,7 @@ pub struct MoveLimit;
 
 impl Measure for MoveLimit {
     fn description(&self) -> Description {
-        let own = Description::new("move_limit", "move_limit", "move limit", Unit::MILLIMETRE);
+        let own = Description::new("move_limit", "move_limit", "move limit", Unit::MILLIMETER);
         Description { scope: Scope::Whole, ..own }
     }
 }

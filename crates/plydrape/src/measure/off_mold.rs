@@ -7,7 +7,7 @@ pub struct OffMold;
 
 impl Measure for OffMold {
     fn description(&self) -> Description {
-        let own = Description::new("off_mold", "off_mold", "off the mold", Unit::MILLIMETRE);
+        let own = Description::new("off_mold", "off_mold", "off the mold", Unit::MILLIMETER);
         Description { scope: Scope::Whole, ..own }
     }
 }

@@ -12,7 +12,7 @@ impl Measure for OverstretchLength {
             "overstretch_length",
             "overstretch_mm",
             "overstretch length",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         )
     }
 

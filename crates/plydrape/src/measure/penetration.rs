@@ -15,7 +15,7 @@ pub struct Penetration;
 
 impl Measure for Penetration {
     fn description(&self) -> Description {
-        Description::new("penetration", "penetration_mm", "penetration", Unit::MILLIMETRE)
+        Description::new("penetration", "penetration_mm", "penetration", Unit::MILLIMETER)
     }
 
     fn bound(&self) -> Option<Bound> {

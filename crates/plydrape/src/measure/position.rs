@@ -15,7 +15,7 @@ impl Measure for Position {
             "position",
             "position_mm",
             "position of landed points",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         );
         Description { scope: Scope::End, ..own }
     }

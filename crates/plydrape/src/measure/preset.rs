@@ -36,7 +36,7 @@ DrapeBot, Horizon 2020 grant 101006732, periodic report 2, 2022-07 to 2023-12, c
 /// What the manual says.
 const PLY_ANGLE: &str = "\"typical repair tolerance for ply alignment\" of ±3°: US Army TM 1-1500-204-23-11, General \
 Aircraft Maintenance, Sheet Metal Shop, paragraph 5-6 e (1); read in a web copy that has lost the signs ± and °";
-/// Its angle, taken out of the plane too.
+/// Angle, taken out of the plane too.
 const OUT_OF_PLANE: &str =
     "a choice of this program: the same angle out of the plane of the ply; no source gives it";
 /// The slack of that angle.
@@ -44,7 +44,7 @@ const SLACK: &str =
     "a choice of this program: the same angle for slack ε, as 2√ε; no source gives it";
 /// Half a millimeter.
 const HEIGHT: &str = "a choice of this program, its default limit of the sheet; no source gives it";
-/// The same of catenaries.
+/// Where the limit of wrinkles comes from.
 const WRINKLE: &str = "as height, for the ruck that the slack of a catenary makes";
 
 /// Three degrees (rad).
@@ -54,7 +54,7 @@ impl Preset {
     /// All of them, by name.
     pub const ALL: &[Preset] = &[Preset::DrapeBot, Preset::LowWrinkle, Preset::PlyAngle];
 
-    /// Its name in scenes.
+    /// Name in scenes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -74,7 +74,7 @@ impl Preset {
         }
     }
 
-    /// Its limits, each with its source.
+    /// Limits, each with its source.
     #[must_use]
     pub fn figures(self) -> &'static [Figure] {
         const fn figure(name: Name, value: f64, source: &'static str) -> Figure {
@@ -85,7 +85,7 @@ impl Preset {
                 const {
                     &[
                         figure(Name::Position, 2e-3, DRAPEBOT),
-                        figure(Name::FibreAngle, THREE_DEGREES, DRAPEBOT),
+                        figure(Name::FiberAngle, THREE_DEGREES, DRAPEBOT),
                     ]
                 }
             }
@@ -95,7 +95,7 @@ impl Preset {
             Preset::PlyAngle => {
                 const {
                     &[
-                        figure(Name::FibreAngle, THREE_DEGREES, PLY_ANGLE),
+                        figure(Name::FiberAngle, THREE_DEGREES, PLY_ANGLE),
                         figure(Name::OutOfPlane, THREE_DEGREES, OUT_OF_PLANE),
                         figure(Name::SlackAngle, THREE_DEGREES, SLACK),
                     ]
@@ -104,7 +104,7 @@ impl Preset {
         }
     }
 
-    /// Its value for a limit (SI), if it has one.
+    /// Value for a limit (SI), if it has one.
     #[must_use]
     pub fn value(self, name: Name) -> Option<f64> {
         self.figures().iter().find(|figure| figure.name == name).map(|figure| figure.value)

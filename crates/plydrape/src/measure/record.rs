@@ -21,7 +21,7 @@ pub struct Worst {
 impl Worst {
     /// With its site as a label.
     #[must_use]
-    pub fn of(found: &Found, layup: &Layup) -> Worst {
+    pub fn new(found: &Found, layup: &Layup) -> Worst {
         let at = match (found.site, found.place) {
             (Site::Bodies { .. }, Some(place)) => {
                 let [x, y, z] = place.map(|c| c * 1e3);

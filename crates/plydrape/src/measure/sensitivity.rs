@@ -20,7 +20,7 @@ impl Measure for Sensitivity {
             "sensitivity",
             "sensitivity_mm",
             "range of the height by minute changes",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         );
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }

@@ -21,6 +21,7 @@ impl<'de> Deserialize<'de> for Name {
             .iter()
             .find(named)
             .copied()
+            .or_else(|| Name::renamed(&text))
             .ok_or_else(|| serde::de::Error::custom(format!("there is no limit called `{text}`")))
     }
 }
@@ -49,10 +50,12 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
                 let mut out = ByName::default();
                 while let Some(key) = map.next_key::<String>()? {
                     let own = |name: &&Name| name.measure().key() == key;
-                    let name = Name::ALL.iter().find(own).ok_or_else(|| {
-                        A::Error::custom(format!("there is no measure called `{key}`"))
-                    })?;
-                    out.set(*name, Some(map.next_value()?));
+                    let old = || Name::renamed(key.strip_suffix("_deg")?);
+                    let name =
+                        Name::ALL.iter().find(own).copied().or_else(old).ok_or_else(|| {
+                            A::Error::custom(format!("there is no measure called `{key}`"))
+                        })?;
+                    out.set(name, Some(map.next_value()?));
                 }
                 Ok(out)
             }

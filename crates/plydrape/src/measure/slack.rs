@@ -8,7 +8,7 @@ pub struct Slack;
 
 impl Measure for Slack {
     fn description(&self) -> Description {
-        Description::of_catenaries("slack", "slack_mm", "slack", Unit::MILLIMETRE)
+        Description::of_catenaries("slack", "slack_mm", "slack", Unit::MILLIMETER)
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -72,7 +72,7 @@ mod tests {
 
     /// 0.05 % of slack, the limit unless a scene sets another, are 2.6°.
     #[test]
-    fn the_usual_slack_is_a_fibre_angle_of_two_point_six_degrees() {
+    fn the_usual_slack_is_a_fiber_angle_of_two_point_six_degrees() {
         assert!((angle_of_slack(5e-4).to_degrees() - 2.562).abs() < 1e-3);
         assert_eq!(angle_of_slack(0.0), 0.0);
         assert!(angle_of_slack(f64::NAN).is_nan());

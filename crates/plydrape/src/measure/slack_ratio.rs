@@ -1,6 +1,6 @@
 //! Slack ratio: the slack of all segments of an edge as a share of its length.
 //!
-//! Its place is that of the largest slack in the edge.
+//! The place is that of the largest slack in the edge.
 
 use super::{Bound, Description, Found, Measure, Most, Observation, Practice, Scope, Unit};
 use crate::layup::Layup;

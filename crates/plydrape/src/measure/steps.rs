@@ -7,7 +7,7 @@ pub struct Steps;
 
 impl Measure for Steps {
     fn description(&self) -> Description {
-        let own = Description::new("steps", "steps", "steps", Unit::MILLIMETRE);
+        let own = Description::new("steps", "steps", "steps", Unit::MILLIMETER);
         Description { scope: Scope::Whole, ..own }
     }
 }

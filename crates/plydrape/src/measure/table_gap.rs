@@ -8,7 +8,7 @@ pub struct TableGap;
 
 impl Measure for TableGap {
     fn description(&self) -> Description {
-        let own = Description::new("table_gap", "table_gap_mm", "table gap", Unit::MILLIMETRE);
+        let own = Description::new("table_gap", "table_gap_mm", "table gap", Unit::MILLIMETER);
         Description { sense: Sense::AtLeast, worth: Worth::Kept, ..own }
     }
 

@@ -12,7 +12,7 @@ impl Measure for ToolResidual {
             "tool_residual",
             "tool_residual_mm",
             "tool residual",
-            Unit::MILLIMETRE,
+            Unit::MILLIMETER,
         );
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }

@@ -2,11 +2,11 @@
 
 /// Resolutions of the measures and rounding of the verdicts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Tuning {
+pub(crate) struct MeasureTuning {
     /// Share of a limit by which a value may exceed it: a slope that is held exactly at its limit does not break it.
     pub limit_rounding: f64,
     /// Residual (a slope) up to which an equilibrium counts as found: the one at which a stalled solve still counts as
-    /// converged, [`crate::equilibrium::Tuning::rounding_residual`].
+    /// converged, [`crate::equilibrium::EquilibriumTuning::rounding_residual`].
     pub equilibrium_residual: f64,
     /// Shortest length over which a strain has a meaning, in contact tolerances: the tolerance alone strains a segment of ten
     /// tolerances by 0.5 %.
@@ -23,7 +23,7 @@ pub(crate) struct Tuning {
 }
 
 /// The constants in use.
-pub(crate) const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: MeasureTuning = MeasureTuning {
     limit_rounding: 1e-9,
     equilibrium_residual: 1e-6,
     gauge_length: 10.0,

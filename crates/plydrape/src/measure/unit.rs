@@ -17,8 +17,8 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Millimetres.
-    pub const MILLIMETRE: Unit = Unit { si: 1e-3, ..Unit::plain("mm") };
+    /// Millimeters.
+    pub const MILLIMETER: Unit = Unit { si: 1e-3, ..Unit::plain("mm") };
     /// Newtons.
     pub const NEWTON: Unit = Unit::plain("N");
     /// Seconds.

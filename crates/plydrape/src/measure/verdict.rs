@@ -18,7 +18,7 @@ pub struct Verdict {
     pub unit: Cow<'static, str>,
     /// Whether it holds.
     pub ok: bool,
-    /// Step of the worst value; none where it belongs to no step, as the speed of a motion.
+    /// Step of the worst value; `None` where it belongs to no step, as the speed of a motion.
     pub step: Option<usize>,
     /// Which part of the ply has the worst value.
     #[cfg_attr(feature = "serde", serde(rename = "where"))]
@@ -38,7 +38,7 @@ fn judged() -> bool {
 impl Verdict {
     /// The verdict on a value (in the measure's unit) against its limit (in the same).
     #[must_use]
-    pub fn of(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
+    pub fn new(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
         let (measure, Worst { value, at, place }) = (name.measure(), worst);
         let unit = measure.unit();
         let ok = measure.sense().keeps(value, limit);
@@ -50,7 +50,7 @@ impl Verdict {
     #[must_use]
     pub fn unjudged(name: Name, limit: f64, why: &str) -> Verdict {
         let worst = Worst { value: 0.0, at: format!("not judged: {why}"), place: None };
-        Verdict { ok: false, judged: false, ..Verdict::of(name, worst, limit, None) }
+        Verdict { ok: false, judged: false, ..Verdict::new(name, worst, limit, None) }
     }
 
     /// Whether its limit is the least that is allowed.
@@ -88,7 +88,7 @@ mod tests {
     use crate::measure::Measures;
 
     fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
-        Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
+        Verdict::new(name, Worst { value, at: String::new(), place: None }, limit, None)
     }
 
     /// Shares are shown in percent; a share of 95 % has used up half of the way from 100 % to a least share of 90 %.
@@ -131,7 +131,7 @@ mod tests {
         }
     }
 
-    /// Of several values NaN is the worst, wherever it stands: else it would be lost among sound ones.
+    /// Of several values NaN is the worst, wherever it is: else it would be lost among sound ones.
     #[test]
     fn a_value_that_is_no_number_is_not_lost() {
         for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {

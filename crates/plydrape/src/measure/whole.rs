@@ -79,7 +79,7 @@ impl WholeMotion<'_> {
             let limit = measure.limit(self.layup, self.limits)?;
             let (found, time) = measure.evaluate_motion(self)?;
             let step = time.map(|time| self.step(time));
-            Some(Verdict::of(*name, Worst::of(&found, self.layup), limit, step))
+            Some(Verdict::new(*name, Worst::new(&found, self.layup), limit, step))
         };
         Name::ALL.iter().filter_map(verdict).collect()
     }

@@ -11,7 +11,7 @@ pub struct Workspace;
 impl Measure for Workspace {
     fn description(&self) -> Description {
         let own =
-            Description::new("workspace", "workspace_mm", "outside workspace", Unit::MILLIMETRE);
+            Description::new("workspace", "workspace_mm", "outside workspace", Unit::MILLIMETER);
         Description { worth: Worth::Kept, ..own }
     }
 

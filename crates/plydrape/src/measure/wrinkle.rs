@@ -1,6 +1,6 @@
-//! Wrinkle height: how high the ruck stands that the slack of a segment makes on the mold (`ply/ruck.rs`).
+//! Wrinkle height: height of the ruck that the slack of a segment makes on the mold (`ply/ruck.rs`).
 //!
-//! Its limit is one of slack as a height. A ply without rigidity crumples and has no height, so scenes refuse such a limit there.
+//! The limit bounds slack by a height. A ply without rigidity crumples and has no height, so scenes refuse such a limit there.
 
 use super::{Bound, Description, Found, Measure, Most, Observation, Refusal, Scope, Unit};
 use crate::layup::Layup;
@@ -12,7 +12,7 @@ pub struct Wrinkle;
 impl Measure for Wrinkle {
     fn description(&self) -> Description {
         let own =
-            Description::of_catenaries("wrinkle", "wrinkle_mm", "wrinkle height", Unit::MILLIMETRE);
+            Description::of_catenaries("wrinkle", "wrinkle_mm", "wrinkle height", Unit::MILLIMETER);
         Description { scope: Scope::End, ..own }
     }
 
@@ -50,7 +50,7 @@ pub(super) fn largest_ruck(seen: &Observation, property: impl Fn(&Ruck) -> f64) 
     let mut most = Most::default();
     for (edge, segment) in seen.edges() {
         let line = ply.line(lines.catenary(edge).kind);
-        let ruck = Ruck::of(segment.slack(), line.flexural_rigidity, line.mass * gravity);
+        let ruck = Ruck::from_slack(segment.slack(), line.flexural_rigidity, line.mass * gravity);
         most.meet(ruck.as_ref().map_or(0.0, &property), segment.site, segment.place);
     }
     most

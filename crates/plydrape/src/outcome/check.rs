@@ -7,7 +7,7 @@ use crate::sheet::Sheet;
 /// Refuses a layup that lacks what a model needs.
 ///
 /// # Errors
-/// Those of [`Sheet::new`], or [`Error::NoCatenaries`] or [`Error::CatenariesMounts`] for catenaries.
+/// The errors of [`Sheet::new`], or [`Error::NoCatenaries`] or [`Error::CatenariesMounts`] for catenaries.
 pub fn check_model(layup: &Layup, model: Model) -> Result<(), Error> {
     if model == Model::Sheet {
         Sheet::new(layup)?;

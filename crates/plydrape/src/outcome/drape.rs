@@ -33,7 +33,7 @@ pub struct DrapedSheet {
     /// The drape.
     pub drape: sheet::Drape,
     /// The states that the scene keeps, the first and the last among them; empty if the caller took them as they came.
-    pub states: Vec<sheet::State>,
+    pub states: Vec<sheet::ClothState>,
 }
 
 /// How a drape came out for a search, which keeps the verdicts alone.
@@ -78,7 +78,7 @@ impl Judged {
 
     /// A recorded drape as a search sees it: without the limits of a motion in time, which gets its least time after the search.
     #[must_use]
-    pub fn of(drape: &Drape) -> Self {
+    pub fn new(drape: &Drape) -> Self {
         let Drape { steps, summary, sheet, .. } = drape;
         let solved = |status| matches!(status, Status::Converged | Status::Torn);
         let unsolved = steps.iter().filter(|step| !step.is_solved()).count();
@@ -89,7 +89,7 @@ impl Judged {
             missing: 1.0 - summary.steps as f64 / summary.steps_planned.max(1) as f64,
             unsolved: unsolved + usize::from(!solved(summary.status)),
             interrupted: summary.interrupted(),
-            effort: sheet.as_ref().map(|sheet| Effort::of(&sheet.drape)),
+            effort: sheet.as_ref().map(|sheet| Effort::new(&sheet.drape)),
         }
     }
 }
@@ -98,15 +98,15 @@ impl Judged {
 pub struct DrapeWatch<'a> {
     /// Asked before each time step whether to end.
     pub stop: &'a (dyn Fn() -> bool + Sync),
-    /// Told how many steps are done, with the state of the sheet if that drapes; it may end the drape.
-    pub see: &'a mut dyn FnMut(usize, Option<&sheet::State>) -> ControlFlow<()>,
+    /// Called with how many steps are done, with the state of the sheet if that drapes; it may end the drape.
+    pub see: &'a mut dyn FnMut(usize, Option<&sheet::ClothState>) -> ControlFlow<()>,
 }
 
 /// Drapes along the motion of a scene, as its tool makes it, by one of the models, and judges that by every limit but those of a sample of
 /// cells.
 ///
 /// # Errors
-/// Those of [`super::check_model`] if the scene lacks what the model needs.
+/// The errors of [`super::check_model`] if the scene lacks what the model needs.
 pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, Error> {
     let mut drape = drape_places(scene, model, watch)?;
     drape.summary.judge_motion(&scene.layup, &scene.limits);
@@ -182,7 +182,7 @@ fn drape_sheet(
     let (mut hand_over, low) = (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
     let mut ended = false;
     let DrapeWatch { stop, see } = watch;
-    let tuning = sheet::Tuning::default();
+    let tuning = sheet::SheetTuning::default();
     let drape = sheet::drape(layup, tuning, low, *stop, |sheet, state, last| {
         ended = last;
         recorder.add(&hand_over.state(layup, sheet, state, last), None, last);
@@ -199,7 +199,7 @@ fn drape_sheet(
 /// taken more than `most_equilibria`.
 ///
 /// # Errors
-/// Those of [`super::check_model`] if the layup lacks what the model of its settings needs.
+/// The errors of [`super::check_model`] if the layup lacks what the model of its settings needs.
 pub fn judge(
     layup: &Layup,
     limits: &Limits,
@@ -227,7 +227,7 @@ pub(super) fn judge_seen(
             let (mut hand_over, low) =
                 (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
             let mut ended = false;
-            let tuning = sheet::Tuning::default();
+            let tuning = sheet::SheetTuning::default();
             let drape = sheet::drape(layup, tuning, low, stop, |sheet, state, last| {
                 ended = last;
                 judge.see(&hand_over.state(layup, sheet, state, last), last);
@@ -243,7 +243,7 @@ pub(super) fn judge_seen(
                 missing: missing(drape.steps),
                 unsolved: usize::from(!complete),
                 interrupted: drape.status == sheet::Status::Interrupted,
-                effort: Some(Effort::of(&drape)),
+                effort: Some(Effort::new(&drape)),
             };
             Ok((judged, Some(drape)))
         }

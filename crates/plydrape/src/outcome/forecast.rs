@@ -41,7 +41,7 @@ pub const CONSTANTS: Constants = Constants {
     seconds: 2e-6,
 };
 
-/// w, the time of a linear system of a sheet with so many nodes, in units of c.
+/// w, the time of a linear system of a sheet with this many nodes, in units of c.
 fn work(nodes: usize) -> f64 {
     let Constants { even_nodes, factorization, .. } = CONSTANTS;
     let nodes = nodes as f64;
@@ -62,7 +62,7 @@ pub struct Effort {
 impl Effort {
     /// That of a finished drape.
     #[must_use]
-    pub fn of(drape: &sheet::Drape) -> Self {
+    pub fn new(drape: &sheet::Drape) -> Self {
         let sheet::Report { nodes, solves, .. } = drape.report;
         Effort { nodes, solves, time: drape.duration }
     }
@@ -143,7 +143,7 @@ impl Forecast {
     }
 }
 
-/// The linear systems that a sheet with so many nodes needs, where one along the same motion with another mesh was draped.
+/// The linear systems that a sheet with this many nodes needs, where one along the same motion with another mesh was draped.
 #[must_use]
 pub fn solves(nodes: usize, ranked: Effort) -> f64 {
     ranked.solves as f64 * (nodes as f64 / ranked.nodes.max(1) as f64).powf(CONSTANTS.growth)

@@ -2,7 +2,7 @@
 //!
 //! [`simulate`] follows the motion of a scene by the model that the scene chooses. That model alone is asked: its states are measured, its
 //! limits are judged, and its orientations are those of the motion files. The other one drapes only where the scene asks for it
-//! ([`Scene::also`]); it stands beside and never judges.
+//! ([`Scene::also`]); it is drawn beside and never judges.
 //!
 //! 1. `drape`: one drape by one model; `recorder`, `step`: what is kept of it;
 //! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
@@ -77,7 +77,7 @@ impl Outcome {
 /// and not accepted.
 ///
 /// # Errors
-/// Those of [`check_model`] if the scene lacks what the model needs.
+/// The errors of [`check_model`] if the scene lacks what the model needs.
 pub fn simulate(
     scene: &Scene,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
@@ -96,7 +96,7 @@ pub fn simulate(
 /// The drape of a scene by the model that does not decide, if the scene asks for it and the one that decides was not broken off.
 ///
 /// # Errors
-/// Those of [`check_model`] if the scene lacks what that model needs.
+/// The errors of [`check_model`] if the scene lacks what that model needs.
 pub fn also(
     scene: &Scene,
     decided: &Summary,
@@ -117,8 +117,8 @@ pub(crate) fn keeping_states(
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Drape, Error> {
     let (steps, keep) = (scene.layup.motion.positions.len(), scene.layup.settings.sheet.keep);
-    let mut states: Vec<sheet::State> = Vec::new();
-    let mut see = |step: usize, state: Option<&sheet::State>| {
+    let mut states: Vec<sheet::ClothState> = Vec::new();
+    let mut see = |step: usize, state: Option<&sheet::ClothState>| {
         if let Some(state) = state.filter(|state| sheet::is_kept(state.step, steps, keep)) {
             states.push(state.clone());
         }

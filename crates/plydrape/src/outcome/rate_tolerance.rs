@@ -1,6 +1,6 @@
 //! How fast a ply whose shear takes time may be draped along a motion, and how cold it may be.
 //!
-//! A ply whose resin relaxes so many times as slowly is to a motion what a motion that is so many times as fast is to the ply itself, but
+//! A ply whose resin relaxes this many times as slowly is to a motion what a motion that is this many times as fast is to the ply itself, but
 //! for inertia. So the times of the motion stay as they are, every drape costs alike, and the answer is one of speed and of temperature.
 
 use super::Watch;
@@ -42,7 +42,7 @@ impl RateTolerance {
     /// How fast the ply of a scene may be draped along its motion, of which is known whether it is accepted as it is; `None` if it was
     /// stopped, or time does not matter.
     #[must_use]
-    pub fn of(scene: &Scene, is_accepted: bool, watch: &Watch) -> Option<Self> {
+    pub fn new(scene: &Scene, is_accepted: bool, watch: &Watch) -> Option<Self> {
         let rate = Self::applies_to(&scene.layup)?;
         let keeps = |octave: i32| {
             let mut other = Scene { errors: None, ..scene.clone() };

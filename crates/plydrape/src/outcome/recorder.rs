@@ -44,7 +44,7 @@ impl<'a> Recorder<'a> {
     pub fn add(&mut self, state: &PlyState, catenaries: Option<CatenaryStep>, last: bool) {
         let measures = self.judge.see_all(state);
         if last {
-            self.whole = Whole::of(state, self.limits);
+            self.whole = Whole::new(state, self.limits);
         }
         match self.steps.last_mut().filter(|before| before.step == state.step) {
             Some(released) => released.measures = measures,
@@ -55,7 +55,7 @@ impl<'a> Recorder<'a> {
     /// Measures the last step once more, as the end.
     pub fn replace_last(&mut self, state: &PlyState) {
         let measures = self.judge.see_all(state);
-        self.whole = Whole::of(state, self.limits);
+        self.whole = Whole::new(state, self.limits);
         match self.steps.last_mut().filter(|before| before.step == state.step) {
             Some(step) => step.measures = measures,
             None => self.steps.push(Step::new(self.layup, state, measures, None)),
@@ -91,7 +91,7 @@ impl<'a> Recorder<'a> {
         let Whole { height_rms_mm, height_share, position_rms_mm } = self.whole;
         Summary {
             model,
-            world: World::of(&self.layup.settings.pad, false),
+            world: World::new(&self.layup.settings.pad, false),
             status,
             steps: self.steps.last().map_or(0, |step| step.step),
             steps_planned: self.layup.motion.positions.len(),
@@ -138,7 +138,7 @@ impl<'a> Recorder<'a> {
 }
 
 impl Whole {
-    fn of(state: &PlyState, limits: &Limits) -> Self {
+    fn new(state: &PlyState, limits: &Limits) -> Self {
         let limit = limits.get(Name::Height);
         let heights = || state.points.iter().filter_map(|p| Some((p.area, p.height?)));
         let area: f64 = heights().map(|(area, _)| area).sum();

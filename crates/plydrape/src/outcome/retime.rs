@@ -71,7 +71,7 @@ impl Summary {
                 }
             }
             for (name, found) in found {
-                step.measures.set(name, found.map(|found| Worst::of(&found, layup)));
+                step.measures.set(name, found.map(|found| Worst::new(&found, layup)));
             }
             state.step = step.step;
             past = Some(Past::after(&state, past.take(), duration));
@@ -97,7 +97,7 @@ fn worst_verdict(name: Name, steps: &[Step], limit: f64) -> Option<Verdict> {
         let replaced = at_end || sense.is_worse(next.1.value, most.1.value);
         if replaced { next } else { most }
     })?;
-    Some(Verdict::of(name, worst.clone(), limit, Some(step)))
+    Some(Verdict::new(name, worst.clone(), limit, Some(step)))
 }
 
 impl Step {

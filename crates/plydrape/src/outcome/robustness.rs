@@ -17,7 +17,7 @@ use crate::sheet::event::at_these_times;
 pub struct Robustness {
     /// The scene, with the motion that was draped.
     scene: Scene,
-    /// The errors of the sample; none where the scene has none.
+    /// The errors of the sample; `None` where the scene has none.
     sample: Option<Errors>,
     /// Whether somebody asks what the motion tolerates.
     tolerance: bool,
@@ -43,7 +43,7 @@ impl Robustness {
         Robustness { scene: planned, sample, tolerance: asked }
     }
 
-    /// The errors of the sample; none where the scene has none.
+    /// The errors of the sample; `None` where the scene has none.
     #[must_use]
     pub fn sampled(&self) -> Option<&Errors> {
         self.sample.as_ref()
@@ -73,7 +73,7 @@ impl Robustness {
             let timeless = |v: &&Verdict| v.name.measure().scope() != Scope::Time;
             let is_kept = summary.status == Status::Converged
                 && summary.limits.iter().filter(timeless).all(|verdict| verdict.ok);
-            summary.rate_tolerance = RateTolerance::of(&self.scene_of(summary), is_kept, watch);
+            summary.rate_tolerance = RateTolerance::new(&self.scene_of(summary), is_kept, watch);
             if summary.rate_tolerance.is_none() {
                 return false;
             }
@@ -82,7 +82,7 @@ impl Robustness {
             return true;
         }
         summary.tolerance = match summary.accepted_without_errors() {
-            true => Tolerance::of(&self.scene_of(summary), watch),
+            true => Tolerance::new(&self.scene_of(summary), watch),
             false => Some(Tolerance::NOTHING),
         };
         summary.tolerance.is_some()

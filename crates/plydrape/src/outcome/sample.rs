@@ -4,7 +4,7 @@ use super::Judged;
 use super::drape::judge_seen;
 use crate::errors::{Draw, Errors};
 use crate::measure::Verdict;
-use crate::ply::Neighbours;
+use crate::ply::Neighbors;
 use crate::scene::Scene;
 use crate::state::Site;
 use rayon::prelude::*;
@@ -23,7 +23,7 @@ const LARGEST_RATIO: f64 = 1e6;
 pub struct Watch<'a> {
     /// Asked before each time step whether to end.
     pub stop: &'a (dyn Fn() -> bool + Sync),
-    /// Told how many of at most so many drapes are done.
+    /// Called with how many of at most this many drapes are done.
     pub done: &'a (dyn Fn(usize, usize) + Sync),
 }
 
@@ -36,7 +36,7 @@ pub struct SampleVerdict {
     pub errors: Errors,
     /// How many cells of the whole sample must keep every limit.
     pub needed: usize,
-    /// Whether it is accepted: so many do, or all of so many first ones that no more were draped ([`Errors::decided`]).
+    /// Whether it is accepted: this many do, or all of this many first ones that no more were draped ([`Errors::decided`]).
     pub ok: bool,
     /// Confidence (0 to 1) that the share of all possible cells keeps every limit if `ok`, and that fewer do if not.
     pub confidence: f64,
@@ -44,7 +44,7 @@ pub struct SampleVerdict {
     pub limits: Vec<Verdict>,
     /// Each cell's drape, up to the one that decides.
     pub cells: Vec<CellVerdict>,
-    /// Where the sheet is highest by the height that the share of the cells keeps there; none of catenaries.
+    /// Where the sheet is highest by the height that the share of the cells keeps there; `None` for catenaries.
     pub highest: Option<Highest>,
     /// Height (mm) at each node of the sheet that the share of the cells keeps, in four digits; empty of catenaries.
     pub spread_mm: Vec<f64>,
@@ -57,7 +57,7 @@ pub struct SampleVerdict {
 pub struct CellVerdict {
     /// Whether it keeps every limit.
     pub accepted: bool,
-    /// The largest height of its sheet at the end (mm); none of catenaries and of a drape without an end.
+    /// The largest height of its sheet at the end (mm); `None` for catenaries and of a drape without an end.
     pub height_mm: Option<f64>,
     /// The largest ratio of a measure to its limit; above 1 it is not kept. A measure that is no number has 1e6.
     pub ratio: f64,
@@ -81,11 +81,11 @@ pub struct Highest {
 /// The drapes of a sample so far.
 #[derive(Default)]
 struct Row {
-    /// Those of the first cells, in their order.
+    /// Drapes of the first cells, in their order.
     drapes: Vec<Drape>,
     /// How many of these keep every limit.
     kept: usize,
-    /// Those whose cells come after one that is not done.
+    /// Drapes of cells that come after one that is not done.
     waiting: BTreeMap<usize, Drape>,
 }
 
@@ -98,7 +98,7 @@ pub(super) struct Drape {
 }
 
 impl Errors {
-    /// How many of so many cells must keep the limits.
+    /// How many of this many cells must keep the limits.
     #[must_use]
     pub fn needed(&self, samples: usize) -> usize {
         // a share that is a whole number of cells but for rounding is that number
@@ -109,7 +109,7 @@ impl Errors {
     /// Whether a sample is accepted, if that is decided when `kept` of its first `cells` cells keep every limit.
     ///
     /// It is accepted once as many cells as must keep every limit do, or once all of n cells do and `share^n <= 1 - 0.95`. It is
-    /// refused once so many have failed that the rest is too small.
+    /// refused once this many have failed that the rest is too small.
     #[must_use]
     pub fn decided(&self, kept: usize, cells: usize) -> Option<bool> {
         let needed = self.needed(self.samples);
@@ -130,7 +130,7 @@ impl Errors {
         Binomial::new(chance, cells as u64).map_or(0.0, |law| law.sf(count as u64))
     }
 
-    /// The verdict over the sample of a scene along its motion; none if it was stopped.
+    /// The verdict over the sample of a scene along its motion; `None` if it was stopped.
     ///
     /// Cells are begun in their order, one a core, and none any more once those before it decide.
     #[must_use]
@@ -186,7 +186,7 @@ impl SampleVerdict {
         self.cells.iter().filter(|cell| cell.accepted).count()
     }
 
-    /// Largest height (mm) that the share of the cells keeps which must keep the limits; none of catenaries.
+    /// Largest height (mm) that the share of the cells keeps which must keep the limits; `None` for catenaries.
     #[must_use]
     pub fn height_mm(&self) -> Option<f64> {
         let mut heights: Vec<f64> = self.cells.iter().filter_map(|cell| cell.height_mm).collect();
@@ -249,7 +249,7 @@ fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
     names.into_iter().filter_map(one).collect()
 }
 
-/// Height (m) at each node that so many drapes keep.
+/// Height (m) at each node that this many drapes keep.
 fn spread(drapes: &[Drape], needed: usize) -> Vec<f64> {
     let nodes = drapes.iter().map(|drape| drape.heights.len()).min().unwrap_or(0);
     let one = |node: usize| {
@@ -282,8 +282,8 @@ fn highest(scene: &Scene, places: &[[f64; 2]], spread: &[f64]) -> Option<Highest
         (place[0] - u).hypot(place[1] - v)
     };
     let gripper = (0..ply.grippers()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
-    let off = |line: &Neighbours| off_line(place, line.grippers.map(|n| ply.place(n)));
-    let lines = ply.neighbours();
+    let off = |line: &Neighbors| off_line(place, line.grippers.map(|n| ply.place(n)));
+    let lines = ply.neighbors();
     let line = lines.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
     let label = |n: usize| Site::Gripper(n).label(&scene.layup);
     let [from, to] = line.map_or([gripper; 2], |line| line.grippers).map(label);

@@ -241,7 +241,7 @@ fn the_value_of_a_limit_is_kept_by_the_share() {
     }
 }
 
-/// The share of the cells keeps the height of the sample, and at no node is the sheet higher than that in so many cells.
+/// The share of the cells keeps the height of the sample, and at no node is the sheet higher than that in this many cells.
 #[test]
 fn the_heights_of_a_sample_are_kept_by_the_share() {
     let scene = sheet();

@@ -69,7 +69,7 @@ pub(super) fn judge_sensitivity(
     let worst = Worst { value: high - low, at, place: None };
     // once more as far up would still be below the limit of the height
     let most = least.max(highest - high);
-    summary.judge_also([Verdict::of(Name::Sensitivity, worst, most, None)]);
+    summary.judge_also([Verdict::new(Name::Sensitivity, worst, most, None)]);
 }
 
 /// The height at the end (mm) among verdicts.

@@ -107,7 +107,7 @@ impl Step {
 /// Orientations of the grippers between the steps of a drape.
 ///
 /// # Errors
-/// Those of [`Attitudes::new`] if there are no steps.
+/// The errors of [`Attitudes::new`] if there are no steps.
 pub fn attitudes(steps: &[Step]) -> Result<Attitudes, LayupError> {
     let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
     let quaternions: Vec<Vec<[f64; 4]>> = steps

@@ -158,7 +158,7 @@ impl Summary {
         if let Some(limit) = Name::ToolResidual.measure().limit(&scene.layup, &scene.limits) {
             let at = Site::Gripper(record.gripper).label(&scene.layup);
             let worst = crate::measure::Worst { value: record.residual_mm, at, place: None };
-            self.judge_also([Verdict::of(Name::ToolResidual, worst, limit, Some(record.step))]);
+            self.judge_also([Verdict::new(Name::ToolResidual, worst, limit, Some(record.step))]);
         }
         self.tool = Some(record);
     }

@@ -6,12 +6,12 @@ use crate::layup::Model;
 use crate::measure::{Name, Numbers, Verdict, Worst};
 use crate::scene::World;
 
-/// The height and the error of position (mm) of a drape of so many steps, judged at the end by 0.5 mm and 2 mm.
+/// The height and the error of position (mm) of a drape of this many steps, judged at the end by 0.5 mm and 2 mm.
 fn limits(steps: usize, height: f64) -> Vec<Verdict> {
     let worst = Worst { value: height, at: "fabric point (1.0, 2.0) mm".into(), place: None };
     vec![
-        Verdict::of(Name::Height, worst.clone(), 0.5, Some(steps)),
-        Verdict::of(Name::Position, worst, 2.0, Some(steps)),
+        Verdict::new(Name::Height, worst.clone(), 0.5, Some(steps)),
+        Verdict::new(Name::Position, worst, 2.0, Some(steps)),
     ]
 }
 

@@ -37,7 +37,7 @@ pub struct Tolerance {
     /// the model that decides knows no shear stiffness.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub shear: Option<[f64; 2]>,
-    /// The same of its mass.
+    /// The least and the largest multiple of the ply's mass up to which every limit is kept.
     pub mass: [f64; 2],
     /// Cells by which each error of the grippers was tried; 0 where the motion is not accepted without errors, so that nothing was.
     pub tried: usize,
@@ -62,9 +62,9 @@ impl Tolerance {
         1e3 * unit_error(pitch) * factor(PLACES[0])
     }
 
-    /// What the motion of a scene tolerates that is accepted without errors; none if it was stopped.
+    /// What the motion of a scene tolerates that is accepted without errors; `None` if it was stopped.
     #[must_use]
-    pub fn of(scene: &Scene, watch: &Watch) -> Option<Self> {
+    pub fn new(scene: &Scene, watch: &Watch) -> Option<Self> {
         let unit = unit_error(sheet::pitch(&scene.layup.ply));
         let mut errors = Errors::default();
         errors.gripper.position = Term::Deviation(unit);
@@ -121,12 +121,12 @@ fn range(
     Some([least?, most?])
 }
 
-/// The place of the largest common factor of errors at which a scene along its motion is still accepted; none if it was stopped.
+/// The place of the largest common factor of errors at which a scene along its motion is still accepted; `None` if it was stopped.
 ///
 /// Only the cells that decide are followed to the factor from which on they fail: all others are draped once, with the errors
 /// that those before them still tolerate.
 fn largest_error(errors: &Errors, scene: &Scene, watch: &Watch) -> Option<i32> {
-    // so many of the cells may fail, so the next worse one decides
+    // this many of the cells may fail, so the next worse one decides
     let spare = TRIED - errors.needed(TRIED);
     let mut worst: Vec<i32> = Vec::new();
     for pair in (0..TRIED).collect::<Vec<_>>().chunks(2) {

@@ -30,10 +30,10 @@ fn the_error_that_is_tolerated_is_the_largest_that_all_cells_keep() {
     errors.gripper.position = Term::Deviation(1e-4);
     for margin in [0.02e-3, 0.1e-3, 0.7e-3] {
         let scene = boxed(margin);
-        let found = Tolerance::of(&scene, &NEVER).unwrap();
+        let found = Tolerance::new(&scene, &NEVER).unwrap();
         let unit = 1e3 * 1e-3 * crate::sheet::pitch(&scene.layup.ply);
-        let holds = |millimetres: f64| {
-            let factor = 1e-3 * millimetres / 1e-4;
+        let holds = |millimeters: f64| {
+            let factor = 1e-3 * millimeters / 1e-4;
             (0..16).all(|n| plain(&cell(&scene, errors.draw(n, 4).scaled(factor))).accepted())
         };
         let step = 2_f64.powf(0.125) * (1.0 + 1e-9);
@@ -43,9 +43,9 @@ fn the_error_that_is_tolerated_is_the_largest_that_all_cells_keep() {
         // nothing that hangs in the air asks for a mass, and catenaries know no shear stiffness
         assert_eq!((found.shear, found.mass), (None, [1.0 / Tolerance::MOST, Tolerance::MOST]));
     }
-    let most = Tolerance::of(&boxed(0.9), &NEVER).unwrap();
+    let most = Tolerance::new(&boxed(0.9), &NEVER).unwrap();
     assert!(most.gripper_at_least, "{most:?}");
-    assert_eq!(Tolerance::of(&boxed(1e-9), &NEVER).unwrap().gripper_mm, 0.0);
+    assert_eq!(Tolerance::new(&boxed(1e-9), &NEVER).unwrap().gripper_mm, 0.0);
 }
 
 /// The load of the grippers is in proportion to the mass: with 2.4 times the load that they bear, 2 times the mass is tolerated and
@@ -60,7 +60,7 @@ fn the_mass_that_is_tolerated_follows_the_load() {
     let verdicts = plain(&scene).limits;
     let load = verdicts.iter().find(|verdict| verdict.name == Name::GripperLoad).unwrap().value;
     scene.limits.set(Name::GripperLoad, Some(2.4 * load));
-    let found = Tolerance::of(&scene, &NEVER).unwrap();
+    let found = Tolerance::new(&scene, &NEVER).unwrap();
     assert_eq!(found.mass, [1.0 / Tolerance::MOST, 2.0], "{found:?}");
 }
 
@@ -87,7 +87,7 @@ fn sheared(most: f64) -> Scene {
     scene
 }
 
-/// The pull that a ply whose resin relaxes so many times as slowly needs is known from its own drape: a limit between those of two powers of
+/// The pull that a ply whose resin relaxes this many times as slowly needs is known from its own drape: a limit between those of two powers of
 /// 2 is met by the lower one, whether the ply at its own speed keeps it or not, and at the temperature at which the resin relaxes so.
 #[test]
 fn a_motion_may_be_as_fast_as_the_resin_of_its_ply_follows() {
@@ -104,7 +104,7 @@ fn a_motion_may_be_as_fast_as_the_resin_of_its_ply_follows() {
         let scene = sheared(0.5 * (pulls[low] + pulls[low + 1]));
         let is_accepted = plain(&scene).accepted();
         assert_eq!(is_accepted, speed > 1.0);
-        let found = RateTolerance::of(&scene, is_accepted, &NEVER).expect("an answer");
+        let found = RateTolerance::new(&scene, is_accepted, &NEVER).expect("an answer");
         assert_eq!(found.speed, Some(speed), "{pulls:?}");
         let rate = scene.layup.ply.material.shear_rate.expect("resin");
         let kelvin = found.temperature.expect("a temperature") + 273.15;
@@ -114,12 +114,12 @@ fn a_motion_may_be_as_fast_as_the_resin_of_its_ply_follows() {
     // nothing is known of a ply in a time that is nobody's
     let mut timeless = sheared(1.0);
     timeless.layup.settings.sheet.time = SheetTime::QuasiStatic;
-    assert_eq!(RateTolerance::of(&timeless, false, &NEVER), None);
+    assert_eq!(RateTolerance::new(&timeless, false, &NEVER), None);
 }
 
 /// Who breaks the search off has no answer.
 #[test]
 fn a_tolerance_that_was_broken_off_is_none() {
     let stop = Watch { stop: &|| true, done: &|_, _| {} };
-    assert_eq!(Tolerance::of(&boxed(1e-3), &stop), None);
+    assert_eq!(Tolerance::new(&boxed(1e-3), &stop), None);
 }

@@ -3,7 +3,7 @@
 use super::journal::Journal;
 use super::path::{Strategy, preload};
 use crate::Error;
-use crate::scene::{Plan, Scene};
+use crate::scene::{PlanSettings, Scene};
 
 /// Positions (m) of all grippers, step by step.
 type Positions = Vec<Vec<[f64; 3]>>;
@@ -17,11 +17,11 @@ pub struct Checkpoint {
     grippers: Vec<[f64; 2]>,
     /// Complete drapes tried in all searches.
     pub evaluations: usize,
-    /// The best strategy; none for a plan of the stepwise planner.
+    /// The best strategy; `None` for a plan of the stepwise planner.
     pub strategy: Option<Strategy>,
     /// Positions (m) of all grippers in each step of the best plan, those of its strategy over the mold of that search.
     positions: Positions,
-    /// What the search had judged, if it was cut off; none of one that came to its end.
+    /// What the search had judged, if it was cut off; `None` for one that came to its end.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     unfinished: Option<Box<Unfinished>>,
 }
@@ -32,7 +32,7 @@ pub struct Checkpoint {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 struct Unfinished {
     /// How it searched.
-    plan: Plan,
+    plan: PlanSettings,
     /// Where the grippers started (m).
     start: Vec<[f64; 3]>,
     /// The checkpoint from which it went on itself.
@@ -63,7 +63,7 @@ impl Checkpoint {
         Checkpoint { grippers: grippers(scene), evaluations, strategy, positions, unfinished: None }
     }
 
-    /// The same of a search that was cut off, with what it had judged, and the checkpoint `from` which it went on itself.
+    /// The checkpoint of a search that was cut off, with what it had judged, and the checkpoint `from` which it went on itself.
     pub(super) fn cut_off(
         mut self,
         scene: &Scene,
@@ -92,7 +92,7 @@ impl Checkpoint {
         self.unfinished.is_some()
     }
 
-    /// The same without what the search had judged: for another scene only its best plan counts.
+    /// This checkpoint without what the search had judged: for another scene only its best plan counts.
     #[must_use]
     pub fn finished(mut self) -> Self {
         self.unfinished = None;

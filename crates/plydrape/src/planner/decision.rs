@@ -76,7 +76,7 @@ impl Decision {
         state: &SearchState,
     ) -> Result<Self, Error> {
         let asked = positions.clone();
-        let planned = Planned::of(scene, strategy, positions)?;
+        let planned = Planned::new(scene, strategy, positions)?;
         state.set_forecast(forecast(scene, &planned.motion, ranked, state));
         let decision = planned.decide(scene, state).and_then(|mut decision| {
             decision.slow_down(scene, state, true)?;
@@ -210,7 +210,7 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, Error> {
-        Planned::of(scene, strategy, positions)?.decide(scene, state)
+        Planned::new(scene, strategy, positions)?.decide(scene, state)
     }
 
     /// Slows a motion that is not accepted until the resin of the ply follows it, by a power of 2; leaves it as it is where that does not
@@ -228,7 +228,7 @@ impl Decision {
         let watch = Watch { stop: &stop, done: &|_, _| {} };
         let layup = evaluation::along_motion(&scene.layup, self.motion.steps());
         let along = Scene { layup, ..scene.clone() };
-        let found = RateTolerance::of(&along, false, &watch).and_then(|found| found.speed);
+        let found = RateTolerance::new(&along, false, &watch).and_then(|found| found.speed);
         let Some(speed) = found else { return Ok(()) };
         let before = self.clone();
         // cells with errors may need more time than the ply alone
@@ -260,7 +260,7 @@ impl Decision {
             // strategies that are compared decide at once: one forecast would not be that of all
             if state.is_finishing() {
                 let before = self.decided.drape.sheet.as_ref();
-                let before = before.map(|sheet| Effort::of(&sheet.drape));
+                let before = before.map(|sheet| Effort::new(&sheet.drape));
                 state.set_forecast(forecast(scene, &self.motion, before, state));
             }
             let decided = decide(scene, &self.motion, state);
@@ -299,7 +299,7 @@ struct Planned {
 
 impl Planned {
     /// The motion in time along planned positions (m).
-    fn of(
+    fn new(
         scene: &Scene,
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
@@ -350,14 +350,14 @@ fn forecast(
     if settings.model != Model::Sheet {
         return None;
     }
-    let nodes = sheet::Fabric::of(ply, settings).ok()?.places.len();
+    let nodes = sheet::Fabric::new(ply, settings).ok()?.places.len();
     let mut solves = match ranked {
         Some(ranked) => forecast::solves(nodes, ranked),
         None => CONSTANTS.solves * motion.times().len() as f64,
     };
     if settings.sheet.time == SheetTime::Real {
         let swing = (sheet::pitch(ply) / settings.gravity).sqrt();
-        let step = sheet::Tuning::default().real_step * swing;
+        let step = sheet::SheetTuning::default().real_step * swing;
         solves = solves.max(CONSTANTS.real_solves * motion.duration() / step);
     }
     let errors = scene.errors.filter(Errors::is_drawn);
@@ -375,7 +375,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let (drape, between) = rayon::join(
         || {
             let drape = draped(scene, &followed, state);
-            let drape = drape.map(|drape| (Judged::of(&drape), drape));
+            let drape = drape.map(|drape| (Judged::new(&drape), drape));
             let accepted = drape.as_ref().is_ok_and(|(judged, _)| judged.accepted());
             refused.store(!accepted, Ordering::Relaxed);
             drape
@@ -390,7 +390,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let attitudes = outcome::attitudes(&drape.steps)?;
     let clearance = clearance(scene, motion, &attitudes);
     drape.summary.judge_also(clearance.clone());
-    let mut judged = Judged::of(&drape);
+    let mut judged = Judged::new(&drape);
     let mut score = evaluation::score(&judged);
     if let (true, Some(between)) = (judged.accepted(), between?) {
         drape.summary.judge_between(&between);

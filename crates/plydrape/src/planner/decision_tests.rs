@@ -63,7 +63,7 @@ fn a_plan_that_keeps_its_limits_at_its_steps_alone_is_refused() {
     assert!(workspace.at.ends_with(", with steps half-way between all steps"), "{workspace:?}");
 }
 
-/// A motion that is longer than the scene allows is no accepted plan, though its drape keeps every limit: nobody is told that it is, and its
+/// A motion that is longer than the scene allows is no accepted plan, though its drape keeps every limit: it is not reported as one, and its
 /// score is that of a plan which misses a limit. Without that limit the same plan is accepted, in its least time.
 #[test]
 fn a_plan_is_called_accepted_once_its_motion_is_judged_too() {

@@ -11,7 +11,7 @@ use crate::measure::{Limits, Name, Unit, Verdict, Worst, Worth, clearance_found}
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::{self, Judged};
 use crate::planner::search_state::SearchState;
-use crate::planner::tuning::{TUNING, Tuning};
+use crate::planner::tuning::{PlannerTuning, TUNING};
 use crate::scene::Scene;
 use crate::sheet;
 use rayon::prelude::*;
@@ -65,7 +65,7 @@ impl Drapes {
 /// sheet; broken off where it needs too much or the search is stopped.
 ///
 /// # Errors
-/// Those of [`outcome::judge`] if the model that decides cannot drape the scene.
+/// The errors of [`outcome::judge`] if the model that decides cannot drape the scene.
 pub fn drape(
     scene: &Scene,
     planned: &[Vec<[f64; 3]>],
@@ -94,7 +94,7 @@ pub fn drape(
 }
 
 /// The drape of a layup and those of some cells with errors. `drape` drapes a cell; it gives `None` if it was stopped. A drape that is far
-/// from a plan is alone. So many cells may break a limit as are to spare, and do not count; behind one more only a few others are draped.
+/// from a plan is alone. This many cells may break a limit as are to spare, and do not count; behind one more only a few others are draped.
 ///
 /// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
 pub fn with_errors(
@@ -201,9 +201,9 @@ pub fn also(mut drape: Judged, verdict: Option<Verdict>) -> Judged {
 /// The verdict on the nearest pair of bodies, which is nearest on the way to a step.
 #[must_use]
 pub fn clearance_verdict(scene: &Scene, nearest: &Nearest, step: usize) -> Verdict {
-    let worst = Worst::of(&clearance_found(nearest, nearest.time), &scene.layup);
+    let worst = Worst::new(&clearance_found(nearest, nearest.time), &scene.layup);
     let limit = scene.limits.get(Name::Clearance).unwrap_or(0.0) * 1e3;
-    Verdict::of(Name::Clearance, worst, limit, Some(step))
+    Verdict::new(Name::Clearance, worst, limit, Some(step))
 }
 
 /// The verdict on the nearest pair of bodies along the whole of a motion in time; `None` if the scene has no bodies.
@@ -271,7 +271,7 @@ impl Bias {
         self.0.is_empty()
     }
 
-    fn of(&self, name: Name) -> f64 {
+    fn factor(&self, name: Name) -> f64 {
         self.0.iter().find(|(other, _)| *other == name).map_or(1.0, |(_, factor)| *factor)
     }
 }
@@ -282,12 +282,12 @@ pub fn score(drape: &Judged) -> f64 {
     score_with(drape, &Bias::default())
 }
 
-/// The same of a coarse sheet, with what is known of its error.
+/// The score of a drape of a coarse sheet, corrected by what is known of its error.
 #[must_use]
 pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
-    let ratios: Vec<f64> = drape.limits.iter().map(|v| weight(v, bias.of(v.name))).collect();
+    let ratios: Vec<f64> = drape.limits.iter().map(|v| weight(v, bias.factor(v.name))).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let Tuning { mean_weight, largest_ratio, missing_weight, .. } = TUNING;
+    let PlannerTuning { mean_weight, largest_ratio, missing_weight, .. } = TUNING;
     let mean =
         ratios.iter().map(|r| r.min(largest_ratio)).sum::<f64>() / ratios.len().max(1) as f64;
     // a drape that was broken off is worse than any other, the more so the earlier it was broken off
@@ -306,7 +306,7 @@ mod tests {
     fn an_unsolved_step_costs_a_search_more_than_a_limit() {
         let at = |value: f64| {
             let worst = Worst { value, at: String::new(), place: None };
-            Verdict::of(Name::SlackRatio, worst, 5e-4, Some(1))
+            Verdict::new(Name::SlackRatio, worst, 5e-4, Some(1))
         };
         let evaluated = |value: f64, unsolved: usize, missing: f64| {
             score(&Judged {
@@ -331,7 +331,7 @@ mod tests {
     fn a_ranking_learns_from_decisions() {
         let height = |value: f64| {
             let worst = Worst { value, at: String::new(), place: None };
-            let limits = vec![Verdict::of(Name::Height, worst, 0.5, Some(1))];
+            let limits = vec![Verdict::new(Name::Height, worst, 0.5, Some(1))];
             Judged {
                 limits,
                 complete: true,
@@ -348,10 +348,10 @@ mod tests {
         let corrected = score_with(&height(0.36), &bias);
         assert!((corrected - score(&height(0.45))).abs() < 1e-12, "{corrected}");
         bias.learn(&height(0.3), &height(0.3));
-        assert!((bias.of(Name::Height) - 1.25_f64.sqrt()).abs() < 1e-12, "{bias:?}");
+        assert!((bias.factor(Name::Height) - 1.25_f64.sqrt()).abs() < 1e-12, "{bias:?}");
         let mut wild = Bias::default();
         wild.learn(&height(0.1), &height(5.0));
-        assert_eq!(wild.of(Name::Height), TUNING.bias[1]);
-        assert_eq!(wild.of(Name::Position), 1.0);
+        assert_eq!(wild.factor(Name::Height), TUNING.bias[1]);
+        assert_eq!(wild.factor(Name::Position), 1.0);
     }
 }

@@ -35,7 +35,7 @@ fn planned(errors: Errors, layup: &Layup) -> Vec<Motion> {
 fn judged(ok: bool) -> Judged {
     let worst = Worst { value: if ok { 0.1 } else { 0.9 }, at: String::new(), place: None };
     Judged {
-        limits: vec![Verdict::of(Name::Height, worst, 0.5, Some(1))],
+        limits: vec![Verdict::new(Name::Height, worst, 0.5, Some(1))],
         complete: true,
         missing: 0.0,
         unsolved: 0,
@@ -45,7 +45,7 @@ fn judged(ok: bool) -> Judged {
 }
 
 /// The cells that are draped for a candidate are those that are asked for, and none of the sample that judges the plan. The first that
-/// breaks a limit is told, its height is that of the whole, and none is draped that is in no batch with it.
+/// breaks a limit is reported, its height is that of the whole, and none is draped that is in no batch with it.
 #[test]
 fn a_candidate_is_ranked_by_the_cells_of_the_search() {
     let (layup, errors) = (layup(2, 2), budget());

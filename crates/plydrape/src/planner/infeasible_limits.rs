@@ -19,9 +19,9 @@ use crate::state::Site;
 /// A value and a text that says where it is.
 type Found = (f64, String);
 
-/// Every limit that the scene itself rules out, with value and place; none if a plan may keep them all.
+/// Every limit that the scene itself rules out, with value and place; empty if a plan may keep them all.
 ///
-/// Its verdicts are those of [`crate::outcome::Summary::limits`] by name and unit, all of them not
+/// The verdicts are those of [`crate::outcome::Summary::limits`] by name and unit, all of them not
 /// ok. Three have no limit in the scene: `missing_nodes` of the ideal drape, `off_mold` of
 /// targets that the scene gives by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
 #[must_use]
@@ -49,7 +49,7 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
 /// A verdict (in the measure's unit) of something that exceeds its limit, if it does.
 fn beyond(name: Name, limit: f64, found: Option<Found>) -> Option<Verdict> {
     let (value, at) = found?;
-    let verdict = Verdict::of(name, Worst { value, at, place: None }, limit, None);
+    let verdict = Verdict::new(name, Worst { value, at, place: None }, limit, None);
     (!verdict.ok).then_some(verdict)
 }
 
@@ -78,9 +78,9 @@ fn places(
         ),
     ];
     found.into_iter().filter_map(move |(name, limit, found)| {
-        let worst = Worst::of(&found?, &scene.layup);
+        let worst = Worst::new(&found?, &scene.layup);
         let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
-        Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
+        Some(Verdict::new(name, worst, limit, step)).filter(|verdict| !verdict.ok)
     })
 }
 
@@ -208,8 +208,8 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     if scene.layup.bodies.is_empty() {
         return None;
     }
-    let neighbours = scene.layup.ply.neighbours();
-    let own = orientations(&scene.layup.ply, &neighbours, &target.grippers);
+    let neighbors = scene.layup.ply.neighbors();
+    let own = orientations(&scene.layup.ply, &neighbors, &target.grippers);
     let fixed = scene.layup.fixed_pads(&target.grippers);
     let tolerance = scene.layup.settings.contact.tolerance;
     let stands = |(place, own): (&[f64; 3], [f64; 4])| {
@@ -223,7 +223,7 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     let nearest = clearance::at(&scene.layup, least, &poses)?;
     let at = format!("{} at the target", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, None);
+    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, None);
     (!verdict.ok).then_some(verdict)
 }
 
@@ -233,12 +233,12 @@ fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
     if layup.bodies.is_empty() || start.is_empty() {
         return None;
     }
-    let poses = Poses::by_neighbours(layup, &layup.ply.neighbours(), start);
+    let poses = Poses::by_neighbors(layup, &layup.ply.neighbors(), start);
     let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
     let nearest = clearance::at(layup, least, &poses)?;
     let at = format!("{} at the start", nearest.label(layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::of(Name::Clearance, worst, least * 1e3, Some(1));
+    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, Some(1));
     (!verdict.ok).then_some(verdict)
 }
 

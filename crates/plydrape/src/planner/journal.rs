@@ -36,7 +36,7 @@ struct Ranked {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct Known {
-    /// Its limits and failures, with all that belongs to them.
+    /// Limits and failures, with all that belongs to them.
     pub judged: Judged,
     /// The score of that.
     pub score: f64,

@@ -173,7 +173,7 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
                 at: format!("{at}, short of its target"),
                 place: plan.positions.last().map(|step| step[gripper]),
             };
-            vec![Verdict::of(Name::Steps, worst, 0.0, Some(plan.positions.len()))]
+            vec![Verdict::new(Name::Steps, worst, 0.0, Some(plan.positions.len()))]
         }
         SteppedOutcome::Arrived | SteppedOutcome::Interrupted | SteppedOutcome::NoTarget => {
             Vec::new()

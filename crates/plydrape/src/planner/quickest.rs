@@ -74,7 +74,7 @@ fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
     norm(cross(a, b)).atan2(dot(a, b))
 }
 
-/// The tilts of the grippers, which turn evenly from step to step of a motion that is so much slower than these steps say.
+/// The tilts of the grippers, which turn evenly from step to step of a motion that is this much slower than these steps say.
 fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
     let bound = scene.limits.most(Name::TiltRate) / TUNING.tilt_rate_margin;
     let one = |gripper: usize| {
@@ -143,7 +143,7 @@ fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> 
     limited
 }
 
-/// For how long each measure limits a motion that is so much longer.
+/// For how long each measure limits a motion that is this much longer.
 fn by_name(
     scene: &Scene,
     limited: &[Limited],

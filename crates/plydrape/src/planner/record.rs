@@ -58,7 +58,7 @@ pub struct LimitedBy {
 pub struct PickedUp {
     /// How far it lay from where it was planned, about the middle of the grippers at the planned start.
     pub offset: Offset,
-    /// The largest distance of a seen point from where the offset puts it (m); none where the offset was given.
+    /// The largest distance of a seen point from where the offset puts it (m); `None` where the offset was given.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub residual: Option<f64>,
     /// Share of the offset in each step, 1 at the pick-up and 0 from before the first contact on.
@@ -95,7 +95,7 @@ impl PlanRecord {
     /// The motion at any time, with all that the grippers do before the drape and after it.
     ///
     /// # Errors
-    /// Those of [`TimedMotion::recorded`] if the plan is none that a planner has made.
+    /// The errors of [`TimedMotion::recorded`] if the plan is none that a planner has made.
     pub fn motion(&self) -> Result<TimedMotion, LayupError> {
         let drape = self.drape_motion()?;
         self.cycle.as_ref().map_or(Ok(drape.clone()), |cycle| cycle.whole(&drape))

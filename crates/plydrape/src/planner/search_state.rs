@@ -61,13 +61,13 @@ pub struct SearchState<'a> {
     /// What is searched, and the checkpoint from which that goes on.
     origin: Option<(&'a Scene, Option<&'a Checkpoint>)>,
     journal: Mutex<Journal>,
-    /// All that was judged so far stood in the journal. The watcher is not asked then: that takes no time to speak of, and a search that is
+    /// All that was judged so far was in the journal. The watcher is not asked then: that takes no time to speak of, and a search that is
     /// ended within it would lose what the one before had.
     repeats: AtomicBool,
 }
 
 /// Positions of all grippers (m), step by step, and the strategy behind them.
-type Plan = (Option<Strategy>, Vec<Vec<Point>>);
+type BestPlan = (Option<Strategy>, Vec<Vec<Point>>);
 
 struct Best<'a> {
     watcher: Watcher<'a>,
@@ -77,7 +77,7 @@ struct Best<'a> {
     decided: bool,
     stage: &'static str,
     /// The plan itself.
-    plan: Option<Plan>,
+    plan: Option<BestPlan>,
     forecast: Option<Forecast>,
     /// When the decision under way began.
     began: Instant,
@@ -115,7 +115,7 @@ impl<'a> SearchState<'a> {
         }
     }
 
-    /// The same of a search of a scene that goes on `from` a checkpoint, and knows what a search before has judged.
+    /// The state of a search that goes on `from` a checkpoint, and knows what a search before has judged.
     #[must_use]
     pub fn going_on(
         self,
@@ -139,7 +139,7 @@ impl<'a> SearchState<'a> {
     /// The drapes that ranked a candidate: those in the journal, or else the ones that `drape` makes.
     ///
     /// # Errors
-    /// Those of `drape`.
+    /// The errors of `drape`.
     pub fn ranked<E>(
         &self,
         key: u64,
@@ -157,7 +157,7 @@ impl<'a> SearchState<'a> {
         Ok(drapes)
     }
 
-    /// The score of a candidate, if nothing else stands in the journal; it is counted then.
+    /// The score of a candidate, if the journal has nothing else; it is counted then.
     pub fn scored(&self, key: u64) -> Option<f64> {
         let score = self.journal().score(key)?;
         self.candidates.fetch_add(1, Ordering::Relaxed);
@@ -169,7 +169,7 @@ impl<'a> SearchState<'a> {
         self.journal().keep_score(key, score);
     }
 
-    /// How a plan was decided on, if that stands in the journal.
+    /// How a plan was decided on, if the journal has it.
     pub fn decided(&self, key: u64) -> Option<Known> {
         let known = self.journal().decided(key);
         if known.is_none() {
@@ -186,7 +186,7 @@ impl<'a> SearchState<'a> {
     }
 
     /// The checkpoint of the search as it is, with all that was judged.
-    fn checkpoint_of(&self, (strategy, positions): &Plan) -> Option<Checkpoint> {
+    fn checkpoint_of(&self, (strategy, positions): &BestPlan) -> Option<Checkpoint> {
         let (scene, from) = self.origin?;
         let before = from.map_or(0, |checkpoint| checkpoint.evaluations);
         let evaluations = before + self.candidates() + self.decisions();
@@ -267,7 +267,7 @@ impl<'a> SearchState<'a> {
         let _ = self.report();
     }
 
-    /// Says up to which of so many steps the drape that decides is done.
+    /// Says up to which of this many steps the drape that decides is done.
     pub fn set_step(&self, done: usize, of: usize) {
         if let Ok(mut best) = self.best.try_lock() {
             best.step = best.forecast.and(Some([done, of]));

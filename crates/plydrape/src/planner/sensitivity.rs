@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 pub struct Outcome {
     /// The drape.
     pub drape: Drape,
-    /// Its last step.
+    /// Last step.
     pub last_step: LastStep,
 }
 
@@ -24,7 +24,7 @@ pub fn outcome(
 ) -> Option<Outcome> {
     let layup = &scene.layup;
     let mut draping = Draping::new(layup);
-    let mut see = |step: usize, _: Option<&crate::sheet::State>| progress(step);
+    let mut see = |step: usize, _: Option<&crate::sheet::ClothState>| progress(step);
     let mut watch = DrapeWatch { stop: &|| false, see: &mut see };
     let (mut drape, shape) = drape_catenaries(layup, &scene.limits, &mut draping, &mut watch);
     drape.summary.judge_motion(layup, &scene.limits);

@@ -4,7 +4,7 @@
 
 /// Constants of complete drapes along a plan and of their score.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct PlannerTuning {
     /// Largest distance between neighboring lines of the sheet that ranks candidates (of the pitch of the grippers). A
     /// fifth: cell middles hang and land as in a finer one, and a drape takes a tenth of the time.
     pub mesh: f64,
@@ -44,7 +44,7 @@ pub struct Tuning {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub const TUNING: PlannerTuning = PlannerTuning {
     mesh: 0.2,
     mean_weight: 0.1,
     largest_ratio: 10.0,

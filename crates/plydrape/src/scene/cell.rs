@@ -37,9 +37,9 @@ pub enum CellPreset {
 /// One figure of a named cell.
 #[derive(Debug, Clone, Copy)]
 pub struct CellFigure {
-    /// Its key in a scene, such as `grippers.slip_force`.
+    /// Key in a scene, such as `grippers.slip_force`.
     pub key: &'static str,
-    /// Its value as a scene writes it, such as `10 N`.
+    /// Value as a scene writes it, such as `10 N`.
     pub written: &'static str,
     /// Where it comes from.
     pub source: &'static str,
@@ -130,7 +130,7 @@ impl CellPreset {
     /// All of them.
     pub const ALL: &[CellPreset] = &[CellPreset::Usual, CellPreset::Ideal];
 
-    /// Its name in scenes.
+    /// Name in scenes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -148,7 +148,7 @@ impl CellPreset {
         }
     }
 
-    /// Its figures, each with its source; the ideal cell has none.
+    /// Figures, each with its source; the ideal cell has none.
     #[must_use]
     pub fn figures(self) -> &'static [CellFigure] {
         match self {

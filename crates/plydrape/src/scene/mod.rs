@@ -9,7 +9,7 @@ mod world;
 
 pub use above::start_above;
 pub use cell::{Cell, CellFigure, CellPreset};
-pub use plan::{Plan, PlanMethod};
+pub use plan::{PlanMethod, PlanSettings};
 pub use world::World;
 
 use crate::errors::Errors;
@@ -28,7 +28,7 @@ pub struct Scene {
     /// Limits of an accepted drape.
     pub limits: Limits,
     /// How a motion is planned, where none is followed.
-    pub plan: Plan,
+    pub plan: PlanSettings,
     /// How far a real cell may be from this scene, if that is known.
     pub errors: Option<Errors>,
     /// Whether the model that does not decide drapes too, to be shown beside.
@@ -42,9 +42,9 @@ pub struct Scene {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct BookPly {
-    /// Its place in the order of laying, from 1.
+    /// Place in the order of laying, from 1.
     pub number: usize,
-    /// Its name, which no other ply of the part has.
+    /// Name, which no other ply of the part has.
     pub name: String,
 }
 
@@ -58,7 +58,7 @@ impl Scene {
             title: String::new(),
             limits: Limits::of(&layup),
             layup,
-            plan: Plan::default(),
+            plan: PlanSettings::default(),
             errors: None,
             also: false,
             book_ply: None,

@@ -3,7 +3,7 @@
 /// How gripper trajectories are planned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Plan {
+pub struct PlanSettings {
     /// The planner.
     pub method: PlanMethod,
     /// Steps of the planned motion, the start being the first; of the stepwise planner the most it may take.
@@ -22,10 +22,10 @@ pub struct Plan {
     pub rate: f64,
 }
 
-impl Default for Plan {
+impl Default for PlanSettings {
     fn default() -> Self {
         let method = PlanMethod::Path;
-        Plan {
+        PlanSettings {
             method,
             steps: 90,
             move_limit: None,

@@ -21,7 +21,7 @@ pub enum World {
 impl World {
     /// The world of pads, judged with errors or without.
     #[must_use]
-    pub fn of(pad: &PadSettings, with_errors: bool) -> Self {
+    pub fn new(pad: &PadSettings, with_errors: bool) -> Self {
         match (with_errors, pad.gives()) {
             (true, _) => World::Errors,
             (false, true) => World::WithoutErrors,
@@ -45,7 +45,7 @@ impl Scene {
     #[must_use]
     pub fn world(&self) -> World {
         let drawn = self.errors.is_some_and(|errors| errors.is_drawn());
-        World::of(&self.layup.settings.pad, drawn)
+        World::new(&self.layup.settings.pad, drawn)
     }
 }
 

@@ -9,14 +9,14 @@ use super::gripper::Pad;
 use super::pads::Pads;
 use super::resting::Resting;
 use super::system::System;
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use super::unknowns::{carriers, coupled_pairs};
 
 /// The ply in motion.
 #[derive(Debug)]
 pub struct Cloth<'a> {
     pub(super) sheet: &'a Sheet,
-    pub(super) tuning: Tuning,
+    pub(super) tuning: SheetTuning,
     /// What the motion does.
     pub phase: Phase,
     /// Where the ply is.
@@ -37,7 +37,7 @@ pub struct Cloth<'a> {
 
 impl<'a> Cloth<'a> {
     /// The ply of a sheet at rest with its nodes at `x` (m), held by all of its pads.
-    pub fn new(sheet: &'a Sheet, tuning: Tuning, x: Vec<[f64; 3]>, pads: Vec<Pad>) -> Self {
+    pub fn new(sheet: &'a Sheet, tuning: SheetTuning, x: Vec<[f64; 3]>, pads: Vec<Pad>) -> Self {
         let now = Configuration::at_rest(x, pads);
         let pads = Pads::new(sheet);
         let system = system(sheet, &pads);
@@ -108,7 +108,7 @@ impl<'a> Cloth<'a> {
     }
 
     /// Longest time step (s), if not longer than `enough`, in which free nodes come to the mold by no more than the way that
-    /// [`Tuning::contact_way`] allows, if they go on as in the last one.
+    /// [`SheetTuning::contact_way`] allows, if they go on as in the last one.
     pub fn longest_step(&mut self, enough: f64) -> f64 {
         let most = self.tuning.contact_way * self.sheet.pitch;
         match self.energies.acting_contact_mut(self.phase) {

@@ -12,7 +12,7 @@ use super::energy::{Energy, Stiffness};
 use super::friction::{Anchor, Hold, penalty};
 use super::pads::Pads;
 use super::system::{System, add};
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use super::unknowns::Carrier;
 use crate::geometry::vector::{distance, dot, norm, sub};
 use crate::mold::Mold;
@@ -90,7 +90,7 @@ impl<'a> Contact<'a> {
     pub fn new(
         sheet: &Sheet,
         mold: &'a Mold,
-        tuning: &Tuning,
+        tuning: &SheetTuning,
         pads: &Pads,
         system: &System,
     ) -> Self {
@@ -195,7 +195,7 @@ impl<'a> Contact<'a> {
     }
 
     /// Longest time (s) in which no node that is free of the mold goes farther than its distance from it, or farther than
-    /// `most` (m) where it is nearer than that. Nodes go with the velocities `v` (m/s). No times above `enough` (s) are told
+    /// `most` (m) where it is nearer than that. Nodes go with the velocities `v` (m/s). No times above `enough` (s) are found
     /// apart.
     pub fn longest_time(&mut self, x: &[[f64; 3]], v: &[[f64; 3]], most: f64, enough: f64) -> f64 {
         let mut longest = enough;

@@ -8,8 +8,8 @@ use super::model::Sheet;
 use super::release::Releases;
 use super::report::{Drape, Report};
 use super::shear::angle;
-use super::state::State;
-use super::tuning::Tuning;
+use super::state::ClothState;
+use super::tuning::SheetTuning;
 use crate::Error;
 use crate::layup::Layup;
 use crate::ply::flat_axes;
@@ -37,13 +37,13 @@ pub enum Status {
 /// asked before each time step. Nodes up to `low` (m) over the mold lie, as far as the release of pads asks for that.
 ///
 /// # Errors
-/// Those of [`Sheet::new`], and [`Error::SheetNoMotion`] if the motion has no steps for the grippers.
+/// The errors of [`Sheet::new`], and [`Error::SheetNoMotion`] if the motion has no steps for the grippers.
 pub fn drape(
     layup: &Layup,
-    tuning: Tuning,
+    tuning: SheetTuning,
     low: f64,
     stop: &dyn Fn() -> bool,
-    mut see: impl FnMut(&Sheet, &State, bool) -> ControlFlow<()>,
+    mut see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
 ) -> Result<Drape, Error> {
     let watch = Stopwatch::start();
     let sheet = Sheet::new(layup)?;
@@ -55,7 +55,7 @@ pub fn drape(
     let (flat, pads) = flat(&sheet, start);
     let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();
     let cloth = Cloth::new(&sheet, tuning, flat, pads);
-    let releases = Releases::of(layup, &sheet, low);
+    let releases = Releases::new(layup, &sheet, low);
     let mut run = Run {
         layup,
         sheet: &sheet,
@@ -65,7 +65,7 @@ pub fn drape(
         landing_step: vec![None; sheet.fabric.places.len()],
         landing_shear: vec![None; sheet.fabric.cells.len()],
     };
-    let mut see = |state: &State, last: bool| see(&sheet, state, last);
+    let mut see = |state: &ClothState, last: bool| see(&sheet, state, last);
     let (status, last) = run.run(&placed, &mut see);
     let Run { march, landing_step, landing_shear, mut report, .. } = run;
     report.end(&sheet, tuning.release * sheet.pitch, &last);
@@ -78,7 +78,7 @@ pub fn drape(
     Ok(Drape { sheet, status, steps, report, events, landing_step, landing_shear, last, duration })
 }
 
-/// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with
+/// Whether a step of this many is among the `keep` states that are kept, evenly over the steps, the first and the last with
 /// them.
 #[must_use]
 pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {
@@ -96,7 +96,7 @@ pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {
 struct Run<'a> {
     layup: &'a Layup,
     sheet: &'a Sheet,
-    tuning: Tuning,
+    tuning: SheetTuning,
     march: March<'a>,
     report: Report,
     landing_step: Vec<Option<usize>>,
@@ -108,8 +108,8 @@ impl Run<'_> {
     fn run(
         &mut self,
         placed: &[[f64; 3]],
-        see: &mut impl FnMut(&State, bool) -> ControlFlow<()>,
-    ) -> (Status, State) {
+        see: &mut impl FnMut(&ClothState, bool) -> ControlFlow<()>,
+    ) -> (Status, ClothState) {
         let motion = &self.layup.motion;
         // the flat ply is hung in the air, and comes to rest over the mold
         if let Err(ended) = self.march.hang(placed, &motion.positions[0]) {
@@ -154,7 +154,7 @@ impl Run<'_> {
     }
 
     /// Evaluates the state of a step at a time (s).
-    fn see(&mut self, step: usize, time: f64) -> State {
+    fn see(&mut self, step: usize, time: f64) -> ClothState {
         let state = self.state(step, time);
         let touching = self.layup.settings.contact.tolerance;
         self.report.see(self.sheet, &self.march.cloth.pads.gripped, &state, touching);
@@ -169,7 +169,7 @@ impl Run<'_> {
         state
     }
 
-    fn state(&mut self, step: usize, time: f64) -> State {
+    fn state(&mut self, step: usize, time: f64) -> ClothState {
         let fabric = &self.sheet.fabric;
         let cloth = &mut self.march.cloth;
         let positions = cloth.now.x.clone();
@@ -191,7 +191,7 @@ impl Run<'_> {
         let forces = cloth.forces();
         let (pads, holds) = (cloth.now.pads.clone(), cloth.pads.holds());
         let (energy, kinetic_energy) = (cloth.energy(), cloth.kinetic_energy());
-        State {
+        ClothState {
             step,
             time,
             positions,

@@ -11,7 +11,7 @@ use super::stretch::Stretch;
 use super::system::System;
 use super::table::Table;
 use super::weight::Weight;
-use super::{Sheet, Tuning};
+use super::{Sheet, SheetTuning};
 
 /// How much of the stiffness of an energy, its second derivative, is added: the positive part of each element, and a share of
 /// the negative one.
@@ -39,7 +39,7 @@ impl Stiffness {
     }
 
     /// What is added of a coefficient that makes its part of an element positive or negative.
-    pub fn of(self, coefficient: f64) -> f64 {
+    pub fn keep(self, coefficient: f64) -> f64 {
         coefficient.max(0.0) + self.negative * coefficient.min(0.0)
     }
 
@@ -93,7 +93,7 @@ pub struct Energies<'a> {
 
 impl<'a> Energies<'a> {
     /// The terms of a sheet that is held by pads, whose unknowns are those of `system`.
-    pub fn new(sheet: &'a Sheet, tuning: &Tuning, pads: &Pads, system: &System) -> Self {
+    pub fn new(sheet: &'a Sheet, tuning: &SheetTuning, pads: &Pads, system: &System) -> Self {
         let fabric = &sheet.fabric;
         let masses: Vec<f64> = fabric.areas.iter().map(|area| area * sheet.areal_mass).collect();
         Energies {

@@ -45,7 +45,7 @@ pub fn at_these_times(layup: &Layup, events: &[Event]) -> Layup {
     layup
 }
 
-/// When the last pads let go (s); none if they hold to the end.
+/// When the last pads let go (s); `None` if they hold to the end.
 #[must_use]
 pub fn last_release(events: &[Event]) -> Option<f64> {
     events.iter().rfind(|event| event.kind == EventKind::Release).map(|event| event.time)

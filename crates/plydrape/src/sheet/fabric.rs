@@ -1,6 +1,6 @@
 //! The fabric in the flat: lines of nodes along warp and weft, and what joins them.
 //!
-//! Nodes stand where lines cross. Every gripper point, every edge of a pad and the boundary lie on lines, which are
+//! Nodes lie where lines cross. Every gripper point, every edge of a pad and the boundary lie on lines, which are
 //! evenly spaced in between. All areas and widths are tributary: half the spacing to each side, so that all of the ply
 //! is there once.
 
@@ -10,11 +10,11 @@ use std::collections::HashMap;
 /// A yarn segment between two neighboring nodes of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Its nodes.
+    /// Nodes.
     pub nodes: [u32; 2],
     /// The direction along which it runs: 0 along u, 1 along v.
     pub direction: usize,
-    /// Its length in the flat (m).
+    /// Length in the flat (m).
     pub length: f64,
     /// Width of fabric that it stands for (m).
     pub width: f64,
@@ -23,7 +23,7 @@ pub struct Segment {
 /// A cell between four nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// Its nodes at (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1).
+    /// Nodes at (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1).
     pub nodes: [u32; 4],
     /// Area of the ply in it in the flat (m²).
     pub area: f64,
@@ -41,8 +41,8 @@ impl Cell {
 
 /// A point of the boundary, on a side of a cell or at a corner of the outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rim {
-    /// Its fabric coordinates (m).
+pub struct BoundaryPoint {
+    /// Fabric coordinates (m).
     pub place: [f64; 2],
     /// Nodes of its cell.
     pub nodes: [u32; 4],
@@ -53,7 +53,7 @@ pub struct Rim {
 /// Three neighboring nodes of a line, at whose middle one the line bends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bend {
-    /// Its nodes.
+    /// Nodes.
     pub nodes: [u32; 3],
     /// The direction along which the line runs: 0 along u, 1 along v.
     pub direction: usize,
@@ -78,12 +78,12 @@ pub struct Fabric {
     pub bends: Vec<Bend>,
     /// Coordinates of the lines (m): `lines[0]` those at constant u, `lines[1]` those at constant v.
     pub lines: [Vec<f64>; 2],
-    /// Node where lines of both directions cross, those along u fastest; none where there is no ply.
+    /// Node where lines of both directions cross, those along u fastest; `None` where there is no ply.
     crossings: Vec<Option<u32>>,
     /// Whether each node is on the ply: those of cells that the boundary cuts may be beyond it.
     pub inside: Vec<bool>,
-    /// The rings of the boundary, each as points in order; none of a rectangle, whose boundary is lines of nodes.
-    pub rims: Vec<Vec<Rim>>,
+    /// The rings of the boundary, each as points in order; none for a rectangle, whose boundary is lines of nodes.
+    pub boundary: Vec<Vec<BoundaryPoint>>,
     /// Length in the flat over the difference of fabric coordinates, [`crate::Ply::length_factor`].
     pub length_factor: f64,
 }
@@ -91,7 +91,7 @@ pub struct Fabric {
 impl Fabric {
     /// A rectangle between its first and last lines; a single line along u stands for a strip of `strip` width (m).
     ///
-    /// Nodes stand in the order of u first.
+    /// Nodes are numbered along u first.
     #[must_use]
     pub fn rectangle(lines: [Vec<f64>; 2], strip: f64) -> Self {
         let [nu, nv] = [lines[0].len(), lines[1].len()];
@@ -142,7 +142,7 @@ impl Fabric {
         Fabric {
             crossings: (0..nodes as u32).map(Some).collect(),
             inside: vec![true; nodes],
-            rims: Vec::new(),
+            boundary: Vec::new(),
             places,
             areas,
             segments,
@@ -165,7 +165,7 @@ impl Fabric {
         let count = whole.places.len();
         let corner = |cell: &Cell, n: usize| whole.places[cell.nodes[n] as usize];
         let mut areas = vec![0.0; count];
-        // width of ply beside each pair of neighbouring nodes, times their distance
+        // width of ply beside each pair of neighboring nodes, times their distance
         let mut strips: HashMap<[u32; 2], f64> = HashMap::new();
         let mut cells = Vec::new();
         let columns = whole.lines[0].len() - 1;
@@ -191,8 +191,8 @@ impl Fabric {
                 let most = kept.max_by(|a, b| inside[*a].total_cmp(&inside[*b]));
                 if let Some(other) = most.map(|n| &whole.cells[n]).filter(|_| area > 0.0) {
                     let (from, to) = (corner(other, 0), corner(other, 2));
-                    let centre = outline.centre_in(low, high).unwrap_or(middle);
-                    let nearest = [0, 1].map(|n| centre[n].clamp(from[n], to[n]));
+                    let center = outline.center_in(low, high).unwrap_or(middle);
+                    let nearest = [0, 1].map(|n| center[n].clamp(from[n], to[n]));
                     for (node, weight) in other.nodes.iter().zip(bilinear(from, to, nearest)) {
                         areas[*node as usize] += weight * area;
                     }
@@ -211,8 +211,8 @@ impl Fabric {
                     *strips.entry(ends.map(|n: usize| cell.nodes[n])).or_default() += strip;
                 }
             }
-            let centre = outline.centre_in(low, high).unwrap_or(middle);
-            let weights = bilinear(low, high, centre);
+            let center = outline.center_in(low, high).unwrap_or(middle);
+            let weights = bilinear(low, high, center);
             for (node, weight) in cell.nodes.iter().zip(weights) {
                 areas[*node as usize] += weight * area;
             }
@@ -257,18 +257,18 @@ impl Fabric {
             cells: cells.into_iter().map(|c| Cell { nodes: c.nodes.map(at), ..c }).collect(),
             inside: places.iter().map(|place| outline.depth(*place) >= -rounding).collect(),
             crossings: number,
-            rims: Vec::new(),
+            boundary: Vec::new(),
             places,
             lines: whole.lines,
             length_factor: 1.0,
         };
-        fabric.rims = outline.rings().map(|ring| fabric.along(ring)).collect();
+        fabric.boundary = outline.rings().map(|ring| fabric.along(ring)).collect();
         fabric
     }
 
     /// The points at which a ring (m) crosses lines of nodes, and its corners; those in cells that are left out are left out.
     #[must_use]
-    pub fn along(&self, ring: &[[f64; 2]]) -> Vec<Rim> {
+    pub fn along(&self, ring: &[[f64; 2]]) -> Vec<BoundaryPoint> {
         let mut out = Vec::new();
         for n in 0..ring.len() {
             let (from, to) = (ring[n], ring[(n + 1) % ring.len()]);
@@ -285,14 +285,14 @@ impl Fabric {
                 // the cell ahead of it, or behind it
                 let next = shares.get(k + 1).copied().unwrap_or(1.0);
                 let place = point(*share);
-                out.extend(self.rim_point(place, point(0.5 * (share + next))));
+                out.extend(self.boundary_point(place, point(0.5 * (share + next))));
             }
         }
         out
     }
 
     /// A point of the boundary in the cell of another point (m) beside it.
-    fn rim_point(&self, place: [f64; 2], beside: [f64; 2]) -> Option<Rim> {
+    fn boundary_point(&self, place: [f64; 2], beside: [f64; 2]) -> Option<BoundaryPoint> {
         let [i, j] = [0, 1].map(|axis| {
             let lines = &self.lines[axis];
             lines.partition_point(|line| *line <= beside[axis]).clamp(1, lines.len() - 1)
@@ -301,7 +301,7 @@ impl Fabric {
         let node = |i: usize, j: usize| self.crossings[j * nu + i];
         let nodes = [node(i - 1, j - 1)?, node(i, j - 1)?, node(i, j)?, node(i - 1, j)?];
         let [low, high] = [nodes[0], nodes[2]].map(|n| self.places[n as usize]);
-        Some(Rim { place, nodes, weights: bilinear(low, high, place) })
+        Some(BoundaryPoint { place, nodes, weights: bilinear(low, high, place) })
     }
 
     /// The same lines on a fabric that is larger by a factor along u and v alike: fabric coordinates stay, and lengths,
@@ -342,7 +342,7 @@ impl Fabric {
         chains
     }
 
-    /// The node at a fabric point (m) on two lines; none elsewhere.
+    /// The node at a fabric point (m) on two lines; `None` elsewhere.
     #[must_use]
     pub fn node_at(&self, place: [f64; 2]) -> Option<usize> {
         let close = |at: f64, line: f64, span: f64| (at - line).abs() <= 1e-9 * span;
@@ -356,10 +356,10 @@ impl Fabric {
     }
 }
 
-impl Rim {
-    /// Its value of what nodes have.
+impl BoundaryPoint {
+    /// Interpolates values of the nodes at this point.
     #[must_use]
-    pub fn of<const N: usize>(&self, values: &[[f64; N]]) -> [f64; N] {
+    pub fn interpolate<const N: usize>(&self, values: &[[f64; N]]) -> [f64; N] {
         let mut sum = [0.0; N];
         for (node, weight) in self.nodes.iter().zip(self.weights) {
             for (sum, value) in sum.iter_mut().zip(values[*node as usize]) {
@@ -484,8 +484,8 @@ mod tests {
             };
             let area = outline.area();
             assert!((sum(&|_| 1.0) / area - 1.0).abs() < 1e-12);
-            let centre = [sum(&|p| p[0]) / area, sum(&|p| p[1]) / area];
-            assert!((centre[0] - 0.11).hypot(centre[1] - 0.07) < 0.02 * mesh, "{centre:?}");
+            let center = [sum(&|p| p[0]) / area, sum(&|p| p[1]) / area];
+            assert!((center[0] - 0.11).hypot(center[1] - 0.07) < 0.02 * mesh, "{center:?}");
             let polar = sum(&|p| (p[0] - 0.11).powi(2) + (p[1] - 0.07).powi(2)) / area;
             let exact = 0.5 * (outer * outer + inner * inner);
             assert!((polar / exact - 1.0).abs() < 8.0 * (mesh / outer).powi(2), "{polar} {exact}");
@@ -496,21 +496,21 @@ mod tests {
             }
             // the boundary is met where it is, though nodes are not
             let length: f64 = fabric
-                .rims
+                .boundary
                 .iter()
-                .map(|rim| {
-                    let next = |n: usize| rim[(n + 1) % rim.len()].place;
+                .map(|ring| {
+                    let next = |n: usize| ring[(n + 1) % ring.len()].place;
                     let way = |n: usize| {
-                        (next(n)[0] - rim[n].place[0]).hypot(next(n)[1] - rim[n].place[1])
+                        (next(n)[0] - ring[n].place[0]).hypot(next(n)[1] - ring[n].place[1])
                     };
-                    (0..rim.len()).map(way).sum::<f64>()
+                    (0..ring.len()).map(way).sum::<f64>()
                 })
                 .sum();
             let expected = std::f64::consts::TAU * (outer + inner);
             assert!((length / expected - 1.0).abs() < 0.02, "{length} {expected}");
-            for rim in fabric.rims.iter().flatten() {
-                let at = rim.of(&fabric.places);
-                assert!((at[0] - rim.place[0]).hypot(at[1] - rim.place[1]) < 1e-12);
+            for point in fabric.boundary.iter().flatten() {
+                let at = point.interpolate(&fabric.places);
+                assert!((at[0] - point.place[0]).hypot(at[1] - point.place[1]) < 1e-12);
                 assert!(outline.depth(at).abs() < 1e-9);
             }
         }

@@ -5,7 +5,7 @@
 //! bound, linear beyond it.
 
 use super::Sheet;
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use crate::geometry::vector::{along, dot, norm, sub};
 use crate::layup::Friction;
 use crate::mold::Mold;
@@ -62,7 +62,7 @@ impl Spring {
 
 impl Hold {
     /// How a sheet is held.
-    pub fn new(sheet: &Sheet, tuning: &Tuning) -> Self {
+    pub fn new(sheet: &Sheet, tuning: &SheetTuning) -> Self {
         let share = match sheet.friction {
             Friction::Coulomb(_) => tuning.slip,
             Friction::Stick | Friction::StickForEver => tuning.contact_depth,

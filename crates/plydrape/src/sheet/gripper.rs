@@ -13,7 +13,7 @@ pub struct Gripper {
     pub place: [f64; 2],
     /// Radius of its pad (m); zero holds one point.
     pub radius: f64,
-    /// Stiffness of its mount along x, y and z (N/m); none if rigid.
+    /// Stiffness of its mount along x, y and z (N/m); `None` if rigid.
     pub mount: Option<[f64; 3]>,
     /// Largest load along the ply that its pad holds (N); beyond it the fabric slides. None if it never does.
     pub slip_force: Option<f64>,
@@ -28,14 +28,14 @@ pub struct Hold {
     pub energy: f64,
     /// Force of the ply on the mount (N).
     pub force: [f64; 3],
-    /// Its derivative to the place of the fabric (N/m); of fabric that slides, its symmetric positive part.
+    /// Derivative to the place of the fabric (N/m); of fabric that slides, symmetric positive part.
     pub stiffness: Matrix3,
     /// By how much the fabric slides more than before (m).
     pub slides: [f64; 3],
 }
 
 impl Gripper {
-    /// What its mount does where the fabric that it holds is at a place (m); none of a rigid one.
+    /// What its mount does where the fabric that it holds is at a place (m); `None` for a rigid one.
     ///
     /// The mount is a spring. What it pulls along the pad is at most the slip force: beyond it the fabric slides under the
     /// pad, by as much as leaves the slip force in the spring.
@@ -71,7 +71,7 @@ impl Gripper {
 /// A gripper's pad in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pad {
-    /// Its middle (m).
+    /// Middle (m).
     pub position: [f64; 3],
     /// Where the robot holds the mount (m); the same if it is rigid.
     pub target: [f64; 3],
@@ -79,7 +79,7 @@ pub struct Pad {
     pub slip: [f64; 3],
     /// Direction of the stem that its joint tilts from (unit vector): upright unless a tool turns it.
     pub stem: [f64; 3],
-    /// Its turn: the rows of u, v and normal are the columns of this matrix.
+    /// Turn: the rows of u, v and normal are the columns of this matrix.
     pub turn: Matrix3,
 }
 
@@ -100,12 +100,12 @@ impl Pad {
         self.turn = orthonormal(&product(&rotation(w), &self.turn));
     }
 
-    /// Its unit normal.
+    /// Unit normal.
     pub fn normal(&self) -> [f64; 3] {
         times(&self.turn, [0.0, 0.0, 1.0])
     }
 
-    /// Its turn as a unit quaternion (x, y, z, w).
+    /// Turn as a unit quaternion (x, y, z, w).
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         quaternion([0, 1, 2].map(|axis| self.turn.map(|row| row[axis])))

@@ -3,7 +3,7 @@
 use super::fabric::Fabric;
 use super::gripper::Pad;
 use super::model::Sheet;
-use super::state::State;
+use super::state::ClothState;
 use super::stretch;
 use crate::geometry::Point;
 use crate::geometry::rotation::{continued, oriented};
@@ -29,7 +29,13 @@ pub struct HandOver {
 impl HandOver {
     /// The ply of a step; `last` if no other follows, so that what counts at the end alone is looked for.
     #[must_use]
-    pub fn state(&mut self, layup: &Layup, sheet: &Sheet, state: &State, last: bool) -> PlyState {
+    pub fn state(
+        &mut self,
+        layup: &Layup,
+        sheet: &Sheet,
+        state: &ClothState,
+        last: bool,
+    ) -> PlyState {
         let view = View { layup, sheet, turned: &self.turned };
         let normals = normals(&sheet.fabric, &state.positions);
         let grippers = view.grippers(state);
@@ -59,7 +65,12 @@ struct View<'a> {
 
 impl View<'_> {
     /// The nodes of the ply, at the end its boundary too, and middles of cells in the mold.
-    fn points(&self, state: &State, normals: &[Option<Point>], last: bool) -> Vec<FabricPoint> {
+    fn points(
+        &self,
+        state: &ClothState,
+        normals: &[Option<Point>],
+        last: bool,
+    ) -> Vec<FabricPoint> {
         let (fabric, mold) = (&self.sheet.fabric, self.sheet.mold.as_ref());
         let ideal = self.layup.target.as_ref().and_then(|target| target.drape.as_deref());
         let tolerance = self.layup.settings.contact.tolerance;
@@ -93,12 +104,12 @@ impl View<'_> {
             error: None,
         };
         if last {
-            for rim in fabric.rims.iter().flatten() {
-                let place = rim.of(&state.positions);
+            for point in fabric.boundary.iter().flatten() {
+                let place = point.interpolate(&state.positions);
                 let closest = mold.closest_point(place);
                 if !closest.beyond {
                     // a point of the boundary lies on the chord between nodes, which may be in the mold
-                    points.push(extra(rim.place, place, closest.distance.max(0.0)));
+                    points.push(extra(point.place, place, closest.distance.max(0.0)));
                 }
             }
         }
@@ -111,7 +122,7 @@ impl View<'_> {
     fn sunk_cells<'b>(
         &'b self,
         mold: &'b Mold,
-        state: &'b State,
+        state: &'b ClothState,
     ) -> impl Iterator<Item = ([f64; 2], Point, f64)> + 'b {
         let (fabric, mesh) = (&self.sheet.fabric, self.sheet.mesh);
         let curved = !matches!(mold, Mold::Plane(_));
@@ -136,7 +147,7 @@ impl View<'_> {
         })
     }
 
-    fn lines(&self, state: &State) -> Vec<LineState> {
+    fn lines(&self, state: &ClothState) -> Vec<LineState> {
         let fabric = &self.sheet.fabric;
         let line = |(n, segment): (usize, &super::fabric::Segment)| {
             let [a, b] = segment.nodes.map(|node| node as usize);
@@ -160,7 +171,7 @@ impl View<'_> {
         fabric.segments.iter().enumerate().map(line).collect()
     }
 
-    fn cells(&self, state: &State, last: bool) -> Vec<CellState> {
+    fn cells(&self, state: &ClothState, last: bool) -> Vec<CellState> {
         let fabric = &self.sheet.fabric;
         let cells = fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
         let cell = |(cell, shear): (&super::fabric::Cell, &f64)| {
@@ -177,7 +188,7 @@ impl View<'_> {
         cells.map(cell).collect()
     }
 
-    fn grippers(&self, state: &State) -> Vec<GripperState> {
+    fn grippers(&self, state: &ClothState) -> Vec<GripperState> {
         let pads = state.pads.iter().zip(&state.forces).zip(&state.holds).enumerate();
         let gripper = |(n, ((pad, force), holds)): (usize, ((&Pad, &[f64; 3]), &bool))| {
             let before = self.turned.get(n).copied();
@@ -201,7 +212,7 @@ impl View<'_> {
         &self,
         n: usize,
         pad: &Pad,
-        state: &State,
+        state: &ClothState,
         before: Option<[f64; 4]>,
     ) -> ([f64; 4], f64) {
         let gripper = &self.sheet.grippers[n];

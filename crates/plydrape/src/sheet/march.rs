@@ -10,7 +10,7 @@ use super::drape::Status;
 use super::energy::Phase;
 use super::newton::Failure;
 use super::release::Releases;
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use crate::geometry::vector::{between, distance};
 use crate::layup::{Layup, SheetTime};
 
@@ -46,7 +46,7 @@ pub struct March<'a> {
     /// Smallest share of a step of the motion that was solved.
     pub smallest_step: f64,
     sheet: &'a Sheet,
-    tuning: Tuning,
+    tuning: SheetTuning,
     /// What the time of the motion is.
     time: SheetTime,
     /// Whether to stop, asked before each time step.
@@ -62,7 +62,7 @@ impl<'a> March<'a> {
     pub fn new(
         layup: &Layup,
         sheet: &'a Sheet,
-        tuning: Tuning,
+        tuning: SheetTuning,
         cloth: Cloth<'a>,
         releases: Option<Releases<'a>>,
         stop: &'a dyn Fn() -> bool,
@@ -122,7 +122,7 @@ impl<'a> March<'a> {
         let [duration, longest] = self.durations(way, times);
         let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
         let mut done = 0.0;
-        // a motion in its own time needs so many steps at least
+        // a motion in its own time needs this many steps at least
         let mut tries = self.tuning.tries + (2.0 * duration / longest) as usize;
         while done < 1.0 {
             if self.is_stopped() {
@@ -155,7 +155,7 @@ impl<'a> March<'a> {
                     }
                 }
                 Err(failure) => {
-                    let Tuning { turn: most, turn_margin, turn_retry, .. } = self.tuning;
+                    let SheetTuning { turn: most, turn_margin, turn_retry, .. } = self.tuning;
                     let shorter = match failure {
                         Failure::Turn(turn) => (turn_margin * most / turn).clamp(turn_retry, 0.5),
                         _ => 0.5,

@@ -54,8 +54,8 @@ pub use hand_over::HandOver;
 pub use model::{Sheet, coarsest_mesh, pitch};
 pub use raised::{Raised, raised};
 pub use report::{Drape, Report};
-pub use state::State;
-pub use tuning::Tuning;
+pub use state::ClothState;
+pub use tuning::SheetTuning;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -6,7 +6,7 @@ use crate::Error;
 use crate::layup::{Friction, Layup, PadSettings, Settings, SheetTime};
 use crate::material::{MomentCurve, Section, ShearCurve, ShearRate, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::{Direction, Grid, Neighbours, Outline, Ply};
+use crate::ply::{Direction, Grid, Neighbors, Outline, Ply};
 use crate::tool::Tool;
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
@@ -22,9 +22,9 @@ const CLOSE: f64 = 0.3;
 pub struct Sheet {
     /// Nodes, segments and cells.
     pub fabric: Fabric,
-    /// Its grippers.
+    /// Grippers.
     pub grippers: Vec<Gripper>,
-    /// The mold; none for a ply that only hangs.
+    /// The mold; `None` for a ply that only hangs.
     pub mold: Option<Mold>,
     /// Mass per area (kg/m²).
     pub areal_mass: f64,
@@ -114,7 +114,7 @@ impl Sheet {
         }
         // a single line stands for a strip one cell wide
         let width = if b > 0.0 { b } else { a };
-        let fabric = Fabric::of(ply, settings)?;
+        let fabric = Fabric::new(ply, settings)?;
 
         let areal_mass = ply.areal_mass();
         let rigidity = match material.section {
@@ -205,7 +205,7 @@ impl Fabric {
     ///
     /// # Errors
     /// [`Error::SheetPadsOverhang`] or [`Error::SheetPadOff`] if pads hang over the boundary.
-    pub fn of(ply: &Ply, settings: &Settings) -> Result<Self, Error> {
+    pub fn new(ply: &Ply, settings: &Settings) -> Result<Self, Error> {
         let ([a, b], grid) = (ply.cell, ply.grid);
         let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch(ply));
@@ -298,7 +298,7 @@ fn spans_an_area(held: &[(usize, [f64; 2])]) -> bool {
     })
 }
 
-/// Stiffness of a mount along x, y and z (N/m); none if it is rigid and holds whatever pulls.
+/// Stiffness of a mount along x, y and z (N/m); `None` if it is rigid and holds whatever pulls.
 ///
 /// One that is rigid along some axes only has the stiffness `stiffest` (N/m) there, far more than the ply. Where the fabric
 /// can slide under the pad of a rigid one, it gives by a ten-thousandth of the pitch (m) before it does.
@@ -325,11 +325,11 @@ pub fn pitch(ply: &Ply) -> f64 {
     if ply.grid != Grid::NONE {
         return if ply.grid.nv > 1 { a.min(b) } else { a };
     }
-    let distance = |pair: &Neighbours| {
+    let distance = |pair: &Neighbors| {
         let [[u, v], [p, q]] = pair.grippers.map(|n| ply.place(n));
         (p - u).hypot(q - v)
     };
-    ply.neighbours().iter().map(distance).fold(f64::INFINITY, f64::min).min(a.max(b))
+    ply.neighbors().iter().map(distance).fold(f64::INFINITY, f64::min).min(a.max(b))
 }
 
 fn check(holds: bool, what: &'static str, value: f64, range: &'static str) -> Result<(), Error> {

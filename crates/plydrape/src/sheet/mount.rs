@@ -7,7 +7,7 @@ use super::energy::{Energy, Stiffness};
 use super::gripper::{Gripper, Pad};
 use super::pads::Pads;
 use super::system::{System, add};
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use super::unknowns::Carrier;
 use crate::geometry::vector::{cross, norm};
 use crate::sheet::matrix3::{IDENTITY, outer, scaled};
@@ -43,7 +43,7 @@ pub struct Mounts<'a> {
 
 impl<'a> Mounts<'a> {
     /// The mounts of the pads of a sheet, whose unknowns are those of `system`.
-    pub fn new(sheet: &'a Sheet, tuning: &Tuning, pads: &Pads, system: &System) -> Self {
+    pub fn new(sheet: &'a Sheet, tuning: &SheetTuning, pads: &Pads, system: &System) -> Self {
         let grip = |nodes: &[(usize, [f64; 2])]| {
             let (node, _) = *nodes.first()?;
             match system.carrier(node) {

@@ -15,7 +15,7 @@ use crate::geometry::vector::{norm, sub};
 pub enum Failure {
     /// Newton's iteration did not come to an end.
     Iterations,
-    /// The first step turns segments by so much (rad), too far to be linear.
+    /// The first step turns segments by this much (rad), too far to be linear.
     Turn(f64),
     /// A node came to the mold from too far away.
     Landing,
@@ -177,7 +177,7 @@ impl Cloth<'_> {
         self.assemble(stiffness, Parts::All);
     }
 
-    /// The same with the contacts that were found last, or its gradient alone.
+    /// Assembles the system with the contacts that were found last, or its gradient alone.
     fn assemble(&mut self, stiffness: Stiffness, parts: Parts) {
         self.system.begin(&self.now, parts);
         for term in self.energies.incremental(self.phase) {
@@ -224,7 +224,7 @@ impl Cloth<'_> {
         turn.is_finite().then(|| turn.max(f64::MIN_POSITIVE))
     }
 
-    /// Largest share of a linear step that is taken: contact and friction that switch to and fro settle in shorter steps.
+    /// Largest share of a linear step that is taken: contact and friction that switch to and fro converge in shorter steps.
     fn largest_share(&self, iteration: usize) -> f64 {
         let late = iteration >= self.tuning.full_iterations;
         if late && self.has_switched() { 0.5 } else { 1.0 }
@@ -266,7 +266,7 @@ impl Cloth<'_> {
     }
 
     /// Refuses a time step in which grippers and a node that came to the mold went farther than twice what
-    /// [`super::Tuning::contact_way`] allows.
+    /// [`super::SheetTuning::contact_way`] allows.
     fn check_landing(&self) -> Result<(), Failure> {
         let most = 2.0 * self.tuning.contact_way * self.sheet.pitch;
         let mut pads = self.now.pads.iter().zip(&self.before.pads);

@@ -1,7 +1,7 @@
 //! Height over the mold, split into ridges and bridges.
 //!
-//! Along each line of fabric, the nodes that are clear of the mold stand between two that touch. Where the fabric between
-//! those is longer than the way along the mold, the excess length is caught in a *ridge*; where it is shorter, the fabric
+//! Along each line of fabric, the nodes that are clear of the mold lie between two that touch. Where the fabric between
+//! those is longer than the way along the mold, the excess length forms a *ridge*; where it is shorter, the fabric
 //! is taut over a hollow, a *bridge*. A node on two such lines counts for the one with the larger difference of its length.
 
 use super::fabric::Fabric;
@@ -17,7 +17,7 @@ pub enum Raised {
     Bridge,
 }
 
-/// What holds each node that is more than `clear` (m) over the mold; none of nodes that touch, are off to the side of the
+/// What holds each node that is more than `clear` (m) over the mold; `None` for nodes that touch, are off to the side of the
 /// mold, or are raised only on lines with a free end.
 #[must_use]
 pub fn raised(fabric: &Fabric, mold: &Mold, x: &[[f64; 3]], clear: f64) -> Vec<Option<Raised>> {

@@ -35,7 +35,7 @@ pub struct Releases<'a> {
 impl<'a> Releases<'a> {
     /// By the rule of a layup, for the pads of its sheet, which grip the ply as the motion begins; `None` if they hold it to the end.
     /// Nodes up to `low` (m) over the mold lie.
-    pub fn of(layup: &'a Layup, sheet: &'a Sheet, low: f64) -> Option<Self> {
+    pub fn new(layup: &'a Layup, sheet: &'a Sheet, low: f64) -> Option<Self> {
         let (rule, ply) = (layup.release.as_ref()?, &layup.ply);
         let times = &layup.motion.times;
         let grippers = sheet.grippers.len();
@@ -60,7 +60,7 @@ impl<'a> Releases<'a> {
         pressing.map(|since| since + self.rule.dwell).min_by(f64::total_cmp)
     }
 
-    /// Since when the pad of a gripper presses that lets go on the way (s); none if it holds on, or has let go.
+    /// Since when the pad of a gripper presses that lets go on the way (s); `None` if it holds on, or has let go.
     fn presses_since(&self, gripper: usize) -> Option<f64> {
         let since = match &self.rule.times {
             Some(times) => {

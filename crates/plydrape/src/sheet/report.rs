@@ -4,7 +4,7 @@ use super::drape::Status;
 use super::event::Event;
 use super::model::Sheet;
 use super::raised::{Raised, raised};
-use super::state::State;
+use super::state::ClothState;
 use crate::geometry::vector::{cross, dot, norm, sub};
 
 /// What a drape of the sheet says beside its measures. What needs a mold is `None` without one.
@@ -14,7 +14,7 @@ use crate::geometry::vector::{cross, dot, norm, sub};
 pub struct Report {
     /// Nodes.
     pub nodes: usize,
-    /// Largest height of a ridge at the end, where excess length is caught (mm).
+    /// Largest height of a ridge at the end, formed by excess length (mm).
     pub ridge_max_mm: Option<f64>,
     /// Largest height of a bridge at the end, where the fabric is taut over a hollow (mm).
     pub bridge_max_mm: Option<f64>,
@@ -38,7 +38,13 @@ pub struct Report {
 
 impl Report {
     /// Looks at the state of a step. `gripped` says which nodes grippers hold; nodes up to `touching` (m) over the mold touch it.
-    pub(super) fn see(&mut self, sheet: &Sheet, gripped: &[bool], state: &State, touching: f64) {
+    pub(super) fn see(
+        &mut self,
+        sheet: &Sheet,
+        gripped: &[bool],
+        state: &ClothState,
+        touching: f64,
+    ) {
         let (fabric, x) = (&sheet.fabric, &state.positions);
         for bend in &fabric.bends {
             let [a, b, c] = bend.nodes.map(|n| n as usize);
@@ -63,7 +69,7 @@ impl Report {
     }
 
     /// Adds what the last state says; points up to `clear` (m) over the mold lie on it.
-    pub(super) fn end(&mut self, sheet: &Sheet, clear: f64, last: &State) {
+    pub(super) fn end(&mut self, sheet: &Sheet, clear: f64, last: &ClothState) {
         let fabric = &sheet.fabric;
         self.nodes = fabric.places.len();
         (self.energy_j, self.kinetic_energy_j) = (last.energy, last.kinetic_energy);
@@ -97,7 +103,7 @@ pub struct Drape {
     /// Shear angle of each cell (rad) in the step in which the last of its nodes came to the mold; `None` of others.
     pub landing_shear: Vec<Option<f64>>,
     /// The last state.
-    pub last: State,
+    pub last: ClothState,
     /// Time that it took.
     pub duration: std::time::Duration,
 }

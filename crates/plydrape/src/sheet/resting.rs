@@ -7,7 +7,7 @@
 use super::configuration::Configuration;
 use super::contact::Contact;
 use super::system::System;
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use super::unknowns::{Carrier, coupled_pairs};
 use super::weight::Weight;
 use super::{Fabric, Sheet};
@@ -40,7 +40,7 @@ pub struct Resting {
 
 impl Resting {
     /// The nodes of a sheet, none of which lies.
-    pub fn new(sheet: &Sheet, tuning: &Tuning) -> Self {
+    pub fn new(sheet: &Sheet, tuning: &SheetTuning) -> Self {
         let fabric: &Fabric = &sheet.fabric;
         let nodes = fabric.places.len();
         Resting {

@@ -48,7 +48,7 @@ struct Flow {
 
 impl Flow {
     /// Energy per area (J/m²), force per length (N/m) and its slope (N/m per rad) that a cell adds at a shear angle (rad).
-    fn of(&self, cell: usize, angle: f64) -> [f64; 3] {
+    fn stress(&self, cell: usize, angle: f64) -> [f64; 3] {
         let (before, more) = (self.forces[cell], angle - self.angles[cell]);
         let slope = self.left * self.stiffness;
         let force = self.left * before + slope * more;
@@ -74,7 +74,7 @@ struct MidLines {
 }
 
 impl MidLines {
-    fn of(nodes: [[f64; 3]; 4]) -> Self {
+    fn new(nodes: [[f64; 3]; 4]) -> Self {
         let [a, b, c, d] = nodes;
         let along = [0, 1, 2].map(|n| 0.5 * (b[n] + c[n] - a[n] - d[n]));
         let across = [0, 1, 2].map(|n| 0.5 * (c[n] + d[n] - a[n] - b[n]));
@@ -88,7 +88,7 @@ impl MidLines {
 /// Shear angle of a cell (rad) by its four nodes (m), positive where the mid-lines close.
 #[must_use]
 pub fn angle(nodes: [[f64; 3]; 4]) -> f64 {
-    MidLines::of(nodes).angle
+    MidLines::new(nodes).angle
 }
 
 impl Shear {
@@ -125,7 +125,7 @@ impl Shear {
     pub fn end(&mut self, x: &[[f64; 3]]) {
         let Some(flow) = &mut self.flow else { return };
         for (cell, e) in self.cells.iter().enumerate() {
-            let [_, force, _] = flow.of(cell, angle(e.nodes.map(|n| x[n])));
+            let [_, force, _] = flow.stress(cell, angle(e.nodes.map(|n| x[n])));
             flow.forces[cell] = force;
         }
         flow.left = 1.0;
@@ -146,7 +146,8 @@ impl Shear {
     fn stress(&self, cell: usize, angle: f64) -> [f64; 2] {
         let (size, slope) = self.curve.force(angle);
         let stress = if angle < 0.0 { -size } else { size };
-        let [_, more, steeper] = self.flow.as_ref().map_or([0.0; 3], |flow| flow.of(cell, angle));
+        let [_, more, steeper] =
+            self.flow.as_ref().map_or([0.0; 3], |flow| flow.stress(cell, angle));
         [stress + more, slope + steeper]
     }
 }
@@ -164,7 +165,7 @@ impl Energy for Shear {
     fn value(&self, now: &Configuration) -> f64 {
         let energy = |(cell, e): (usize, &Element)| {
             let angle = angle(e.nodes.map(|n| now.x[n]));
-            let flow = self.flow.as_ref().map_or(0.0, |flow| flow.of(cell, angle)[0]);
+            let flow = self.flow.as_ref().map_or(0.0, |flow| flow.stress(cell, angle)[0]);
             e.area * (self.curve.energy(angle) + flow)
         };
         self.cells.iter().enumerate().map(energy).sum()
@@ -175,7 +176,7 @@ impl Energy for Shear {
             if system.skips(&e.nodes) {
                 continue;
             }
-            let lines = MidLines::of(e.nodes.map(|n| now.x[n]));
+            let lines = MidLines::new(e.nodes.map(|n| now.x[n]));
             let [stress, slope] = self.stress(cell, lines.angle);
             let [u, v] = lines.unit;
 
@@ -199,7 +200,8 @@ impl Energy for Shear {
             let turn = [0, 1].map(|n| normal.map(|c| c / lines.length[n]));
             // tan(θ/2) = cos γ / (1 + sin γ)
             let tangent = lines.cos / (1.0 + lines.sin);
-            let [alike, opposite] = [stress * tangent, -stress / tangent].map(|k| stiffness.of(k));
+            let [alike, opposite] =
+                [stress * tangent, -stress / tangent].map(|k| stiffness.keep(k));
             let [own, mixed] = [alike + opposite, alike - opposite].map(|sum| 0.5 * e.area * sum);
             // second derivatives to the mid-lines
             let second = |i: usize, j: usize| {

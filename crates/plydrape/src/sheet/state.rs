@@ -4,7 +4,7 @@ use super::gripper::Pad;
 
 /// The sheet after one step of the motion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct State {
+pub struct ClothState {
     /// Counts from 1, the start.
     pub step: usize,
     /// Time of the motion (s); after its end that of the release.

@@ -92,7 +92,7 @@ impl Energy for Stretch {
             }
 
             // along it the slope of the law, across it the predicted tension, eq. (19h)
-            let turning = stiffness.of(*predicted) / length;
+            let turning = stiffness.keep(*predicted) / length;
             let stretching = slope * s.width / s.length;
             let mut k: Matrix3 =
                 outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));

@@ -8,7 +8,7 @@ use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::friction::penalty;
 use super::system::System;
-use super::tuning::Tuning;
+use super::tuning::SheetTuning;
 use super::unknowns::Carrier;
 
 /// The table under a ply.
@@ -28,7 +28,7 @@ pub struct Table {
 
 impl Table {
     /// The table under a sheet, with all nodes whose places are unknowns; `None` of a sheet that lies on none.
-    pub fn new(sheet: &Sheet, tuning: &Tuning, system: &System) -> Option<Self> {
+    pub fn new(sheet: &Sheet, tuning: &SheetTuning, system: &System) -> Option<Self> {
         let pressure = penalty(sheet, tuning.contact_depth);
         let nodes = sheet.fabric.areas.iter().enumerate();
         let nodes: Vec<(usize, f64)> = nodes

@@ -2,7 +2,7 @@
 
 /// Tolerances and constants of the sheet's solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct SheetTuning {
     /// Depth (of the pitch of the grippers) that the ply's own weight sinks into the contact's penalty: small enough that
     /// the pressure of taut yarns on a mold, some hundred times the weight, stays below 0.02 mm of 100 mm.
     pub contact_depth: f64,
@@ -20,13 +20,13 @@ pub struct Tuning {
     pub lift: f64,
     /// Largest step of Newton's iteration at which a time step is solved (of the mesh).
     pub step_tolerance: f64,
-    /// The same where the drape ends.
+    /// Largest step of Newton's iteration at which the drape ends (of the mesh).
     pub rest_tolerance: f64,
     /// Safety with which a step of the iteration is taken to go with the square of the one before, where it tells that the next
     /// one is below the tolerance.
     pub next_step: f64,
     /// Iterations after which a time step in which the ply buckles, so that its matrix is not positive definite, is solved with
-    /// steps that are so many times as large as otherwise.
+    /// steps that are this many times as large as otherwise.
     pub creep_iterations: usize,
     /// How many times as large.
     pub creep: f64,
@@ -77,9 +77,9 @@ pub struct Tuning {
     pub turn_stiffness: f64,
 }
 
-impl Default for Tuning {
+impl Default for SheetTuning {
     fn default() -> Self {
-        Tuning {
+        SheetTuning {
             contact_depth: 1e-7,
             mount_contact: 100.0,
             slip: 1e-4,

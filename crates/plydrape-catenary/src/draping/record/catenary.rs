@@ -35,7 +35,7 @@ pub enum Hold {
 /// One catenary in one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CatenaryState {
-    /// Its family.
+    /// Family.
     pub kind: Kind,
     /// Gripper at its first end.
     pub from: GripperId,
@@ -86,7 +86,7 @@ pub struct SpanState {
     pub length: f64,
     /// Way between its ends (m), negative where a gripper has passed the end of what is in contact: a fold.
     pub path: f64,
-    /// Horizontal force (N); none where the model gives none.
+    /// Horizontal force (N); `None` where the model gives none.
     pub force: Option<f64>,
     /// Slopes at its ends.
     pub slopes: [f64; 2],
@@ -118,21 +118,21 @@ impl SpanState {
     pub fn ruck(&self, ply: &Ply, gravity: f64, catenary: &CatenaryState) -> Option<Ruck> {
         let line = ply.line(catenary.kind);
         let slack = excess(self.length - self.path, catenary.length);
-        Ruck::of(slack, line.flexural_rigidity, line.mass * gravity)
+        Ruck::from_slack(slack, line.flexural_rigidity, line.mass * gravity)
     }
 }
 
 /// The segment of a catenary that is in contact; segments beside it may lie there too.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactState {
-    /// Its line on the mold (m), first to last.
+    /// Line on the mold (m), first to last.
     pub points: Vec<[f64; 3]>,
     /// Fabric arc length of each of these points from the first gripper (m).
     pub arc: Vec<f64>,
-    /// Distance of each of these points from its place in the ideal drape (mm); none where that is not known.
+    /// Distance of each of these points from its place in the ideal drape (mm); `None` where that is not known.
     pub landing_error_mm: Option<Vec<Option<f64>>>,
     /// Angle between the line, from end to end, and the same fabric in the ideal drape (°); edges only.
-    pub fibre_angle_deg: Option<f64>,
+    pub fiber_angle_deg: Option<f64>,
 }
 
 impl ContactState {
@@ -142,7 +142,7 @@ impl ContactState {
         [self.arc[0], self.arc[self.arc.len() - 1]]
     }
 
-    /// Its fabric length (m).
+    /// Fabric length (m).
     #[must_use]
     pub fn length(&self) -> f64 {
         let [from, to] = self.ends();

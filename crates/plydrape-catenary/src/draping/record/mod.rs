@@ -17,7 +17,7 @@ use crate::ply::{GripperId, Kind};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CatenaryId {
-    /// Its family.
+    /// Family.
     pub kind: Kind,
     /// Gripper at its first end.
     pub from: GripperId,
@@ -34,7 +34,7 @@ pub struct Solver {
     pub status: Status,
     /// Iterations of the last equilibrium.
     pub iterations: usize,
-    /// Its optimality residual.
+    /// Optimality residual.
     pub residual: f64,
     /// Equilibria solved in this step.
     pub equilibria: usize,
@@ -53,7 +53,7 @@ impl Solver {
 /// A cell in one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
-    /// Its lowest gripper.
+    /// Lowest gripper.
     pub cell: GripperId,
     /// Shear angle (°), 0 where no diagonal shears.
     pub shear_deg: f64,

@@ -4,9 +4,9 @@
 //! the problem and its derivative along a direction.
 
 use super::element::{Element, End, class};
-use super::line::Line;
+use super::line::StraightLine;
 use crate::catenary::SpanState;
-use crate::equilibrium::{Number, Tuning};
+use crate::equilibrium::{EquilibriumTuning, Number};
 use crate::layup::{ContactEnd, Settings};
 use crate::ply::{ContactSegment, Kind, Lines, Ply};
 
@@ -14,12 +14,12 @@ use crate::ply::{ContactSegment, Kind, Lines, Ply};
 pub struct Circumstances<'a, T> {
     /// The ply.
     pub ply: &'a Ply,
-    /// Its lines.
+    /// Lines.
     pub lines: &'a Lines,
     /// Rules of the model.
     pub settings: &'a Settings,
     /// Constants of the method.
-    pub tuning: &'a Tuning,
+    pub tuning: &'a EquilibriumTuning,
     /// Positions of the grippers (m).
     pub positions: &'a [[T; 3]],
     /// Contact segment of each catenary.
@@ -89,25 +89,25 @@ impl<T: Number> Circumstances<'_, T> {
     }
 
     /// The straight line of the free segment at an end of a catenary, from its first to its second end.
-    pub fn segment_line(&self, catenary: usize, end: usize) -> Line<T> {
+    pub fn segment_line(&self, catenary: usize, end: usize) -> StraightLine<T> {
         let ends = self.ends(catenary);
         match &self.contacts[catenary] {
-            None => Line::new(ends[0], ends[1]),
+            None => StraightLine::new(ends[0], ends[1]),
             // one that lies, or has no length, has no direction of its own: it goes on as the contact segment ends
             Some(contact)
                 if (contact.free_length(end) <= 0.0 || contact.lying[end])
                     && contact.line.length() > 0.0 =>
             {
                 let [a, b] = contact.end_piece(end).map(constant);
-                Line::new(a, b)
+                StraightLine::new(a, b)
             }
             Some(contact) => {
                 // a touch at the very gripper has no direction: the other free segment leaves from there
                 let point = contact.line.length() <= 0.0 && contact.free_length(end) <= 0.0;
                 if (end == 0) != point {
-                    Line::new(ends[0], constant(contact.point()[0]))
+                    StraightLine::new(ends[0], constant(contact.point()[0]))
                 } else {
-                    Line::new(constant(contact.point()[1]), ends[1])
+                    StraightLine::new(constant(contact.point()[1]), ends[1])
                 }
             }
         }
@@ -117,13 +117,15 @@ impl<T: Number> Circumstances<'_, T> {
     pub fn taut_path(&self, catenary: usize) -> T {
         let ends = self.ends(catenary);
         match &self.contacts[catenary] {
-            None => Line::new(ends[0], ends[1]).chord,
+            None => StraightLine::new(ends[0], ends[1]).chord,
             Some(contact) => {
                 let [a, b] = contact.point().map(constant);
                 let along =
                     contact.line.length() + contact.excess_length[0] + contact.excess_length[1];
                 let factor = self.factors.length[class(self.kind(catenary))];
-                Line::new(ends[0], a).chord + Line::new(b, ends[1]).chord + factor * along
+                StraightLine::new(ends[0], a).chord
+                    + StraightLine::new(b, ends[1]).chord
+                    + factor * along
             }
         }
     }
@@ -133,7 +135,7 @@ impl<T: Number> Circumstances<'_, T> {
         &self,
         catenary: usize,
         segment: usize,
-        line: &Line<T>,
+        line: &StraightLine<T>,
         length: T,
     ) -> Element<T> {
         let kind = self.kind(catenary);
@@ -163,7 +165,7 @@ impl<T: Number> Circumstances<'_, T> {
         catenary: usize,
         contact: &ContactSegment,
         end: usize,
-        line: &Line<T>,
+        line: &StraightLine<T>,
     ) -> Element<T> {
         let kind = self.kind(catenary);
         let length = T::from(contact.free_length(end)) * self.factors.length[class(kind)];
@@ -178,7 +180,7 @@ impl<T: Number> Circumstances<'_, T> {
         kind: Kind,
         contact: &ContactSegment,
         end: usize,
-        line: &Line<T>,
+        line: &StraightLine<T>,
     ) -> End<T> {
         match self.settings.contact.end {
             ContactEnd::Free => End::Free,

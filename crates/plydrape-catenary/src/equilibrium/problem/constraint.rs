@@ -103,7 +103,7 @@ pub fn constrain<T: Number>(
     }
 }
 
-/// Upward unit normal of the plane along two directions; none where they are parallel, or where the normal's vertical
+/// Upward unit normal of the plane along two directions; `None` where they are parallel, or where the normal's vertical
 /// part is no more than `upright`.
 fn upward_normal<T: Number>(a: [T; 3], b: [T; 3], upright: f64) -> Option<[T; 3]> {
     let cross = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];

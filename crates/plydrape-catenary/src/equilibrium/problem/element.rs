@@ -47,7 +47,7 @@ pub enum End<T> {
 pub struct PlaneSlope<T> {
     /// Share of the edge slope along u and along v.
     pub share: [T; 2],
-    /// Those edge slopes.
+    /// Where the edge slopes along u and along v come from.
     pub source: [SlopeSource<T>; 2],
 }
 

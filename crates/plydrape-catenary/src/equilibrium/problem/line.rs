@@ -5,7 +5,7 @@ use crate::ply::Lines;
 
 /// A straight line from one place to another.
 #[derive(Clone, Copy)]
-pub struct Line<T> {
+pub struct StraightLine<T> {
     delta: [T; 2],
     /// Horizontal length ℓ (m).
     pub run: T,
@@ -20,13 +20,13 @@ fn root<T: Number>(square: T) -> T {
     if square.re() > 0.0 { square.sqrt() } else { T::from(0.0) }
 }
 
-impl<T: Number> Line<T> {
+impl<T: Number> StraightLine<T> {
     /// From one place to another (m).
-    pub fn new(from: [T; 3], to: [T; 3]) -> Line<T> {
+    pub fn new(from: [T; 3], to: [T; 3]) -> StraightLine<T> {
         let delta = [to[0] - from[0], to[1] - from[1]];
         let rise = to[2] - from[2];
         let square = delta[0] * delta[0] + delta[1] * delta[1];
-        Line { delta, run: root(square), rise, chord: root(square + rise * rise) }
+        StraightLine { delta, run: root(square), rise, chord: root(square + rise * rise) }
     }
 
     /// Slope from the first end to the second; 0 if they coincide.
@@ -53,7 +53,7 @@ pub fn heading<T: Number>(
     gripper: usize,
     direction: usize,
 ) -> Option<[T; 2]> {
-    let [before, after] = lines.neighbours(gripper, direction);
-    let line = Line::new(positions[before], positions[after]);
+    let [before, after] = lines.neighbors(gripper, direction);
+    let line = StraightLine::new(positions[before], positions[after]);
     (line.run.re() > 0.0).then(|| line.heading())
 }

@@ -17,7 +17,7 @@ pub use slopes::{SharedSlope, Side};
 
 use super::Number;
 use crate::catenary::SpanState;
-use crate::ply::{BiasLines, Fibres, Kind, shear};
+use crate::ply::{BiasLines, Fibers, Kind, shear};
 use slopes::Slopes;
 
 /// The free spans of a ply at given gripper positions. A solve does not change it.
@@ -94,10 +94,10 @@ impl<T: Number> Problem<T> {
             for (bias, falling) in cell.bias.iter().zip([false, true]) {
                 for n in bias.list() {
                     let path = around.taut_path(*n);
-                    let is_stretched = match cell.fibres {
-                        Fibres::Sides => shears && falling == longer.1,
+                    let is_stretched = match cell.fibers {
+                        Fibers::Sides => shears && falling == longer.1,
                         // a side is stretched by its own ends, whichever of its two cells shears more
-                        Fibres::Diagonals => shear::is_shearing(trellis, path.re()),
+                        Fibers::Diagonals => shear::is_shearing(trellis, path.re()),
                     };
                     if is_stretched {
                         self.stretched[*n - self.edges] = Some(path);
@@ -202,7 +202,7 @@ impl<T: Number> Problem<T> {
         }
     }
 
-    /// Slope of the ply at a gripper along a direction (0: u, 1: v), `heading` in plan; none where the ply has no
+    /// Slope of the ply at a gripper along a direction (0: u, 1: v), `heading` in plan; `None` where the ply has no
     /// edge in that direction. `free` and `held` are the slopes at both ends of an element, without constraints and with.
     ///
     /// That of the plane of the shearing cells, or the shared one; on the boundary that of the one edge; where two

@@ -7,7 +7,7 @@
 use super::circumstances::Circumstances;
 use super::constraint::Constraint;
 use super::element::{Element, End, PlaneSlope, SlopeSource};
-use super::line::Line;
+use super::line::StraightLine;
 use crate::equilibrium::Number;
 
 /// An unknown slope: that of a line of edges at a gripper, which two hanging edges share.
@@ -53,7 +53,7 @@ impl<T> Default for Slopes<T> {
 }
 
 impl<T: Number> Slopes<T> {
-    /// Forgets all edges, for so many grippers.
+    /// Forgets all edges, for this many grippers.
     pub fn reset(&mut self, grippers: usize) {
         self.shared.clear();
         self.headings.clear();
@@ -124,7 +124,7 @@ impl<T: Number> Slopes<T> {
         constraints: &[Option<Constraint<T>>],
         catenary: usize,
         [element, end]: [usize; 2],
-        line: &Line<T>,
+        line: &StraightLine<T>,
     ) -> End<T> {
         let along = line.heading();
         if around.ply.line(around.kind(catenary)).flexural_rigidity == 0.0 {
@@ -135,14 +135,14 @@ impl<T: Number> Slopes<T> {
             let free = around.free.get(element).map(|slopes| slopes[end]);
             return End::Prescribed(constraint.blend(free, along));
         }
-        // the fibre lines between which it leaves, before the gripper (0) or behind it (1); at a boundary those that go on
+        // the fiber lines between which it leaves, before the gripper (0) or behind it (1); at a boundary those that go on
         let away = around.lines.way(catenary);
-        let fibres = [0, 1].map(|d| {
+        let fibers = [0, 1].map(|d| {
             let side = usize::from((away[d] > 0.0) == (end == 0));
             let beside = around.lines.beside(gripper, d);
             [side, 1 - side].into_iter().find_map(|side| Some((side, beside[side]?)))
         });
-        let [Some((side_u, edge_u)), Some((side_v, edge_v))] = fibres else { return End::Free };
+        let [Some((side_u, edge_u)), Some((side_v, edge_v))] = fibers else { return End::Free };
         let sides = [side_u, side_v];
         let [u, v] = [self.headings[edge_u][1 - side_u], self.headings[edge_v][1 - side_v]];
         let determinant = u[0] * v[1] - u[1] * v[0];

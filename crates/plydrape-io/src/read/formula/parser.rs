@@ -15,7 +15,7 @@ use winnow::token::{any, one_of, take_while};
 /// Most brackets, signs and powers within each other.
 const DEEPEST: usize = 64;
 
-// How tightly operators bind. A sign lets the power behind it come first, and may stand in an exponent.
+// How tightly operators bind. A sign lets the power behind it come first, and may be in an exponent.
 const SUM: i64 = 1;
 const PRODUCT: i64 = 3;
 const SIGN: i64 = 5;
@@ -23,11 +23,11 @@ const POWER: i64 = 7;
 
 /// Operations, each behind its operands.
 type Program = Vec<Operation>;
-type Input<'a> = Stateful<LocatingSlice<&'a str>, State<'a>>;
+type Input<'a> = Stateful<LocatingSlice<&'a str>, ParserState<'a>>;
 type Parsed<T> = ModalResult<T, Misread>;
 
 #[derive(Debug)]
-struct State<'a> {
+struct ParserState<'a> {
     text: &'a str,
     /// How deep in brackets, signs and powers.
     depth: usize,
@@ -35,7 +35,7 @@ struct State<'a> {
 
 /// The operations of a formula.
 pub(super) fn program(text: &str) -> Result<Program, Misread> {
-    let input = Input { input: LocatingSlice::new(text), state: State { text, depth: 0 } };
+    let input = Input { input: LocatingSlice::new(text), state: ParserState { text, depth: 0 } };
     let end = alt((eof.void(), misplaced));
     delimited(spaces, formula, end).parse(input).map_err(|error| error.into_inner())
 }
@@ -171,7 +171,7 @@ fn refuse<T>(at: Range<usize>, fault: Fault) -> Parsed<T> {
     Err(ErrMode::Cut(Misread { at, fault }))
 }
 
-/// Where the operator or bracket before this place stands.
+/// Position of the operator or bracket before this place.
 fn before(i: &Input) -> Range<usize> {
     let read = i.state.text[..i.current_token_start()].trim_end();
     let power = read.ends_with("**").then_some(2);
@@ -179,7 +179,7 @@ fn before(i: &Input) -> Range<usize> {
     read.len() - sign.unwrap_or(0)..read.len()
 }
 
-/// What is wrong with what stands behind a whole value.
+/// Fault of what follows a whole value.
 fn misplaced(i: &mut Input) -> Parsed<()> {
     if let Some((word, at)) = opt(alt((word, "(")).with_span()).parse_next(i)? {
         return refuse(at, fault::operator(word));

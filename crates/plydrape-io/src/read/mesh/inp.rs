@@ -77,7 +77,7 @@ enum Data {
 
 /// Where nodes and elements go.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum Section {
     File,
     Part,
     Instance,
@@ -90,7 +90,7 @@ struct Reader<'a> {
     flat: Scope,
     parts: Vec<Scope>,
     instances: Vec<Instance>,
-    place: Place,
+    place: Section,
     data: Data,
     /// Numbers of an element that goes on in the next line.
     pending: Vec<u64>,
@@ -105,7 +105,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, Error> {
         flat: Scope { name: "the file".to_owned(), ..Scope::default() },
         parts: Vec::new(),
         instances: Vec::new(),
-        place: Place::File,
+        place: Section::File,
         data: Data::Ignored,
         pending: Vec::new(),
         skipped: Vec::new(),
@@ -138,10 +138,10 @@ impl Reader<'_> {
             return Err(self.lines.ends(expected));
         }
         match self.place {
-            Place::File if self.lines.number == 0 => Err(self.lines.ends("`*Node`")),
-            Place::File => Ok(()),
-            Place::Part => Err(self.lines.ends("`*End Part`")),
-            Place::Instance => Err(self.lines.ends("`*End Instance`")),
+            Section::File if self.lines.number == 0 => Err(self.lines.ends("`*Node`")),
+            Section::File => Ok(()),
+            Section::Part => Err(self.lines.ends("`*End Part`")),
+            Section::Instance => Err(self.lines.ends("`*End Instance`")),
         }
     }
 
@@ -187,8 +187,9 @@ impl Reader<'_> {
                 };
                 self.data = Data::Skipped(self.skipped_type(kind, role));
             }
-            "PART" | "INSTANCE" if self.place != Place::File => {
-                let end = if self.place == Place::Part { "`*End Part`" } else { "`*End Instance`" };
+            "PART" | "INSTANCE" if self.place != Section::File => {
+                let end =
+                    if self.place == Section::Part { "`*End Part`" } else { "`*End Instance`" };
                 return Err(self.lines.fault(line, end));
             }
             "PART" => {
@@ -196,7 +197,7 @@ impl Reader<'_> {
                     value("NAME").ok_or_else(|| self.lines.fault(line, "`*Part, name=…`"))?;
                 let name = format!("part `{part}`");
                 self.parts.push(Scope { name, ..Scope::default() });
-                self.place = Place::Part;
+                self.place = Section::Part;
             }
             "INSTANCE" => {
                 let missing = || self.lines.fault(line, "`*Instance, name=…, part=…`");
@@ -204,11 +205,11 @@ impl Reader<'_> {
                 let part = value("PART").map(|part| self.part(part)).transpose()?;
                 let own = Scope { name: format!("instance `{name}`"), ..Scope::default() };
                 self.instances.push(Instance { part, own, placing: Placing::default() });
-                self.place = Place::Instance;
+                self.place = Section::Instance;
                 self.data = Data::Placing { lines: 0 };
             }
-            "END PART" if self.place == Place::Part => self.place = Place::File,
-            "END INSTANCE" if self.place == Place::Instance => self.place = Place::File,
+            "END PART" if self.place == Section::Part => self.place = Section::File,
+            "END INSTANCE" if self.place == Section::Instance => self.place = Section::File,
             "END PART" => return Err(self.lines.fault(line, "`*Part` before it")),
             "END INSTANCE" => return Err(self.lines.fault(line, "`*Instance` before it")),
             _ => {
@@ -265,8 +266,8 @@ impl Reader<'_> {
     /// Where nodes and elements go at this place of the file.
     fn scope(&mut self) -> &mut Scope {
         match (self.place, self.parts.last_mut(), self.instances.last_mut()) {
-            (Place::Part, Some(part), _) => part,
-            (Place::Instance, _, Some(instance)) => &mut instance.own,
+            (Section::Part, Some(part), _) => part,
+            (Section::Instance, _, Some(instance)) => &mut instance.own,
             _ => &mut self.flat,
         }
     }
@@ -343,7 +344,7 @@ impl Reader<'_> {
         match self.scope().nodes.insert(node, (point, now)) {
             Some((other, before)) if other != point => {
                 let message = format!(
-                    "node {node} is defined again at another place; it stands in line {before} already"
+                    "node {node} is defined again at another place; it is in line {before} already"
                 );
                 Err(refused(self.file, now, message, "give it a number of its own"))
             }

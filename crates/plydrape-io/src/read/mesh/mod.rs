@@ -41,7 +41,7 @@ fn quoted(name: &str) -> String {
     if name.chars().all(is_plain) { name.to_owned() } else { format!("\"{name}\"") }
 }
 
-/// The same from the contents of a file; its name states the format and stands in messages.
+/// Reads a mesh from the contents of a file; its name gives the format and appears in messages.
 ///
 /// # Errors
 /// As [`read`].

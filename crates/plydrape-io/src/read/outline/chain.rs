@@ -4,7 +4,7 @@
 //! drawings have them that were exploded or converted: both ends move to the middle of their gap.
 
 use super::entity::{Curve, Placed};
-use super::place::{Place, mm, toml};
+use super::place::{EntityPlace, mm, toml};
 use crate::error::Fault;
 use plydrape::ply::Ring;
 use std::collections::BTreeSet;
@@ -15,10 +15,10 @@ const MOST_NEAR: usize = 8;
 /// A closed line.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// Its points (m).
+    /// Points (m).
     pub ring: Ring,
     /// A curve and a point of it, for messages.
-    pub place: Place,
+    pub place: EntityPlace,
     /// The layers of its curves.
     pub layers: BTreeSet<String>,
     /// The block that its curves are of.
@@ -31,7 +31,7 @@ pub struct Closed {
 #[derive(Debug, Clone)]
 pub struct Open {
     /// The curve, and where it ends.
-    pub place: Place,
+    pub place: EntityPlace,
     /// Whether more than two curves end there.
     pub is_crowded: bool,
     /// Counts the ends of curves in the order of the file.
@@ -147,7 +147,7 @@ impl End {
         2 * self.curve + usize::from(self.last)
     }
 
-    fn of(index: usize) -> Self {
+    fn new(index: usize) -> Self {
         End { curve: index / 2, last: index % 2 == 1 }
     }
 
@@ -160,7 +160,7 @@ impl End {
         if self.last { points[points.len() - 1] } else { points[0] }
     }
 
-    fn place(self, curves: &[Curve]) -> Place {
+    fn place(self, curves: &[Curve]) -> EntityPlace {
         curves[self.curve].place(self.at(curves))
     }
 }
@@ -179,7 +179,7 @@ enum Joint {
 /// For each end the other one that is the same but for rounding.
 fn same(curves: &[Curve], join: f64) -> Vec<Joint> {
     let mut joints = vec![Joint::Alone; 2 * curves.len()];
-    for [a, b] in near((0..joints.len()).map(End::of).collect(), curves, join) {
+    for [a, b] in near((0..joints.len()).map(End::new).collect(), curves, join) {
         for (from, to) in [(a, b), (b, a)] {
             let joint = &mut joints[from.index()];
             *joint = if *joint == Joint::Alone { Joint::To(to, 0.0) } else { Joint::Crowded };
@@ -208,7 +208,7 @@ fn near<'a>(
 
 /// Joins the ends that are alone over gaps up to a width (m), the narrowest first; both move to the middle of their gap.
 fn over_gaps(curves: &mut [Curve], extents: &[f64], joints: &mut [Joint], gap: f64) {
-    let alone = (0..joints.len()).filter(|end| joints[*end] == Joint::Alone).map(End::of);
+    let alone = (0..joints.len()).filter(|end| joints[*end] == Joint::Alone).map(End::new);
     // a line that is no longer than a gap does not close in itself
     let apart_enough = |[a, b]: &[End; 2]| a.curve != b.curve || extents[a.curve] > 2.0 * gap;
     let mut pairs: Vec<(f64, [End; 2])> = near(alone.collect(), curves, gap)

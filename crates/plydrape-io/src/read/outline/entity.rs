@@ -2,7 +2,7 @@
 
 use super::Options;
 use super::flatten::{self, Arc, Limit, Nurbs, TooMany};
-use super::place::Place;
+use super::place::EntityPlace;
 use super::transform::Transform;
 use crate::error::Fault;
 use ::dxf::Drawing;
@@ -23,13 +23,13 @@ const ROUNDING: f64 = 1e-6;
 /// A curve as a polygon.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    /// Its points (m); of a closed one the first is not repeated.
+    /// Points (m); of a closed one the first is not repeated.
     pub points: Vec<[f64; 2]>,
     /// Whether its end is its beginning.
     pub closed: bool,
-    /// Its type, as DXF names it.
+    /// Type, as DXF names it.
     pub entity: &'static str,
-    /// Its layer.
+    /// Layer.
     pub layer: String,
     /// The block that it is of.
     pub placed: Placed,
@@ -64,20 +64,20 @@ pub struct Text {
 
 impl Curve {
     /// A point of it, for messages.
-    pub fn place(&self, at: [f64; 2]) -> Place {
-        Place { entity: self.entity, layer: self.layer.clone(), at }
+    pub fn place(&self, at: [f64; 2]) -> EntityPlace {
+        EntityPlace { entity: self.entity, layer: self.layer.clone(), at }
     }
 }
 
-/// The curves of the layers that are wanted, and of those that are not their layers alone.
+/// The curves of the layers that are read, and of the other layers their names alone.
 pub struct Curves {
-    /// Those that are wanted.
+    /// The curves of the layers that are read.
     pub curves: Vec<Curve>,
     /// Layers of the others.
     pub others: BTreeSet<String>,
     /// The texts of all layers.
     pub texts: Vec<Text>,
-    /// Meshes that are written as polylines, on the layers that are wanted.
+    /// Meshes that are written as polylines, on the layers that are read.
     pub meshes: usize,
 }
 
@@ -157,7 +157,7 @@ impl Reader<'_> {
         if let EntityType::Text(text) = &entity.specific {
             let mirror = mirrored(&text.normal) == Some(true);
             let own = if mirror { Transform::mirror() } else { Transform::scale(1.0) };
-            let at = outer.after(&own).of(plane(&text.location));
+            let at = outer.after(&own).apply(plane(&text.location));
             let lines = plain(&text.value);
             if !lines.is_empty() && at.iter().all(|c| c.is_finite()) {
                 let is_beside = depth == 0 && text.text_style_name == "ATTRIB";
@@ -172,8 +172,11 @@ impl Reader<'_> {
             return Ok(());
         };
         let z_unit = flatten::stretch(outer.x, outer.y);
-        let place =
-            Place { entity: kind, layer: layer.to_owned(), at: outer.of([origin.x, origin.y]) };
+        let place = EntityPlace {
+            entity: kind,
+            layer: layer.to_owned(),
+            at: outer.apply([origin.x, origin.y]),
+        };
         if self.visited > MOST_ENTITIES {
             return Err(too_many_in_blocks(&place, MOST_ENTITIES, "entities in blocks"));
         }
@@ -234,7 +237,7 @@ impl Reader<'_> {
                     if mirrored { -ellipse.minor_axis_ratio } else { ellipse.minor_axis_ratio };
                 let start = ellipse.start_parameter;
                 let arc = Arc {
-                    centre: plane(&ellipse.center),
+                    center: plane(&ellipse.center),
                     p,
                     q: [-ratio * p[1], ratio * p[0]],
                     start,
@@ -261,7 +264,7 @@ impl Reader<'_> {
         if flat.points.len() > room {
             return Err(too_many(TooMany));
         }
-        let points: Vec<[f64; 2]> = flat.points.iter().map(|p| transform.of(*p)).collect();
+        let points: Vec<[f64; 2]> = flat.points.iter().map(|p| transform.apply(*p)).collect();
         if !points.iter().flatten().all(|c| c.is_finite()) {
             return Err(not_finite());
         }
@@ -293,7 +296,7 @@ impl Reader<'_> {
         &mut self,
         insert: &Insert,
         layer: &str,
-        place: &Place,
+        place: &EntityPlace,
         outer: &Transform,
         depth: usize,
     ) -> Result<(), Fault> {
@@ -374,7 +377,7 @@ fn plain(value: &str) -> Vec<String> {
     text.split('\n').map(words).filter(|line| !line.is_empty()).collect()
 }
 
-/// What an entity is called, a point of it, and the normal of its plane; none for what is no curve.
+/// What an entity is called, a point of it, and the normal of its plane; `None` for what is no curve.
 fn sort(entity: &EntityType) -> Option<(&'static str, Point, &Vector)> {
     Some(match entity {
         EntityType::Line(line) => ("LINE", line.p1.clone(), &line.extrusion_direction),
@@ -409,7 +412,7 @@ fn in_own_plane(entity: &EntityType) -> bool {
     }
 }
 
-/// Whether a plane is seen from behind; none for one that is inclined to the drawing.
+/// Whether a plane is seen from behind; `None` for one that is inclined to the drawing.
 fn mirrored(normal: &Vector) -> Option<bool> {
     let across = normal.x.hypot(normal.y);
     (normal.z != 0.0 && across <= ROUNDING * normal.z.abs()).then_some(normal.z < 0.0)
@@ -422,10 +425,10 @@ fn heights(entity: &EntityType) -> Option<[f64; 2]> {
         EntityType::Polyline(line) => line.vertices().map(|v| v.location.clone()).collect(),
         EntityType::Spline(spline) => spline.control_points.clone(),
         EntityType::Ellipse(ellipse) => {
-            let (centre, axis) = (&ellipse.center, &ellipse.major_axis);
+            let (center, axis) = (&ellipse.center, &ellipse.major_axis);
             vec![
-                centre.clone(),
-                Point::new(centre.x + axis.x, centre.y + axis.y, centre.z + axis.z),
+                center.clone(),
+                Point::new(center.x + axis.x, center.y + axis.y, center.z + axis.z),
             ]
         }
         _ => return None,
@@ -444,10 +447,10 @@ fn plane(point: &Point) -> [f64; 2] {
 }
 
 /// An arc of a circle, its angles in degrees.
-fn arc(centre: &Point, radius: f64, start: f64, sweep: f64, limit: Limit) -> Result<Flat, TooMany> {
+fn arc(center: &Point, radius: f64, start: f64, sweep: f64, limit: Limit) -> Result<Flat, TooMany> {
     let (p, q) = ([radius, 0.0], [0.0, radius]);
     let [start, sweep] = [start, sweep].map(f64::to_radians);
-    closed_if_whole(Arc { centre: plane(centre), p, q, start, sweep }, limit)
+    closed_if_whole(Arc { center: plane(center), p, q, start, sweep }, limit)
 }
 
 /// An arc that ends where it begins is whole, and an arc of no angle is that too.
@@ -477,7 +480,7 @@ fn polyline(vertices: Vec<([f64; 2], f64)>, closed: bool, limit: Limit) -> Resul
     Ok(Flat { points, closed })
 }
 
-fn nurbs(spline: &Spline, place: &Place) -> Result<Nurbs, Fault> {
+fn nurbs(spline: &Spline, place: &EntityPlace) -> Result<Nurbs, Fault> {
     if spline.control_points.is_empty() {
         return Err(Fault::new(
             format!("{place} has fit points and no control points"),
@@ -496,11 +499,11 @@ const FLAT: &str = "draw the outline flat, in the x-y plane";
 const EXPLODE: &str = "explode the block in the drawing";
 
 /// A curve in a plane that is not that of the drawing.
-fn tilted(place: &Place) -> Fault {
+fn tilted(place: &EntityPlace) -> Fault {
     Fault::new(format!("{place} lies in a plane that is inclined to the drawing"), FLAT)
 }
 
 /// Blocks within blocks without end, or too many of them.
-fn too_many_in_blocks(place: &Place, most: usize, what: &str) -> Fault {
+fn too_many_in_blocks(place: &EntityPlace, most: usize, what: &str) -> Fault {
     Fault::new(format!("{place} places more than {most} {what}"), EXPLODE)
 }

@@ -34,7 +34,7 @@ fn lines(sweep: f64, radius: f64, limit: Limit) -> Result<usize, TooMany> {
 #[derive(Debug, Clone, Copy)]
 pub struct Arc {
     /// Center c.
-    pub centre: [f64; 2],
+    pub center: [f64; 2],
     /// Half axis p, where t = 0.
     pub p: [f64; 2],
     /// Half axis q, where t = 90°.
@@ -54,7 +54,7 @@ impl Arc {
 
     fn at(&self, angle: f64) -> [f64; 2] {
         let (sin, cos) = (self.start + angle).sin_cos();
-        [0, 1].map(|n| self.centre[n] + self.p[n] * cos + self.q[n] * sin)
+        [0, 1].map(|n| self.center[n] + self.p[n] * cos + self.q[n] * sin)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A ply's outline from a drawing: ASCII DXF, of any version, to a boundary and its holes.
 //!
 //! 1. `pairs`: what is no part of an outline is left out of the text, then the library reads it;
-//! 2. `entity`: lines, arcs, circles, ellipses, polylines with bulges, splines and blocks of the layers that are wanted become
+//! 2. `entity`: lines, arcs, circles, ellipses, polylines with bulges, splines and blocks of the layers that are read become
 //!    polygons that stay within a tolerance of them (`flatten`);
 //! 3. `chain`: polygons are joined end to end into closed lines, over small gaps too;
 //! 4. `piece`: the largest of these is the boundary, and those inside it are holes; of several pieces one is chosen.
@@ -81,14 +81,14 @@ pub struct Drawn {
 /// Where a closed line of a drawing is from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
-    /// Its layers, one unless its curves are on several.
+    /// Layers, one unless its curves are on several.
     pub layers: Vec<String>,
     /// The outermost block that it is of, if any.
     pub block: Option<String>,
 }
 
 impl Source {
-    fn of(line: &Closed) -> Self {
+    fn new(line: &Closed) -> Self {
         Source {
             layers: line.layers.iter().cloned().collect(),
             block: line.placed.blocks.first().map(ToString::to_string),
@@ -133,7 +133,7 @@ fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
     let (drawing, skipped) = drawing(bytes)?;
     let unit = match options.unit {
         Some(unit) => above_zero("the unit of the drawing (m)", unit)?,
-        None => metres(drawing.header.default_drawing_units).ok_or_else(|| {
+        None => meters(drawing.header.default_drawing_units).ok_or_else(|| {
             Fault::new(
                 "its header gives no unit of length ($INSUNITS)",
                 "state the unit of the drawing, as in unit = \"mm\"",
@@ -213,8 +213,8 @@ fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
         .map_err(|fault| Fault::new(fault.to_string(), "correct the drawing"))?;
     Ok(Drawn {
         outline,
-        boundary: Source::of(boundary),
-        holes: holes.into_iter().map(Source::of).collect(),
+        boundary: Source::new(boundary),
+        holes: holes.into_iter().map(Source::new).collect(),
         gaps,
         others: chosen.others,
         skipped,
@@ -389,8 +389,8 @@ fn drawing(bytes: &[u8]) -> Result<(Drawing, BTreeMap<[String; 2], usize>), Faul
     Err(unread(format!("{found} of its {expected} entities can be read")))
 }
 
-/// A unit of a drawing (m); none if it has none.
-fn metres(units: Units) -> Option<f64> {
+/// A unit of a drawing (m); `None` if it has none.
+fn meters(units: Units) -> Option<f64> {
     Some(match units {
         Units::Microinches => 25.4e-9,
         Units::Mils => 25.4e-6,

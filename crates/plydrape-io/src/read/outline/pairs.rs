@@ -66,8 +66,8 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Where the reading of a text stands.
-enum State<'a> {
+/// State of the reading of a text.
+enum ReadingState<'a> {
     /// Between two sections.
     Outside,
     /// In a section.
@@ -94,7 +94,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
         Kept { text: Vec::new(), entities: 0, skipped: BTreeMap::new(), lines: Vec::new() };
     let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii_end).enumerate();
     let mut last = 1;
-    let mut state = State::Outside;
+    let mut state = ReadingState::Outside;
     // whether what is under way is kept: a variable, a table, an entity
     let mut keeps = false;
     let mut is_text = false;
@@ -124,7 +124,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
         if number == 0 {
             groups = 0;
             if std::mem::take(&mut frozen) {
-                // the library does not read the flag; a layer whose colour is negative is off
+                // the library does not read the flag; a layer whose color is negative is off
                 kept.push(line, b"62", b"-7");
             }
         }
@@ -133,56 +133,56 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
                 kept.push(line, code, value);
                 return Ok(kept);
             }
-            (State::Outside, 0, b"SECTION") => keeps = false,
-            (State::Outside, 2, section) => {
-                state = State::In(section);
+            (ReadingState::Outside, 0, b"SECTION") => keeps = false,
+            (ReadingState::Outside, 2, section) => {
+                state = ReadingState::In(section);
                 if SECTIONS.contains(&section) {
                     kept.push(line, b"0", b"SECTION");
                     kept.push(line, code, value);
                 }
             }
-            (State::Outside, ..) => {}
-            (State::In(section), 0, b"ENDSEC") => {
+            (ReadingState::Outside, ..) => {}
+            (ReadingState::In(section), 0, b"ENDSEC") => {
                 if SECTIONS.contains(section) {
                     kept.push(line, code, value);
                 }
-                state = State::Outside;
+                state = ReadingState::Outside;
                 keeps = false;
             }
-            (State::In(b"HEADER"), 9, variable) => {
+            (ReadingState::In(b"HEADER"), 9, variable) => {
                 keeps = VARIABLES.contains(&variable);
                 if keeps {
                     kept.push(line, code, value);
                 }
             }
-            (State::In(b"HEADER"), ..) if keeps => {
+            (ReadingState::In(b"HEADER"), ..) if keeps => {
                 check(line, number, code, value)?;
                 kept.push(line, code, value);
             }
             // the table of layers alone
-            (State::In(b"TABLES"), 0, b"TABLE") => keeps = false,
-            (State::In(b"TABLES"), 2, b"LAYER") if !keeps => {
+            (ReadingState::In(b"TABLES"), 0, b"TABLE") => keeps = false,
+            (ReadingState::In(b"TABLES"), 2, b"LAYER") if !keeps => {
                 keeps = true;
                 kept.push(line, b"0", b"TABLE");
                 kept.push(line, code, value);
             }
-            (State::In(b"TABLES"), 0, b"ENDTAB") => {
+            (ReadingState::In(b"TABLES"), 0, b"ENDTAB") => {
                 if keeps {
                     kept.push(line, code, value);
                 }
                 keeps = false;
             }
-            (State::In(b"TABLES"), ..) if keeps => {
+            (ReadingState::In(b"TABLES"), ..) if keeps => {
                 push_outside(&mut kept, &mut groups, (line, number, code, value))?;
                 let flags = std::str::from_utf8(name).ok().and_then(|text| text.parse().ok());
                 frozen |= number == 70 && flags.is_some_and(|flags: i64| flags & 1 == 1);
             }
-            (State::In(b"BLOCKS" | b"ENTITIES"), 0, entity) => {
+            (ReadingState::In(b"BLOCKS" | b"ENTITIES"), 0, entity) => {
                 is_text = TEXTS.contains(&entity);
                 keeps = is_text || ENTITIES.contains(&entity);
                 if is_text {
                     kept.push(line, code, TEXTS[0]);
-                    // its own type stands where the name of its style would
+                    // its own type is where the name of its style would be
                     kept.push(line, b"7", entity);
                 } else if keeps {
                     kept.push(line, code, value);
@@ -193,7 +193,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
                 }
                 skipped = (is_text || !keeps).then(|| shown(entity));
             }
-            (State::In(b"BLOCKS" | b"ENTITIES"), 8, layer) if skipped.is_some() => {
+            (ReadingState::In(b"BLOCKS" | b"ENTITIES"), 8, layer) if skipped.is_some() => {
                 let kind = skipped.take().unwrap_or_default();
                 let layer = String::from_utf8_lossy(layer).into_owned();
                 *kept.skipped.entry([kind, layer]).or_default() += 1;
@@ -202,14 +202,14 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, Fault> {
                 }
             }
             // of a text its words, its place, its plane and whether it is on the paper
-            (State::In(b"BLOCKS" | b"ENTITIES"), ..) if is_text => match number {
+            (ReadingState::In(b"BLOCKS" | b"ENTITIES"), ..) if is_text => match number {
                 1 => kept.push(line, code, value),
                 10 | 20 | 30 | 67 | 210 | 220 | 230 | GROUP => {
                     push_outside(&mut kept, &mut groups, (line, number, code, value))?;
                 }
                 _ => {}
             },
-            (State::In(b"BLOCKS" | b"ENTITIES"), ..) if keeps => {
+            (ReadingState::In(b"BLOCKS" | b"ENTITIES"), ..) if keeps => {
                 push_outside(&mut kept, &mut groups, (line, number, code, value))?;
             }
             _ => {}

@@ -8,7 +8,7 @@ use super::entity::Text;
 use super::place::{listed, toml};
 use super::{area, bounds, inside, lines};
 use crate::error::Fault;
-use crate::store::shown::millimetres;
+use crate::store::shown::millimeters;
 use plydrape::ply::Ring;
 use std::collections::BTreeSet;
 
@@ -34,7 +34,7 @@ pub struct Nest {
     around: Vec<Option<usize>>,
     /// How many lines are around each.
     depth: Vec<usize>,
-    /// Those that may be the ply.
+    /// The lines that may be the boundary of the ply.
     pieces: Vec<usize>,
 }
 
@@ -150,7 +150,7 @@ impl Nest {
     /// Why a choice chooses no piece, or several.
     fn not_one(&self, piece: Option<&Piece>, found: &[usize], texts: &[Text]) -> Fault {
         let (count, all) = (found.len(), self.pieces.len());
-        let point = |[x, y]: [f64; 2]| format!("({}, {}) mm", millimetres(x), millimetres(y));
+        let point = |[x, y]: [f64; 2]| format!("({}, {}) mm", millimeters(x), millimeters(y));
         let message = match (piece, count) {
             (None, _) => {
                 let [outer, inner] = [0, 1].map(|n| self.pieces[n]);
@@ -204,7 +204,7 @@ impl Nest {
         for &n in shown.iter().take(MOST) {
             let line = &self.lines[n];
             let point = self.point_in(n).map(|point| {
-                let [x, y] = point.map(millimetres);
+                let [x, y] = point.map(millimeters);
                 format!("point = [\"{x} mm\", \"{y} mm\"]")
             });
             let label = labels_of(n).first().map(|label| format!("label = {}", toml(label)));
@@ -263,7 +263,7 @@ fn plain(text: &str) -> String {
 /// How large a closed line is along x and y, in words.
 pub(super) fn size(ring: &Ring) -> String {
     let [low, high] = bounds(ring);
-    let [width, height] = [0, 1].map(|n| millimetres(high[n] - low[n]));
+    let [width, height] = [0, 1].map(|n| millimeters(high[n] - low[n]));
     format!("{width} × {height} mm")
 }
 

@@ -4,18 +4,18 @@ use std::fmt::{self, Write};
 
 /// A curve of a drawing, for messages: what it is, its layer, and a point of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Place {
-    /// Its type, as DXF names it.
+pub(super) struct EntityPlace {
+    /// Type, as DXF names it.
     pub entity: &'static str,
-    /// Its layer.
+    /// Layer.
     pub layer: String,
     /// A point of it (m).
     pub at: [f64; 2],
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for EntityPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Place { entity, layer, at } = self;
+        let EntityPlace { entity, layer, at } = self;
         write!(f, "{entity} on layer `{}` at {}", layer.escape_debug(), mm(*at))
     }
 }

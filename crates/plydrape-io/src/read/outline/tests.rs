@@ -16,7 +16,7 @@ fn drawing(unit: u8, entities: &str) -> String {
     )
 }
 
-fn millimetres(entities: &str) -> String {
+fn millimeters(entities: &str) -> String {
     drawing(4, entities)
 }
 
@@ -34,13 +34,13 @@ fn line(layer: &str, a: [f64; 2], b: [f64; 2]) -> String {
     entity("LINE", layer, &[(10, a[0]), (20, a[1]), (11, b[0]), (21, b[1])])
 }
 
-fn arc(layer: &str, centre: [f64; 2], radius: f64, from: f64, to: f64) -> String {
-    let pairs = [(10, centre[0]), (20, centre[1]), (40, radius), (50, from), (51, to)];
+fn arc(layer: &str, center: [f64; 2], radius: f64, from: f64, to: f64) -> String {
+    let pairs = [(10, center[0]), (20, center[1]), (40, radius), (50, from), (51, to)];
     entity("ARC", layer, &pairs)
 }
 
-fn circle(layer: &str, centre: [f64; 2], radius: f64) -> String {
-    entity("CIRCLE", layer, &[(10, centre[0]), (20, centre[1]), (40, radius)])
+fn circle(layer: &str, center: [f64; 2], radius: f64) -> String {
+    entity("CIRCLE", layer, &[(10, center[0]), (20, center[1]), (40, radius)])
 }
 
 /// A closed polyline of points and bulges.
@@ -107,7 +107,7 @@ fn off_circle(outline: &Outline, radius: f64) -> [f64; 2] {
 /// The area of a regular polygon of n corners on a circle is n/2 R² sin(2π/n); its lines are 1 − cos(π/n) of R from the circle.
 #[test]
 fn a_circle_is_the_polygon_with_the_fewest_lines_within_the_tolerance() {
-    let outline = of(&millimetres(&circle("0", [30.0, -20.0], 100.0))).unwrap();
+    let outline = of(&millimeters(&circle("0", [30.0, -20.0], 100.0))).unwrap();
     let lines = outline.boundary().len() as f64;
     assert!((outline.area() - 0.5 * lines * 0.01 * (2.0 * PI / lines).sin()).abs() < 1e-15);
     let off = |lines: f64| 0.1 * (1.0 - (PI / lines).cos());
@@ -117,11 +117,11 @@ fn a_circle_is_the_polygon_with_the_fewest_lines_within_the_tolerance() {
 /// A semicircle has the bulge 1; the two of a disc bulge outwards, or the one goes back inside the other.
 #[test]
 fn a_bulge_is_an_arc_to_the_side_of_its_sign() {
-    let disc = of(&millimetres(&bulged("0", &[[-50.0, 0.0, 1.0], [50.0, 0.0, 1.0]]))).unwrap();
+    let disc = of(&millimeters(&bulged("0", &[[-50.0, 0.0, 1.0], [50.0, 0.0, 1.0]]))).unwrap();
     let [least, most] = off_circle(&disc, 0.05);
     assert!(least >= -TOLERANCE && most < 1e-15, "{least} {most}");
     // from the right to the left along the upper half is counterclockwise; back over a flatter arc below it
-    let moon = of(&millimetres(&bulged("0", &[[50.0, 0.0, 1.0], [-50.0, 0.0, -0.5]]))).unwrap();
+    let moon = of(&millimeters(&bulged("0", &[[50.0, 0.0, 1.0], [-50.0, 0.0, -0.5]]))).unwrap();
     // circular segments by their angle θ = 4 atan(bulge) and radius c / (2 sin(θ/2))
     let segment = |bulge: f64| {
         let angle = 4.0 * bulge.atan();
@@ -151,7 +151,7 @@ fn a_rational_spline_lies_on_its_circle() {
     let text = quarter(100.0)
         + &line("0", [0.0, 100.0], [0.0, 0.0])
         + &line("0", [100.0, 0.0], [0.0, 0.0]);
-    let outline = of(&millimetres(&text)).unwrap();
+    let outline = of(&millimeters(&text)).unwrap();
     let arc: Vec<f64> = outline
         .boundary()
         .iter()
@@ -184,7 +184,7 @@ fn an_ellipse_has_its_area_whole_and_in_part() {
     let pairs = |start: f64, end: f64| {
         [(10, 5.0), (20, 7.0), (11, 60.0), (21, 80.0), (40, 0.3), (41, start), (42, end)]
     };
-    let whole = of(&millimetres(&entity("ELLIPSE", "0", &pairs(0.0, 2.0 * PI)))).unwrap();
+    let whole = of(&millimeters(&entity("ELLIPSE", "0", &pairs(0.0, 2.0 * PI)))).unwrap();
     let expected = PI * 0.1 * 0.03;
     // an ellipse of this size is 0.45 m around
     assert!((whole.area() - expected).abs() < 0.45 * TOLERANCE);
@@ -192,7 +192,7 @@ fn an_ellipse_has_its_area_whole_and_in_part() {
         let mut half = pairs(0.0, PI).to_vec();
         half.push((230, normal));
         let chord = line("0", [65.0, 87.0], [-55.0, -73.0]);
-        let half = of(&millimetres(&(entity("ELLIPSE", "0", &half) + &chord))).unwrap();
+        let half = of(&millimeters(&(entity("ELLIPSE", "0", &half) + &chord))).unwrap();
         assert!((half.area() - 0.5 * expected).abs() < 0.45 * TOLERANCE);
         // the half to the left of the major axis, or to its right
         let left = |p: &[f64; 2]| (0.6 * (p[1] - 0.007) - 0.8 * (p[0] - 0.005)) * side;
@@ -242,7 +242,7 @@ fn slots() -> Vec<String> {
 fn a_shape_is_the_same_however_it_is_drawn() {
     let expected = 0.1 * 0.04 + PI * 0.02 * 0.02;
     for (n, text) in slots().into_iter().enumerate() {
-        let outline = of(&millimetres(&text)).unwrap_or_else(|error| panic!("{n}: {error}"));
+        let outline = of(&millimeters(&text)).unwrap_or_else(|error| panic!("{n}: {error}"));
         let around = 0.2 + 0.04 * PI;
         assert!((outline.area() - expected).abs() < around * TOLERANCE, "{n}: {}", outline.area());
         for (found, due) in outline.bounds().iter().flatten().zip([-0.02, -0.02, 0.12, 0.02]) {
@@ -271,8 +271,8 @@ proptest! {
             let (a, b) = (point(*n), point(n + 1));
             if (seed >> (n % 64)) & 1 == 0 { line("0", a, b) } else { line("0", b, a) }
         });
-        let joined = of(&millimetres(&lines.collect::<String>())).unwrap();
-        let whole = of(&millimetres(&polygon("0", &points))).unwrap();
+        let joined = of(&millimeters(&lines.collect::<String>())).unwrap();
+        let whole = of(&millimeters(&polygon("0", &points))).unwrap();
         prop_assert_eq!(joined.boundary().len(), count);
         prop_assert!((joined.area() - whole.area()).abs() < 1e-15);
     }
@@ -290,7 +290,7 @@ proptest! {
             spline("0", 2.0, &[0.0, 0.0, 0.0, v[9], v[10], v[11]], &[[v[0], v[1], v[2]], [v[3], v[4], v[5]], [v[6], v[7], v[8]]]),
             entity("ELLIPSE", "0", &[(10, v[0]), (11, v[1]), (21, v[2]), (40, v[3]), (41, v[4]), (42, v[5])]),
         ] {
-            let _ = of(&millimetres(&text));
+            let _ = of(&millimeters(&text));
         }
     }
 }
@@ -301,11 +301,11 @@ fn closed_lines_inside_the_largest_are_holes() {
     let text = circle("HOLE", [30.0, 30.0], 10.0)
         + &square("CUT", [0.0, 0.0], 200.0)
         + &square("HOLE", [100.0, 100.0], 20.0);
-    let outline = of_layers(&millimetres(&text), Some(&["CUT", "HOLE"])).unwrap();
+    let outline = of_layers(&millimeters(&text), Some(&["CUT", "HOLE"])).unwrap();
     assert_eq!(outline.holes().len(), 2);
     let expected = 0.04 - 0.0004 - PI * 1e-4;
     assert!((outline.area() - expected).abs() < 0.07 * TOLERANCE);
-    assert_eq!(of_layers(&millimetres(&text), Some(&["cut"])).unwrap().holes().len(), 0);
+    assert_eq!(of_layers(&millimeters(&text), Some(&["cut"])).unwrap().holes().len(), 0);
 }
 
 /// A hole of 0.02 mm is seen by a cutter, even if curves are followed to 1 mm.
@@ -313,17 +313,17 @@ fn closed_lines_inside_the_largest_are_holes() {
 fn a_hole_smaller_than_the_tolerance_stays_a_hole() {
     let text = square("0", [0.0, 0.0], 200.0) + &circle("0", [30.0, 30.0], 0.01);
     let options = Options::new(1e-3);
-    let outline = drawn(&millimetres(&text), &options).unwrap().outline;
+    let outline = drawn(&millimeters(&text), &options).unwrap().outline;
     assert_eq!(outline.holes()[0].len(), 8);
 }
 
 #[test]
 fn every_unit_of_the_header_is_that_length() {
-    for (unit, metres) in
+    for (unit, meters) in
         [(1, 0.0254), (2, 0.3048), (4, 1e-3), (5, 1e-2), (6, 1.0), (10, 0.9144), (14, 0.1)]
     {
         let outline = of(&drawing(unit, &square("0", [0.0, 0.0], 1.0))).unwrap();
-        assert!((outline.area() - metres * metres).abs() < 1e-15, "{unit}");
+        assert!((outline.area() - meters * meters).abs() < 1e-15, "{unit}");
     }
 }
 
@@ -342,7 +342,7 @@ fn an_open_line_is_refused_with_the_place_and_width_of_its_gap() {
     let text = line("CUT", [0.0, 0.0], [100.0, 0.0])
         + &line("CUT", [100.0, 0.3], [100.0, 80.0])
         + &line("CUT", [100.0, 80.0], [0.0, 0.0]);
-    let (message, remedy) = refused(&millimetres(&text));
+    let (message, remedy) = refused(&millimeters(&text));
     assert_eq!(
         message,
         "ply.dxf: LINE on layer `CUT` at (100.000, 0.000) mm is not closed: it ends 0.300 mm from the nearest other open end, which is at (100.000, 0.300) mm"
@@ -350,7 +350,7 @@ fn an_open_line_is_refused_with_the_place_and_width_of_its_gap() {
     assert!(remedy.contains("join the ends"));
     // rounding of the sixth digit is no gap
     let rounded = text.replace("0.3\n", "0.0003\n");
-    assert!(of(&millimetres(&rounded)).is_ok());
+    assert!(of(&millimeters(&rounded)).is_ok());
 }
 
 #[test]
@@ -359,7 +359,7 @@ fn a_line_that_is_drawn_twice_is_refused_with_its_place() {
         + &line("0", [100.0, 0.0], [100.0, 80.0])
         + &line("0", [100.0, 80.0], [0.0, 0.0]);
     let twice = sides + &line("0", [100.0, 0.0], [0.0, 0.0]);
-    let (message, remedy) = refused(&millimetres(&twice));
+    let (message, remedy) = refused(&millimeters(&twice));
     assert!(message.contains("3 curves end at (0.000, 0.000) mm"), "{message}");
     assert!(remedy.contains("drawn twice"));
 }
@@ -368,7 +368,7 @@ fn a_line_that_is_drawn_twice_is_refused_with_its_place() {
 fn a_line_that_crosses_itself_is_refused_with_the_place() {
     let bow =
         polygon("0", &[[0.0, 0.0], [100.0, 100.0], [100.0, 0.0], [0.0, 100.0], [-50.0, 50.0]]);
-    let (message, _) = refused(&millimetres(&bow));
+    let (message, _) = refused(&millimeters(&bow));
     assert!(message.contains("(50.000, 50.000) mm"), "{message}");
 }
 
@@ -378,7 +378,7 @@ fn closed_lines_on_several_layers_ask_for_the_layers_of_the_ply() {
     let trim = polygon("EOP", &[[70.0, 70.0], [390.0, 70.0], [390.0, 290.0], [70.0, 290.0]]);
     let cut = polygon("MEOP", &[[0.0, 0.0], [460.0, 0.0], [460.0, 360.0], [0.0, 360.0]]);
     let text = trim + &cut + &square("EOP", [20.0, 20.0], 10.0);
-    let (message, remedy) = refused(&millimetres(&text));
+    let (message, remedy) = refused(&millimeters(&text));
     assert_eq!(
         message,
         "ply.dxf: its closed lines are on several layers, and none is named: `MEOP` has one of 460 × 360 mm, `EOP` has 2 of 10 × 10 mm to 320 × 220 mm"
@@ -388,15 +388,15 @@ fn closed_lines_on_several_layers_ask_for_the_layers_of_the_ply() {
         let layers = Some(layers.iter().map(ToString::to_string).collect());
         Options { layers, ..Options::new(TOLERANCE) }
     };
-    let cut = drawn(&millimetres(&text), &options(&["MEOP"])).unwrap();
+    let cut = drawn(&millimeters(&text), &options(&["MEOP"])).unwrap();
     assert_eq!((cut.boundary.layers, cut.holes.len()), (vec!["MEOP".to_owned()], 0));
-    let both = drawn(&millimetres(&text), &options(&["MEOP", "EOP"])).unwrap();
+    let both = drawn(&millimeters(&text), &options(&["MEOP", "EOP"])).unwrap();
     assert_eq!(both.holes.len(), 2);
     assert!(both.holes.iter().all(|hole| hole.layers == ["EOP"] && hole.block.is_none()));
     // of two plies on layers of their own it is the same question
     let two = square("PLY_1", [0.0, 0.0], 100.0) + &square("PLY_2", [200.0, 0.0], 50.0);
-    assert!(refused(&millimetres(&two)).0.contains("`PLY_2` has one of 50 × 50 mm"));
-    let chosen = of_layers(&millimetres(&two), Some(&["ply_2"])).unwrap();
+    assert!(refused(&millimeters(&two)).0.contains("`PLY_2` has one of 50 × 50 mm"));
+    let chosen = of_layers(&millimeters(&two), Some(&["ply_2"])).unwrap();
     assert!((chosen.area() - 0.0025).abs() < 1e-15);
 }
 
@@ -406,7 +406,7 @@ fn a_closed_line_of_two_layers_is_one_line() {
     let text = line("A", [0.0, 0.0], [100.0, 0.0])
         + &line("B", [100.0, 0.0], [100.0, 80.0])
         + &line("A", [100.0, 80.0], [0.0, 0.0]);
-    let found = drawn(&millimetres(&text), &Options::new(TOLERANCE)).unwrap();
+    let found = drawn(&millimeters(&text), &Options::new(TOLERANCE)).unwrap();
     assert_eq!(found.boundary.layers, ["A", "B"]);
 }
 
@@ -414,7 +414,7 @@ fn a_closed_line_of_two_layers_is_one_line() {
 #[test]
 fn a_closed_line_that_is_drawn_twice_is_refused() {
     let text = square("0", [0.0, 0.0], 100.0) + &square("0", [0.0, 0.0], 100.0);
-    let (message, remedy) = refused(&millimetres(&text));
+    let (message, remedy) = refused(&millimeters(&text));
     assert!(message.contains("a closed line is drawn twice"), "{message}");
     assert!(remedy.contains("remove one of the two"), "{remedy}");
 }
@@ -426,7 +426,7 @@ fn with_gaps(gaps: [f64; 4]) -> String {
         + &line("0", [300.0, 0.0], [300.0, 200.0 - b])
         + &line("0", [300.0, 200.0], [c, 200.0])
         + &line("0", [0.0, 200.0], [0.0, 0.0]);
-    millimetres(&sides)
+    millimeters(&sides)
 }
 
 #[test]
@@ -462,7 +462,7 @@ fn gaps_and_overlaps_close_without_crossings() {
         + &line("0", [149.98, 200.0], [149.9, 200.0])
         + &line("0", [149.88, 200.0], [0.0, 200.0])
         + &line("0", [0.0, 200.06], [0.0, 0.0]);
-    let found = drawn(&millimetres(&sides), &Options::new(1e-4)).unwrap();
+    let found = drawn(&millimeters(&sides), &Options::new(1e-4)).unwrap();
     assert_eq!(found.gaps.len(), 4);
     assert!((found.outline.area() - 0.06).abs() < 1e-4 * 0.5);
 }
@@ -476,7 +476,7 @@ fn lines_shorter_than_the_tolerance_are_joined_by_their_ends() {
         [10.0 * cos, 10.0 * sin]
     };
     let sides: String = (0..count).map(|n| line("0", point(n), point(n + 1))).collect();
-    let found = drawn(&millimetres(&sides), &Options::new(1e-4)).unwrap();
+    let found = drawn(&millimeters(&sides), &Options::new(1e-4)).unwrap();
     assert_eq!((found.outline.boundary().len(), found.gaps.len()), (count, 0));
 }
 
@@ -499,7 +499,7 @@ fn blocks(places: &[(&str, &str, [f64; 2])]) -> String {
         inserts += &insert.replacen("8\n1\n", &format!("8\n1\n2\n{name}\n"), 1);
     }
     text += "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
-    millimetres(&inserts).replace("0\nSECTION\n2\nENTITIES\n", &text)
+    millimeters(&inserts).replace("0\nSECTION\n2\nENTITIES\n", &text)
 }
 
 fn piece(text: &str, piece: Piece) -> Result<Drawn, Error> {
@@ -537,7 +537,7 @@ fn a_piece_of_a_nest_is_chosen_by_a_key_that_the_refusal_lists() {
         |x: f64| polygon("1", &[[x, 0.0], [x + 300.0, 0.0], [x + 300.0, 200.0], [x, 100.0]]);
     let nest = |more: &str| {
         let grain = line("7", [50.0, 60.0], [250.0, 60.0]);
-        millimetres(&(square("1", [0.0, 0.0], 300.0) + &small(400.0) + &grain + more))
+        millimeters(&(square("1", [0.0, 0.0], 300.0) + &small(400.0) + &grain + more))
     };
     let labels = text("TEXT", "Left", [10.0, 10.0])
         + &text("MTEXT", "{\\fArial|b0;Right}\\P2 pieces", [600.0, 20.0])
@@ -603,7 +603,7 @@ fn blocks_are_pieces_of_their_own_wherever_they_are_placed() {
     assert!(absent.help().contains("`P2`"), "{}", absent.help());
 }
 
-/// An attribute stands in the drawing beside its block, behind the place of that; so it is of that block wherever it stands.
+/// An attribute follows its block in the drawing, so it is of that block wherever it lies.
 #[test]
 fn an_attribute_of_a_block_is_a_label() {
     let shape = square("1", [0.0, 0.0], 100.0);
@@ -637,7 +637,7 @@ fn an_attribute_of_a_block_is_a_label() {
 /// A piece within a hole of another one is a piece, and a fault of another piece is no matter of the one that is chosen.
 #[test]
 fn a_piece_is_chosen_whatever_lies_beside_or_around_it() {
-    let text = millimetres(
+    let text = millimeters(
         &(square("1", [0.0, 0.0], 300.0)
             + &square("1", [50.0, 50.0], 200.0)
             + &square("1", [100.0, 100.0], 50.0)
@@ -662,21 +662,21 @@ fn entities_that_are_no_curves_are_counted_by_their_types() {
         + "0\nREGION\n8\nCUT\n1\nxyz\n"
         + &text("TEXT", "ply", [1.0, 1.0]).replace("NOTES", "CUT");
     let options = Options { layers: Some(vec!["CUT".into()]), ..Options::new(TOLERANCE) };
-    let found = drawn(&millimetres(&entities), &options).unwrap().skipped;
+    let found = drawn(&millimeters(&entities), &options).unwrap().skipped;
     let found: Vec<(&str, usize)> = found.iter().map(|(kind, n)| (kind.as_str(), *n)).collect();
     assert_eq!(found, [("HATCH", 2), ("REGION", 1), ("TEXT", 1)]);
-    let none = refused(&millimetres(&hatch("CUT"))).0;
+    let none = refused(&millimeters(&hatch("CUT"))).0;
     assert!(none.contains("1 HATCH"), "{none}");
 }
 
 #[test]
 fn a_layer_that_is_absent_or_empty_is_refused_with_those_there_are() {
-    let text = millimetres(&(square("CUT", [0.0, 0.0], 100.0) + &entity("TEXT", "NOTE", &[])));
+    let text = millimeters(&(square("CUT", [0.0, 0.0], 100.0) + &entity("TEXT", "NOTE", &[])));
     let absent = of_layers(&text, Some(&["CUTS"])).unwrap_err();
     assert_eq!(absent.to_string(), "ply.dxf: there is no layer `CUTS`");
     assert_eq!(absent.help(), "layers are `CUT`, `NOTE`");
     let inner = square("CUT", [0.0, 0.0], 100.0) + &entity("LWPOLYLINE", "NOTE", &[(90, 0.0)]);
-    let empty = of_layers(&millimetres(&inner), Some(&["NOTE"])).unwrap_err();
+    let empty = of_layers(&millimeters(&inner), Some(&["NOTE"])).unwrap_err();
     assert_eq!(empty.to_string(), "ply.dxf: it has no lines or curves on layer `NOTE`");
     assert_eq!(empty.help(), "layers with lines or curves are `CUT`");
 }
@@ -692,11 +692,11 @@ fn a_tiny_outline_is_refused_with_its_size() {
 /// A table of layers, each with flags and color.
 fn with_layers(layers: &[(&str, i32, i32)], entities: &str) -> String {
     let mut table = "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n9\n".to_owned();
-    for (name, flags, colour) in layers {
-        let _ = write!(table, "0\nLAYER\n2\n{name}\n70\n{flags}\n62\n{colour}\n6\nCONTINUOUS\n");
+    for (name, flags, color) in layers {
+        let _ = write!(table, "0\nLAYER\n2\n{name}\n70\n{flags}\n62\n{color}\n6\nCONTINUOUS\n");
     }
     table += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
-    millimetres(entities).replace("0\nSECTION\n2\nENTITIES\n", &table)
+    millimeters(entities).replace("0\nSECTION\n2\nENTITIES\n", &table)
 }
 
 #[test]
@@ -719,7 +719,7 @@ fn placed(insert: &[(i32, f64)]) -> String {
         square("0", [4.5, 4.5], 1.0) + &circle("0", [5.0, 5.2], 0.1)
     );
     let insert = entity("INSERT", "CUT", insert).replace("8\nCUT\n", "8\nCUT\n2\nPLY\n");
-    millimetres(&insert).replace("0\nSECTION\n2\nENTITIES\n", &blocks)
+    millimeters(&insert).replace("0\nSECTION\n2\nENTITIES\n", &blocks)
 }
 
 /// Scales of 100 and 50 make the block 100 mm by 50 mm and its hole an ellipse; the layer is that of the INSERT.
@@ -758,7 +758,7 @@ fn blocks_within_blocks_are_refused_before_they_grow() {
     let _ = write!(blocks, "0\nBLOCK\n8\n0\n2\nb16\n0\nENDBLK\n");
     let first = entity("INSERT", "0", &[]).replace("8\n0\n", "8\n0\n2\nb0\n");
     let blocks = format!("0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
-    let text = millimetres(&first).replace("0\nSECTION\n2\nENTITIES\n", &blocks);
+    let text = millimeters(&first).replace("0\nSECTION\n2\nENTITIES\n", &blocks);
     let (message, remedy) = refused(&text);
     assert!(message.contains("places more than"), "{message}");
     assert!(remedy.contains("explode"));
@@ -769,9 +769,9 @@ fn blocks_within_blocks_are_refused_before_they_grow() {
 #[test]
 fn curves_that_are_inclined_or_not_flat_are_refused() {
     let tilted = circle("0", [0.0, 0.0], 10.0).replace("40\n", "210\n0.6\n230\n0.8\n40\n");
-    assert!(refused(&millimetres(&tilted)).0.contains("is inclined to the drawing"));
+    assert!(refused(&millimeters(&tilted)).0.contains("is inclined to the drawing"));
     let rising = line("CUT", [0.0, 0.0], [100.0, 0.0]) + "31\n2.5\n";
-    let (message, remedy) = refused(&millimetres(&rising));
+    let (message, remedy) = refused(&millimeters(&rising));
     assert_eq!(
         message,
         "ply.dxf: LINE on layer `CUT` at (0.000, 0.000) mm is not flat: its z goes from 0.000 to 2.500 mm"
@@ -784,7 +784,7 @@ fn a_spline_with_fit_points_alone_is_refused_with_a_remedy() {
     let points: Vec<(i32, f64)> =
         [(71, 3.0), (74, 2.0), (11, 0.0), (21, 0.0), (31, 0.0), (11, 9.0), (21, 9.0), (31, 0.0)]
             .into();
-    let (message, remedy) = refused(&millimetres(&entity("SPLINE", "0", &points)));
+    let (message, remedy) = refused(&millimeters(&entity("SPLINE", "0", &points)));
     assert!(message.contains("has fit points and no control points"), "{message}");
     assert!(remedy.contains("control points"));
 }
@@ -806,7 +806,7 @@ fn a_spline_whose_numbers_do_not_fit_is_refused_with_the_number() {
         ),
         (3.0, &knots[..], &good[..], "3 control points, expected 4"),
     ] {
-        let (message, _) = refused(&millimetres(&spline("0", degree, knots, points)));
+        let (message, _) = refused(&millimeters(&spline("0", degree, knots, points)));
         assert!(message.contains(says), "{message}");
     }
 }
@@ -814,7 +814,7 @@ fn a_spline_whose_numbers_do_not_fit_is_refused_with_the_number() {
 #[test]
 fn a_circle_that_would_have_too_many_points_is_refused() {
     let options = Options::new(1e-18);
-    let text = millimetres(&circle("0", [0.0, 0.0], 1e6));
+    let text = millimeters(&circle("0", [0.0, 0.0], 1e6));
     let error = read_dxf("ply.dxf", text.as_bytes(), &options).unwrap_err();
     assert!(error.to_string().contains(&format!("more than {MOST_POINTS} points")), "{error}");
     assert_eq!(error.help(), "give a larger tolerance");
@@ -831,7 +831,7 @@ fn what_is_no_dxf_text_is_refused_as_what_it_is() {
         let error = read_dxf("ply.dxf", bytes, &Options::new(TOLERANCE)).unwrap_err();
         assert!(error.to_string().contains(says), "{error}");
     }
-    let wrong = millimetres(&circle("0", [0.0, 0.0], 10.0)).replace("40\n10.0", "40\nten");
+    let wrong = millimeters(&circle("0", [0.0, 0.0], 10.0)).replace("40\n10.0", "40\nten");
     let error = of(&wrong).unwrap_err();
     // the line of the file, not of what was kept of it
     let line = wrong.lines().position(|line| line == "ten").unwrap() + 1;
@@ -841,7 +841,7 @@ fn what_is_no_dxf_text_is_refused_as_what_it_is() {
 /// Comments, lines that end as on Windows, extended data, groups of applications and other sections change nothing.
 #[test]
 fn what_is_no_part_of_an_outline_changes_nothing() {
-    let plain = millimetres(&square("0", [0.0, 0.0], 100.0));
+    let plain = millimeters(&square("0", [0.0, 0.0], 100.0));
     let more = plain
         .replace("90\n4\n", "102\n{ACAD_X\n360\nFF\n102\n}\n90\n4\n1001\nACAD\n1002\n{\n")
         .replace("9\n$INSUNITS", "9\n$TDCREATE\n40\n1e300\n9\n$INSUNITS")
@@ -854,7 +854,7 @@ fn what_is_no_part_of_an_outline_changes_nothing() {
 #[test]
 fn groups_within_groups_without_end_are_left_out() {
     let deep = "102\n{A\n".repeat(1_000_000);
-    let text = millimetres(&(square("0", [0.0, 0.0], 100.0) + &deep));
+    let text = millimeters(&(square("0", [0.0, 0.0], 100.0) + &deep));
     assert!(of(&text).is_ok());
 }
 
@@ -862,7 +862,7 @@ fn groups_within_groups_without_end_are_left_out() {
 #[test]
 fn a_number_that_is_none_is_refused_with_its_line_wherever_it_is() {
     let text = slots().concat() + &quarter(10.0) + &circle("0", [0.0, 0.0], 3.0);
-    let text = millimetres(&text);
+    let text = millimeters(&text);
     let lines: Vec<&str> = text.lines().collect();
     for n in (1..lines.len()).step_by(2) {
         let code: i32 = lines[n - 1].parse().unwrap();
@@ -898,7 +898,7 @@ fn a_drawing_that_ends_early_is_refused() {
 /// From version 2007 on names are UTF-8; before, letters beyond ASCII are of the code page of Windows.
 #[test]
 fn layers_have_names_in_letters_of_every_version() {
-    let text = millimetres(&square("Größe", [0.0, 0.0], 100.0));
+    let text = millimeters(&square("Größe", [0.0, 0.0], 100.0));
     let text = |version: &str| {
         text.replace("9\n$INSUNITS", &format!("9\n$ACADVER\n1\n{version}\n9\n$INSUNITS"))
     };

@@ -34,7 +34,7 @@ impl Transform {
     }
 
     /// The image of a point.
-    pub fn of(&self, p: [f64; 2]) -> [f64; 2] {
+    pub fn apply(&self, p: [f64; 2]) -> [f64; 2] {
         let along = self.along(p);
         [along[0] + self.origin[0], along[1] + self.origin[1]]
     }
@@ -42,7 +42,11 @@ impl Transform {
     /// This map after another one.
     #[must_use]
     pub fn after(&self, first: &Transform) -> Self {
-        Transform { x: self.along(first.x), y: self.along(first.y), origin: self.of(first.origin) }
+        Transform {
+            x: self.along(first.x),
+            y: self.along(first.y),
+            origin: self.apply(first.origin),
+        }
     }
 
     /// The image of a direction.

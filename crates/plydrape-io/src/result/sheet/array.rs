@@ -18,7 +18,7 @@ pub enum Extent {
     Cells,
     /// Grippers.
     Grippers,
-    /// So many numbers.
+    /// This many numbers.
     Of(usize),
 }
 
@@ -36,11 +36,11 @@ pub enum Scalar {
 /// An array of the file.
 #[derive(Debug, Clone, Copy)]
 pub struct Array {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
     /// What its numbers are.
     pub scalar: Scalar,
-    /// Its dimensions.
+    /// Dimensions.
     pub shape: &'static [Extent],
 }
 
@@ -88,7 +88,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    pub(super) fn of(&self, extent: Extent) -> usize {
+    pub(super) fn count(&self, extent: Extent) -> usize {
         match extent {
             States => self.states,
             Nodes => self.nodes,
@@ -126,12 +126,12 @@ pub(super) const MAGIC: &[u8; 8] = b"\x93NUMPY\x01\x00";
 pub(super) const BEFORE: usize = 10;
 
 impl Array {
-    /// Its extents in numbers.
+    /// Extents in numbers.
     pub(super) fn lengths(&self, sizes: &Sizes) -> Vec<usize> {
-        self.shape.iter().map(|extent| sizes.of(*extent)).collect()
+        self.shape.iter().map(|extent| sizes.count(*extent)).collect()
     }
 
-    /// Bytes of its numbers; none beyond all range.
+    /// Bytes of its numbers; `None` beyond all range.
     pub(super) fn data(&self, sizes: &Sizes) -> Option<u64> {
         self.lengths(sizes)
             .iter()
@@ -188,7 +188,7 @@ impl Values<'_> {
 }
 
 impl SheetMesh<'_> {
-    /// Its numbers and where nodes landed, in the order of [`ARRAYS`].
+    /// Numbers and where nodes landed, in the order of [`ARRAYS`].
     pub(super) fn values<'a>(&'a self, landing_step: &'a [u32]) -> [Values<'a>; OF_MESH] {
         [
             Values::Real(self.places.as_flattened()),
@@ -201,7 +201,7 @@ impl SheetMesh<'_> {
 }
 
 impl SheetState<'_> {
-    /// Its numbers, in the order of [`ARRAYS`].
+    /// Numbers, in the order of [`ARRAYS`].
     pub(super) fn values(&self) -> impl Iterator<Item = Values<'_>> {
         let always = [
             Values::Index(std::slice::from_ref(&self.step)),

@@ -35,7 +35,7 @@ pub(super) fn mesh(mesh: &SheetMesh, landing_step: &[u32], sizes: &Sizes) -> Res
     Ok(())
 }
 
-/// Refuses a state whose arrays have other lengths than they must, or that comes before the one `after` which it stands.
+/// Refuses a state whose arrays have other lengths than they must, or that comes before the one `after` which it is listed.
 pub(super) fn state(
     state: &SheetState,
     sizes: &Sizes,
@@ -77,7 +77,7 @@ fn sound(array: &Array, values: Values, sizes: &Sizes) -> Result<(), String> {
         Values::Real(values) => {
             // a node has no height where there is no mold
             let may_lack = array.name == "height";
-            refuse(array, values, "a finite number is wanted", |value| {
+            refuse(array, values, "expected a finite number", |value| {
                 value.abs() <= LARGEST || (may_lack && value.is_nan())
             })
         }

@@ -19,10 +19,10 @@ pub(crate) struct CutCell {
 }
 
 impl CutCell {
-    /// Those of a sheet, in order; none of a ply that ends at lines of nodes, and none where the file is of another scene.
+    /// The cut cells of a sheet, in order; empty if the ply ends at lines of nodes, or the file is of another scene.
     pub fn all(ply: &Ply, settings: &Settings, mesh: &SheetMesh) -> Vec<CutCell> {
         let Some(cut) = &ply.cut else { return Vec::new() };
-        let Ok(fabric) = Fabric::of(ply, settings) else { return Vec::new() };
+        let Ok(fabric) = Fabric::new(ply, settings) else { return Vec::new() };
         if fabric.places.len() != mesh.places.len() {
             return Vec::new();
         }
@@ -65,7 +65,7 @@ mod tests {
             grippers = [3, 2]\ncell = [0.12, 0.12]\narray = { partly = \"leave-off\" }\nmaterial = \"krogh2018\"\n\
             [grippers]\nspacing = [0.118, 0.118]\nheight = 0.05\n";
         let scene = crate::scene::parse(text, Path::new(""), "scene").unwrap().scene;
-        let fabric = Fabric::of(&scene.layup.ply, &scene.layup.settings).unwrap();
+        let fabric = Fabric::new(&scene.layup.ply, &scene.layup.settings).unwrap();
         let mesh = SheetMesh {
             places: fabric.places.clone().into(),
             areas: fabric.areas.clone().into(),

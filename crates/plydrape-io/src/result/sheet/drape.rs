@@ -8,7 +8,7 @@ use plydrape::layup::Model;
 use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, Step, Summary};
 use plydrape::scene::Scene;
 use plydrape::sheet::fabric::Cell;
-use plydrape::sheet::{Fabric, Sheet, State, is_kept};
+use plydrape::sheet::{ClothState, Fabric, Sheet, is_kept};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
@@ -42,7 +42,7 @@ impl SheetSize {
     ///
     /// # Errors
     /// [`Error`] if the scene has no sheet, or one that is too large.
-    pub fn of(scene: &Scene) -> Result<Self, Error> {
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
         let sheet = Sheet::new(&scene.layup)?;
         let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
@@ -74,10 +74,10 @@ pub fn drape(
     let layup = &scene.layup;
     let (steps, keep) = (layup.motion.positions.len(), layup.settings.sheet.keep);
     if model == Model::Sheet {
-        SheetSize::of(scene)?;
+        SheetSize::new(scene)?;
     }
     let mut states = Vec::new();
-    let mut see = |step: usize, state: Option<&State>| {
+    let mut see = |step: usize, state: Option<&ClothState>| {
         progress(step);
         states.extend(state.filter(|state| is_kept(state.step, steps, keep)).cloned());
         ControlFlow::Continue(())
@@ -129,7 +129,7 @@ fn mesh(sheet: &Sheet, releases: bool) -> SheetMesh<'static> {
 }
 
 /// A state as it is kept: with the cells that are ply by half or more, and where pads let go with those that hold.
-fn kept_state<'a>(state: &'a State, fabric: &Fabric, releases: bool) -> SheetState<'a> {
+fn kept_state<'a>(state: &'a ClothState, fabric: &Fabric, releases: bool) -> SheetState<'a> {
     let all = fabric.cells.iter().all(Cell::is_ply);
     let of_ply = || fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
     let unknown = || vec![f64::NAN; state.positions.len()].into();

@@ -55,7 +55,7 @@ mod tests {
         let worst =
             |value| Worst { value, at: "fabric point (295.0, 100.0) mm".into(), place: None };
         for (strain, too_far) in [(0.004, false), (0.1149, true)] {
-            let verdict = Verdict::of(Name::Strain, worst(strain), 0.005, Some(28));
+            let verdict = Verdict::new(Name::Strain, worst(strain), 0.005, Some(28));
             summary.limits.push(verdict);
             let after = "no state of the sheet was found after step 28 of 30";
             assert_eq!(ended(&summary).as_deref(), Some(after));
@@ -69,7 +69,7 @@ mod tests {
             }
             summary.limits.pop();
         }
-        let verdict = Verdict::of(Name::Strain, worst(0.1149), 0.005, Some(28));
+        let verdict = Verdict::new(Name::Strain, worst(0.1149), 0.005, Some(28));
         (summary.status, summary.limits) = (Status::Converged, vec![verdict]);
         assert_eq!(overstrained(&summary), None);
     }

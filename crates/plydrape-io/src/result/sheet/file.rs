@@ -83,7 +83,7 @@ impl SheetFile {
         let hidden = tempfile::Builder::new().prefix(".sheet-").tempdir_in(dir)?;
         let path = hidden.path().join(NAME);
         fs::write(&path, bytes)?;
-        Ok(SheetFile { path, seal: SheetSeal::of(bytes)?, _dir: hidden })
+        Ok(SheetFile { path, seal: SheetSeal::read(bytes)?, _dir: hidden })
     }
 
     /// What `result.json` has to say of it.

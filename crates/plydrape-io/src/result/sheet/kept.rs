@@ -10,30 +10,30 @@ use std::sync::Arc;
 
 /// The states of a result's sheet in their file, wherever that is by now.
 ///
-/// Those of a drape are in a hidden folder as long as the result is; those of a result that was read are beside it.
+/// The states of a drape are in a hidden folder as long as the result exists; those of a result that was read are beside it.
 #[derive(Debug, Clone)]
 pub struct SheetKept {
     seal: SheetSeal,
-    place: Place,
+    place: Location,
 }
 
 #[derive(Debug, Clone)]
-enum Place {
+enum Location {
     Hidden(Arc<SheetFile>),
     Folder(PathBuf),
 }
 
 impl SheetKept {
-    /// Those of a file that was just made.
+    /// The states in a file that was just made.
     #[must_use]
     pub fn made(file: SheetFile) -> Self {
-        SheetKept { seal: file.seal().clone(), place: Place::Hidden(Arc::new(file)) }
+        SheetKept { seal: file.seal().clone(), place: Location::Hidden(Arc::new(file)) }
     }
 
-    /// Those of a result that was read from a folder.
+    /// The states of a result that was read from a folder.
     #[must_use]
     pub(crate) fn read(seal: SheetSeal, folder: PathBuf) -> Self {
-        SheetKept { seal, place: Place::Folder(folder) }
+        SheetKept { seal, place: Location::Folder(folder) }
     }
 
     /// What the result says of its file.
@@ -52,8 +52,8 @@ impl SheetKept {
 
     fn folder(&self) -> &Path {
         let folder = match &self.place {
-            Place::Hidden(file) => file.path().parent(),
-            Place::Folder(folder) => Some(folder.as_path()),
+            Location::Hidden(file) => file.path().parent(),
+            Location::Folder(folder) => Some(folder.as_path()),
         };
         folder.unwrap_or(Path::new(""))
     }
@@ -62,7 +62,7 @@ impl SheetKept {
 /// The file itself, once more.
 impl Content for SheetKept {
     fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        if matches!(self.place, Place::Folder(_)) {
+        if matches!(self.place, Location::Folder(_)) {
             // what was changed since is not passed on
             self.open().map_err(io::Error::other)?;
         }

@@ -73,7 +73,7 @@ pub struct SheetState<'a> {
     pub pad_forces: Cow<'a, [[f64; 3]]>,
     /// Rotation of each pad, as a quaternion x, y, z, w.
     pub pad_rotation: Cow<'a, [[f64; 4]]>,
-    /// Whether each pad holds the sheet; none where all of them always do.
+    /// Whether each pad holds the sheet; `None` where all of them always do.
     pub pad_holds: Option<Cow<'a, [bool]>>,
 }
 

@@ -33,14 +33,14 @@ impl SheetStates {
         let unreadable = |source| unreadable(&path, source);
         let changed = |what: String| refusal::changed(&path, &what);
         if Path::new(&seal.file).file_name().is_none_or(|name| *name != *seal.file) {
-            return Err(changed("its name is none of a file beside its result".into()));
+            return Err(changed("its name is not that of a file beside its result".into()));
         }
 
         // the one that was written with the result
         input::size(&path).map_err(unreadable)?;
         let file = File::open(&path).map_err(unreadable)?;
         let found =
-            SheetSeal::of((&file).take(seal.length.saturating_add(1))).map_err(unreadable)?;
+            SheetSeal::read((&file).take(seal.length.saturating_add(1))).map_err(unreadable)?;
         if (found.length, &found.checksum) != (seal.length, &seal.checksum) {
             return Err(changed("its check sum is not the one of its result".into()));
         }
@@ -93,7 +93,7 @@ impl SheetStates {
         &self.landing_step
     }
 
-    /// A state by its number from 0; none beyond the last.
+    /// A state by its number from 0; `None` beyond the last.
     ///
     /// # Errors
     /// [`Error`] if it cannot be read, or holds what no state has.
@@ -175,7 +175,7 @@ fn pairs<T: Copy, const N: usize>(numbers: Vec<T>) -> Cow<'static, [[T; N]]> {
     numbers.as_chunks().0.to_vec().into()
 }
 
-/// How many there are of everything, and where each of [`ARRAYS`] begins in a file of so many bytes; else what is wrong.
+/// How many there are of everything, and where each of [`ARRAYS`] begins in a file of this many bytes; else what is wrong.
 fn layout(
     mut archive: ZipArchive<BufReader<File>>,
     bytes: u64,

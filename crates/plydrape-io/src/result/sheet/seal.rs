@@ -11,7 +11,7 @@ use std::io::{self, Read};
 pub struct SheetSeal {
     /// Name of the file.
     pub file: String,
-    /// Its length (bytes).
+    /// Length (bytes).
     pub length: u64,
     /// CRC-32 of all its bytes, as in `crc32:0123abcd`.
     pub checksum: String,
@@ -19,8 +19,8 @@ pub struct SheetSeal {
 
 impl SheetSeal {
     /// That of all that is left to read.
-    pub(super) fn of(content: impl Read) -> io::Result<Self> {
-        let Stamp { crc32, length } = Stamp::of(content)?;
+    pub(super) fn read(content: impl Read) -> io::Result<Self> {
+        let Stamp { crc32, length } = Stamp::read(content)?;
         Ok(SheetSeal { file: NAME.into(), length, checksum: format!("crc32:{crc32:08x}") })
     }
 }

@@ -31,7 +31,7 @@ pub struct SheetSides {
 }
 
 impl SheetSides {
-    /// Those of a mesh.
+    /// The sides of the cells of a mesh.
     #[must_use]
     pub fn new(mesh: &SheetMesh) -> Self {
         let ends = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];

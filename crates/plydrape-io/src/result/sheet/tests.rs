@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// A sheet of so many nodes in a row along u and along v, flat, held by four grippers.
+/// A sheet of this many nodes in a row along u and along v, flat, held by four grippers.
 fn mesh(nu: usize, nv: usize) -> SheetMesh<'static> {
     let node = |i: usize, j: usize| (i + j * nu) as u32;
     let cells = || (0..nv - 1).flat_map(|j| (0..nu - 1).map(move |i| (i, j)));
@@ -25,7 +25,7 @@ fn mesh(nu: usize, nv: usize) -> SheetMesh<'static> {
     }
 }
 
-/// Its state in a step, with numbers that differ from node to node.
+/// State in a step, with numbers that differ from node to node.
 fn state(mesh: &SheetMesh, step: u32) -> SheetState<'static> {
     let t = f64::from(step);
     let nodes = mesh.places.len();
@@ -44,7 +44,7 @@ fn state(mesh: &SheetMesh, step: u32) -> SheetState<'static> {
     }
 }
 
-/// The finished file of so many states.
+/// The finished file of this many states.
 fn finished(dir: &Path, mesh: &SheetMesh<'static>, states: u32) -> SheetFile {
     let landed: Vec<u32> = (0..mesh.places.len() as u32).map(|n| n % (states + 1)).collect();
     let states: Vec<_> = (1..=states).map(|step| state(mesh, step)).collect();
@@ -54,7 +54,7 @@ fn finished(dir: &Path, mesh: &SheetMesh<'static>, states: u32) -> SheetFile {
 /// A file with any bytes, and the seal that fits them.
 fn forged(dir: &Path, bytes: &[u8]) -> Result<SheetStates, Error> {
     fs::write(dir.join(NAME), bytes).unwrap();
-    SheetStates::open(dir, &SheetSeal::of(bytes).unwrap())
+    SheetStates::open(dir, &SheetSeal::read(bytes).unwrap())
 }
 
 /// Comparable with a NaN: the numbers as text.

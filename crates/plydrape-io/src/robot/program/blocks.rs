@@ -168,10 +168,10 @@ fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> 
             norm([0, 1, 2].map(|n| 0.25 * (shares[1] * q[n] - shares[0] * p[n])))
         };
         let near = shares(radius);
-        let centre = track
-            .centre
+        let center = track
+            .center
             .as_ref()
-            .map_or(0.0, |centre| change(near, [from, at, to].map(|k| centre[k].position)));
+            .map_or(0.0, |center| change(near, [from, at, to].map(|k| center[k].position)));
         // the pads have in them what turns and what the axes do
         let wide = shares(WIDER * radius);
         let pads = track
@@ -194,7 +194,7 @@ fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> 
             0.25 * (wide[1] * (r - q) - wide[0] * (q - p))
         });
         let own = if track.program.pads.is_empty() { own } else { 0.0 };
-        pads.fold(centre.max(own), f64::max) + late
+        pads.fold(center.max(own), f64::max) + late
     };
     let fits = radii.iter().skip(1).rev().find(|radius| **radius <= half && off(**radius) <= most);
     let radius = fits.or(radii.first()).copied().unwrap_or_default();

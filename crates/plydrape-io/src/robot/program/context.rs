@@ -230,13 +230,13 @@ fn progress() -> AxisOf {
 
 /// The largest acceleration of the center (m/s²) and the largest angular one (rad/s²), by differences between the samples.
 fn accelerations(track: &Track) -> [f64; 2] {
-    let (Some(centre), times) = (&track.centre, &track.program.times) else { return [0.0; 2] };
+    let (Some(center), times) = (&track.center, &track.program.times) else { return [0.0; 2] };
     // velocities from sample to sample, each in the middle
     let moves: Vec<(f64, [f64; 3], [f64; 3])> = (1..times.len())
         .map(|k| {
             let takes = times[k] - times[k - 1];
-            let way = sub(centre[k].position, centre[k - 1].position);
-            let turn = turn_between(&centre[k - 1].axes, &centre[k].axes);
+            let way = sub(center[k].position, center[k - 1].position);
+            let turn = turn_between(&center[k - 1].axes, &center[k].axes);
             (0.5 * (times[k] + times[k - 1]), way.map(|c| c / takes), turn.map(|c| c / takes))
         })
         .collect();
@@ -285,9 +285,9 @@ impl Maker<'_> {
     }
 
     fn point(&self, passed: &Passed, from: &mut usize, number: usize, share: f64) -> PointOf {
-        let Track { program, centre, .. } = self.track;
+        let Track { program, center, .. } = self.track;
         let (sample, duration) = (passed.sample, passed.duration);
-        let pose = |k: usize| centre.as_ref().map_or(Pose::ORIGIN, |centre| centre[k]);
+        let pose = |k: usize| center.as_ref().map_or(Pose::ORIGIN, |center| center[k]);
         let [before, now] = [*from, sample].map(pose);
         let rate = |way: f64| if duration > 0.0 { way / duration } else { 0.0 };
         let axes = |k: usize| -> Vec<f64> {

@@ -110,7 +110,7 @@ pub(crate) struct Track<'a> {
     /// Whether the controller moves the axes of the array too; if not, their own controller follows the progress.
     pub moves_axes: bool,
     /// The center of the tool in the frame of the mold, if there is a flange.
-    pub centre: Option<Vec<Pose>>,
+    pub center: Option<Vec<Pose>>,
     /// The share of the time of movement that is over, at each sample: from 0 to 1, the same while everything rests.
     pub progress: Vec<f64>,
     /// For each gripper its pad, if it has one, and its axes.
@@ -120,8 +120,8 @@ pub(crate) struct Track<'a> {
 impl<'a> Track<'a> {
     pub fn new(program: &'a Program, moves_axes: bool) -> Self {
         let tool = &program.frames.tool;
-        let centre = program.flange.as_ref();
-        let centre = centre.map(|flange| flange.iter().map(|pose| pose.compose(tool)).collect());
+        let center = program.flange.as_ref();
+        let center = center.map(|flange| flange.iter().map(|pose| pose.compose(tool)).collect());
         let mut names = program.grippers();
         let mut grippers: Vec<_> = (0..names.len()).map(|n| (Some(n), Vec::new())).collect();
         for (n, axis) in program.axes.iter().enumerate() {
@@ -133,7 +133,7 @@ impl<'a> Track<'a> {
             });
             grippers[known].1.push(n);
         }
-        let mut track = Track { program, moves_axes, centre, progress: vec![0.0], grippers };
+        let mut track = Track { program, moves_axes, center, progress: vec![0.0], grippers };
         let times = &program.times;
         let mut moving = 0.0;
         for k in 1..times.len() {
@@ -157,8 +157,8 @@ impl<'a> Track<'a> {
     /// The error at sample k of what is interpolated from sample a to sample b, where that passes nearest to it.
     pub fn passing(&self, a: usize, b: usize, k: usize) -> Deviation {
         let timely = self.deviation(a, b, k);
-        let Some(centre) = &self.centre else { return timely };
-        let [from, to, at] = [a, b, k].map(|n| centre[n].position);
+        let Some(center) = &self.center else { return timely };
+        let [from, to, at] = [a, b, k].map(|n| center[n].position);
         let (way, part) = (sub(to, from), sub(at, from));
         let square = dot(way, way);
         if square == 0.0 {
@@ -175,7 +175,7 @@ impl<'a> Track<'a> {
             true => values(n)[a] + share * (values(n)[b] - values(n)[a]),
             false => self.followed(n, progress),
         };
-        let pose = self.centre.as_ref().map(|c| interpolated(&c[a], &c[b], share));
+        let pose = self.center.as_ref().map(|c| interpolated(&c[a], &c[b], share));
         self.deviation_of(k, pose.as_ref(), &axis)
     }
 
@@ -188,20 +188,20 @@ impl<'a> Track<'a> {
     ) -> Deviation {
         let Program { axes, pads, .. } = self.program;
         let off = |n: usize| axis(n) - axes[n].values[k];
-        let (Some(pose), Some(centre)) = (pose, &self.centre) else {
+        let (Some(pose), Some(center)) = (pose, &self.center) else {
             return Deviation { position: self.largest(off), angle: 0.0 };
         };
         let of_gripper = |(pad, own): &(Option<usize>, Vec<usize>)| {
             let carried = pad.map_or(0.0, |pad| {
                 let place = pads[pad].poses[k].position;
-                distance(pose.place(centre[k].local(place)), place)
+                distance(pose.place(center[k].local(place)), place)
             });
             carried + length(own, &off)
         };
         let pads = self.grippers.iter().map(of_gripper).fold(0.0, f64::max);
         Deviation {
-            position: pads.max(distance(pose.position, centre[k].position)),
-            angle: angle(pose, &centre[k]),
+            position: pads.max(distance(pose.position, center[k].position)),
+            angle: angle(pose, &center[k]),
         }
     }
 
@@ -225,18 +225,18 @@ impl<'a> Track<'a> {
     pub fn movement(&self, a: usize, b: usize) -> Deviation {
         let axes = self.program.axes.iter().map(|axis| (axis.values[b] - axis.values[a]).abs());
         let axes = axes.fold(0.0, f64::max);
-        self.centre.as_ref().map_or(Deviation { position: axes, angle: 0.0 }, |centre| Deviation {
-            position: axes.max(distance(centre[a].position, centre[b].position)),
-            angle: angle(&centre[a], &centre[b]),
+        self.center.as_ref().map_or(Deviation { position: axes, angle: 0.0 }, |center| Deviation {
+            position: axes.max(distance(center[a].position, center[b].position)),
+            angle: angle(&center[a], &center[b]),
         })
     }
 
     /// The way of the center from sample a to sample b, or of an axis without one (m).
     pub fn way(&self, a: usize, b: usize) -> f64 {
-        let centre = self.centre.as_ref();
-        centre.map_or_else(
+        let center = self.center.as_ref();
+        center.map_or_else(
             || self.movement(a, b).position,
-            |centre| distance(centre[a].position, centre[b].position),
+            |center| distance(center[a].position, center[b].position),
         )
     }
 

@@ -99,15 +99,15 @@ impl Track<'_> {
         let mut before: Option<[f64; 4]> = None;
         let row = |k: &usize| {
             let mut row = Vec::new();
-            if let Some(centre) = &self.centre {
-                let mut turn = quaternion(&centre[*k]);
+            if let Some(center) = &self.center {
+                let mut turn = quaternion(&center[*k]);
                 let cosine: f64 =
                     before.map_or(1.0, |b| b.iter().zip(turn).map(|(p, q)| p * q).sum());
                 if cosine < 0.0 {
                     turn = turn.map(|q| -q);
                 }
                 before = Some(turn);
-                row.extend(centre[*k].position);
+                row.extend(center[*k].position);
                 row.extend(turn);
             }
             match self.moves_axes {
@@ -121,7 +121,7 @@ impl Track<'_> {
 
     /// The error at sample k of such a row.
     fn deviation_of_row(&self, k: usize, row: &[f64]) -> Deviation {
-        let (pose, own) = match &self.centre {
+        let (pose, own) = match &self.center {
             Some(_) => {
                 let turn = [row[3], row[4], row[5], row[6]];
                 (Some(of_quaternion([row[0], row[1], row[2]], turn)), &row[7..])
@@ -137,8 +137,8 @@ impl Track<'_> {
 
     /// For each sample between two the share of the way that is behind it.
     fn shares(&self, a: usize, b: usize) -> Vec<f64> {
-        let step = |k: usize| match &self.centre {
-            Some(centre) => distance(centre[k - 1].position, centre[k].position),
+        let step = |k: usize| match &self.center {
+            Some(center) => distance(center[k - 1].position, center[k].position),
             None => self.movement(k - 1, k).position,
         };
         let mut way = 0.0;

@@ -43,7 +43,7 @@ pub(super) fn stiffness(Stiffness { lateral, axial }: Stiffness) -> [(&'static s
     [("lateral_stiffness_n_per_mm", value(lateral)), ("axial_stiffness_n_per_mm", value(axial))]
 }
 
-/// The same as a comment at the head of a YAML file.
+/// The mounts as a comment at the head of a YAML file.
 pub(super) fn head(mounts: Stiffness) -> String {
     let line = |(name, value): (&str, String)| format!("# {name}: {value}\n");
     stiffness(mounts).map(line).concat()

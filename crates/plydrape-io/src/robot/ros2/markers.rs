@@ -52,14 +52,14 @@ impl Paint {
         let cells = result.scene.ply.lines().surface().cells().max(1);
         let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);
         let grippers = result.steps.iter().flat_map(|step| &step.grippers);
-        let value = |gripper: &Gripper| colour_value(result, gripper.position);
+        let value = |gripper: &Gripper| color_value(result, gripper.position);
         let range = grippers
             .map(value)
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
         Paint { divisions, range }
     }
 
-    fn colour(&self, value: f64) -> ColorRgba {
+    fn color(&self, value: f64) -> ColorRgba {
         let [low, high] = self.range;
         let share = if high > low { (value - low) / (high - low) } else { 0.0 };
         let [r, g, b] = figure::viridis_rgb(share).map(|c| f32::from(c) / 255.0);
@@ -68,7 +68,7 @@ impl Paint {
 }
 
 /// What the ply's color tells at a place (m): its gap to a curved mold, else its height.
-fn colour_value(result: &ResultFile, place: Point) -> f64 {
+fn color_value(result: &ResultFile, place: Point) -> f64 {
     match &result.scene.mold {
         Some(Mold::Plane(_)) | None => place[2],
         Some(curved) => curved.signed_distance(place).max(0.0),
@@ -126,7 +126,7 @@ fn cells(result: &ResultFile, mesh: &SheetMesh, state: &SheetState, paint: &Pain
         let [a, b, c, d] = cell.map(|n| state.positions[n as usize]);
         for place in [a, b, c, a, c, d] {
             marker.points.push(place.into());
-            marker.colors.push(paint.colour(colour_value(result, place)));
+            marker.colors.push(paint.color(color_value(result, place)));
         }
     }
     marker
@@ -145,15 +145,15 @@ pub(super) fn mold(result: &ResultFile) -> Option<MarkerArray> {
 fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
     let surface = Surface::new(result, step, paint.divisions);
     let [across, along] = surface.size.map(|n| n - 1);
-    let colours: Vec<ColorRgba> =
-        (surface.vertices.iter()).map(|p| paint.colour(colour_value(result, *p))).collect();
+    let colors: Vec<ColorRgba> =
+        (surface.vertices.iter()).map(|p| paint.color(color_value(result, *p))).collect();
     let mut marker = Marker { color: GREY, ..marker("ply", 0, TRIANGLE_LIST) };
     for [k, m] in (0..along).flat_map(|m| (0..across).map(move |k| [k, m])) {
         let first = m * (across + 1) + k;
         let [a, b, c, d] = [first, first + 1, first + across + 2, first + across + 1];
         for corner in [a, b, c, a, c, d] {
             marker.points.push(surface.vertices[corner].into());
-            marker.colors.push(colours[corner]);
+            marker.colors.push(colors[corner]);
         }
     }
     marker

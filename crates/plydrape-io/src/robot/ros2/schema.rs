@@ -1,6 +1,6 @@
 //! Definitions of the messages, as a bag carries them: each followed by those it is made of.
 //!
-//! Those of `trajectory_msgs`, `nav_msgs`, `tf2_msgs`, `control_msgs`, `visualization_msgs` and what they need (Apache-2.0, Open
+//! The definitions of `trajectory_msgs`, `nav_msgs`, `tf2_msgs`, `control_msgs`, `visualization_msgs` and what they need (Apache-2.0, Open
 //! Robotics and others), without their comments; the same in ROS 2 Humble and later, but for that of `control_msgs`, which is
 //! that of Jazzy and later.
 

@@ -11,7 +11,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Body")]
 pub(in crate::scene) struct BodyTable {
-    /// Its name for reports.
+    /// Name for reports.
     pub name: Located<String>,
     /// What it moves with: the "pad" of each gripper, which tilts with the ply; the "stem" of each gripper, which does not; or the
     /// robot's "flange".
@@ -32,7 +32,7 @@ pub(in crate::scene) struct BodyTable {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Obstacle")]
 pub(in crate::scene) struct ObstacleTable {
-    /// Its name for reports.
+    /// Name for reports.
     pub name: Located<String>,
     /// A cylinder about its z axis.
     pub cylinder: Option<Located<CylinderTable>>,
@@ -77,7 +77,7 @@ impl From<MountKey> for Mount {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Cylindrical body")]
 pub(in crate::scene) struct CylinderTable {
-    /// Its radius (m).
+    /// Radius (m).
     pub radius: Quantity<Length>,
     /// Where along z it begins (m), 0 unless given.
     pub from: Option<Quantity<Length>>,
@@ -92,6 +92,6 @@ pub(in crate::scene) struct CylinderTable {
 pub(in crate::scene) struct BoxTable {
     /// Lengths of its sides along x, y and z (m).
     pub size: Fixed<Quantity<Length>, 3>,
-    /// Its middle (m), the origin unless given.
+    /// Middle (m), the origin unless given.
     pub at: Option<Fixed<Quantity<Length>, 3>>,
 }

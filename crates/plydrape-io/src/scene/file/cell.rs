@@ -11,7 +11,7 @@ use serde::Deserialize;
 #[schemars(rename = "Cell")]
 pub(in crate::scene) struct CellTable {
     /// "usual": cups with bellows on a robot; "ideal": rigid and without errors; or a .toml file relative to the scene. It gives
-    /// `stiffness`, `slip_force`, `holding_force` and `max_tilt` of [grippers] and each term of [errors]; keys of the scene stand over
+    /// `stiffness`, `slip_force`, `holding_force` and `max_tilt` of [grippers] and each term of [errors]; keys of the scene override
     /// it. `plydrape limits` lists the figures with their sources.
     #[schemars(extend("examples" = ["usual", "ideal"]))]
     pub preset: Located<String>,

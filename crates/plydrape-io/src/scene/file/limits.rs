@@ -1,6 +1,6 @@
 //! The keys of the table `[limits]`: one of each measure that a scene may bound, and three of their own.
 
-use crate::scene::bound::{self, Kind};
+use crate::scene::bound::Kind;
 use crate::scene::located::{Fixed, Located, LocatedSeed};
 use crate::scene::quantity::{Length, Quantity, Ratio, Raw, RawSeed};
 use plydrape::measure::{Name, Preset};
@@ -21,6 +21,21 @@ pub(in crate::scene) struct LimitsTable {
     pub grip_safety: Option<Quantity<Ratio>>,
     /// Bounds of measures as they are written.
     pub bounds: Vec<(Name, Located<Raw>)>,
+    /// Measures that are bounded by a name of before version 0.1.0, and that name.
+    pub renamed: Vec<(Name, String)>,
+}
+
+impl LimitsTable {
+    /// What to change where a measure has an old name, each in a sentence.
+    pub fn notices(&self) -> Vec<String> {
+        let notice = |(name, old): &(Name, String)| {
+            let now = name.measure().name();
+            format!(
+                "`{old}` in [limits] is called `{now}` now; rename it, because version 0.2.0 refuses the old name"
+            )
+        };
+        self.renamed.iter().map(notice).collect()
+    }
 }
 
 /// A key of the table.
@@ -31,6 +46,7 @@ enum Key {
     Workspace,
     GripSafety,
     Bound(Name),
+    Renamed(Name, String),
 }
 
 impl TryFrom<String> for Key {
@@ -46,6 +62,9 @@ impl TryFrom<String> for Key {
             word => match bounded.iter().find(|name| called(name) == word) {
                 Some(name) => Ok(Key::Bound(*name)),
                 None => {
+                    if let Some(name) = Name::renamed(word) {
+                        return Ok(Key::Renamed(name, word.into()));
+                    }
                     // in the words of serde
                     let bounds = bounded.iter().map(called).collect::<Vec<_>>().join("`, `");
                     let known = format!("`preset`, `{bounds}`, `workspace`, `grip_safety`");
@@ -71,10 +90,10 @@ impl<'de> Deserialize<'de> for LimitsTable {
                         Key::Preset => table.preset = Some(map.next_value()?),
                         Key::Workspace => table.workspace = Some(map.next_value()?),
                         Key::GripSafety => table.grip_safety = Some(map.next_value()?),
-                        Key::Bound(name) => {
-                            let Kind { name: wanted, example, .. } = Kind::of(name);
-                            let seed = LocatedSeed(RawSeed { name: wanted, example });
-                            table.bounds.push((name, map.next_value_seed(seed)?));
+                        Key::Bound(name) => table.bounds.push((name, bound(&mut map, name)?)),
+                        Key::Renamed(name, old) => {
+                            table.bounds.push((name, bound(&mut map, name)?));
+                            table.renamed.push((name, old));
                         }
                     }
                 }
@@ -85,6 +104,12 @@ impl<'de> Deserialize<'de> for LimitsTable {
     }
 }
 
+/// The value of a bound as it is written.
+fn bound<'de, A: MapAccess<'de>>(map: &mut A, name: Name) -> Result<Located<Raw>, A::Error> {
+    let Kind { name, example, .. } = Kind::of_measure(name);
+    map.next_value_seed(LocatedSeed(RawSeed { name, example }))
+}
+
 impl JsonSchema for LimitsTable {
     fn schema_name() -> Cow<'static, str> {
         "Limits".into()
@@ -93,7 +118,10 @@ impl JsonSchema for LimitsTable {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let mut properties = serde_json::Map::new();
         for (name, bound) in Name::bounded() {
-            properties.insert(name.measure().name().into(), bound::schema(name, &bound, generator));
+            properties.insert(
+                name.measure().name().into(),
+                crate::scene::bound::schema(name, &bound, generator),
+            );
         }
         let mut own = |key: &str, mut schema: Schema, about: &str| {
             schema.insert("description".into(), about.into());
@@ -106,7 +134,7 @@ impl JsonSchema for LimitsTable {
         own(
             "preset",
             json_schema!({ "oneOf": words.collect::<Vec<_>>() }),
-            "A named set of limits, none unless given; the other keys here stand over it. `plydrape limits` lists them with the source of \
+            "A named set of limits, none unless given; the other keys here override it. `plydrape limits` lists them with the source of \
              each figure.",
         );
         own(

@@ -27,7 +27,7 @@ pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 
-use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Positions};
+use super::choice::{Centered, Curve, FrictionChoice, MaterialChoice, PlaceChoice, Positions};
 use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
@@ -110,7 +110,7 @@ pub(super) struct PlyTable {
     pub grippers: Option<Located<Fixed<Located<Count>, 2>>>,
     /// Fabric length between neighboring grippers along u and along v (m); of a ply that is cut, the pitch of the array.
     pub cell: Option<Fixed<Quantity<Length>, 2>>,
-    /// Its boundary: points [x, y] of a drawing (m), or a DXF file. Unless given, the ply is the rectangle between its
+    /// Boundary: points [x, y] of a drawing (m), or a DXF file. Unless given, the ply is the rectangle between its
     /// outermost grippers and its `overhang`.
     pub outline: Option<Located<OutlineChoice>>,
     /// Which piece of the drawing it is, where that has several, as a nest for a cutter has.
@@ -172,9 +172,9 @@ pub(super) struct PieceTable {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Circle")]
 pub(super) struct CircleTable {
-    /// Its middle in the drawing (m).
+    /// Middle in the drawing (m).
     pub middle: Located<Fixed<Quantity<Length>, 2>>,
-    /// Its diameter (m).
+    /// Diameter (m).
     pub diameter: Quantity<Length>,
 }
 
@@ -214,7 +214,7 @@ pub(super) enum PartlyKey {
 pub(super) struct MaterialTable {
     /// Name for reports.
     pub name: Option<Located<String>>,
-    /// Where the numbers come from; wanted in a material file.
+    /// Where the numbers come from; a material file must have it.
     pub source: Option<Located<String>>,
     /// The tests that gave them, and of how many specimens.
     pub test: Option<Located<String>>,
@@ -251,7 +251,7 @@ pub(super) struct MaterialTable {
 pub(super) struct ShearRateTable {
     /// Stiffness against a shear that is much faster than the relaxation (N/m per rad).
     pub stiffness: Quantity<ShearSlope>,
-    /// Time in which the force falls to its 1/e-th part where the ply stands (s), or a table of such times over temperatures.
+    /// Time in which the force falls to its 1/e-th part where the ply is at rest (s), or a table of such times over temperatures.
     pub relaxation: Located<Curve<Time, RelaxationTable>>,
 }
 
@@ -342,7 +342,7 @@ pub(super) struct GrippersTable {
     pub height: Option<Quantity<Length>>,
     /// Place x, y of gripper g0_0 (m), the origin unless given; with `parallel_to_mold`, of the mold point
     /// below it. Or "centered": the rectangle's middle is above the middle of the target.
-    pub origin: Option<Located<Place<Centred>>>,
+    pub origin: Option<Located<PlaceChoice<Centered>>>,
     /// Place x, y of the middle of the ply (m), of one that is cut the middle of its drawing, instead of the `origin`: where the ply
     /// is picked up.
     pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,

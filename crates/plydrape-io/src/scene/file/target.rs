@@ -16,7 +16,7 @@ pub(in crate::scene) struct TargetTable {
     /// Heading there (rad), from x towards y, of u, or of the warp where `warp` is an angle; or "best", the one with which the ply
     /// shears least.
     pub direction: Option<Located<HeadingChoice>>,
-    /// Shear angle there (rad): v stands at 90° minus this angle from u.
+    /// Shear angle there (rad): v is at 90° minus this angle from u.
     pub shear: Option<Quantity<Angle>>,
     /// The fabric point [u, v] (m) that is laid first, gripper g0_0 unless given, of a ply that is cut a point of its drawing and
     /// its middle unless given; or "middle", of a ply that is cut that of the box around its drawing. With "best" the middle of the ply lies at `origin`, and the yarns that are laid first
@@ -29,7 +29,7 @@ pub(in crate::scene) struct TargetTable {
     pub generators: Option<Located<GeneratorsKey>>,
     /// How the fabric between neighboring nodes of the net is measured, "along" unless given.
     pub edges: Option<Located<EdgesKey>>,
-    /// The boundary that is wanted, for `plydrape net`: a CSV file (x, y, z) of points on the mold in turn around the ply.
+    /// The target boundary, for `plydrape net`: a CSV file (x, y, z) of points on the mold in turn around the ply.
     pub trim: Option<Located<String>>,
     /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
     pub positions: Option<Located<Positions>>,

@@ -11,7 +11,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Tool")]
 pub(in crate::scene) struct ToolTable {
-    /// Linear axes between the frame and each gripper, one for a direction; without them the grippers stand fast in the frame.
+    /// Linear axes between the frame and each gripper, one for a direction; without them the grippers are fixed in the frame.
     pub axes: Option<Located<Vec<Located<AxisTable>>>>,
     /// What lets the pads tilt: "ball" joints, by which each follows the ply, unless given; with "none" they turn with the frame alone.
     pub joints: Option<Located<JointsKey>>,
@@ -60,7 +60,7 @@ pub(in crate::scene) enum AxisKey {
 pub(in crate::scene) enum JointsKey {
     /// A passive ball joint at each pad, which follows the ply.
     Ball,
-    /// Nothing: the pads stand as the array does at the start, and turn with the frame alone.
+    /// Nothing: the pads keep the orientation of the array at the start, and turn with the frame alone.
     None,
 }
 
@@ -69,7 +69,7 @@ pub(in crate::scene) enum JointsKey {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Placed")]
 pub(in crate::scene) struct PlacedTable {
-    /// Its origin (m).
+    /// Origin (m).
     pub position: Option<Located<Fixed<Quantity<Length>, 3>>>,
     /// How it is turned: about the fixed axes x, then y, then z (rad).
     pub rotation: Option<Located<Fixed<Quantity<Angle>, 3>>>,

@@ -131,7 +131,7 @@ fn plain_numbers_that_are_not_usual_are_asked_about() {
     assert!(of("overhang\n0.062\n", Reading::Overhang).is_ok());
 }
 
-/// A title that ends in a name is one field, whatever stands before it.
+/// A title that ends in a name is one field, whatever precedes it.
 #[test]
 fn a_column_beside_others_is_read_alone() {
     for text in [

@@ -84,7 +84,7 @@ fn in_order(
         let [px, py, _] = points[row];
         return Err(document.error(
             spans[row].clone(),
-            format!("the node at x = {px} m, y = {py} m stands here for the second time"),
+            format!("the node at x = {px} m, y = {py} m is listed for the second time"),
             "give every node of the grid one row",
         ));
     }

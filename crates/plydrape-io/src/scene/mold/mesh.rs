@@ -153,7 +153,7 @@ pub(in crate::scene) fn mesh_file(
                 Ok((_, other)) => format!("{} is the unit of {other}", document.quoted(&unit.span)),
                 Err(_) => format!("{} is no unit known here", document.quoted(&unit.span)),
             };
-            let help = "the unit of a length is wanted: \"mm\", \"cm\", \"m\" or \"in\"";
+            let help = "expected the unit of a length: \"mm\", \"cm\", \"m\" or \"in\"";
             return Err(document.error(unit.span.clone(), message, help));
         }
     };

@@ -1,4 +1,4 @@
-//! The mold of a scene: which keys its kind takes, where it stands, and its shape.
+//! The mold of a scene: which keys its kind takes, its pose, and its shape.
 
 mod graph;
 mod heights;
@@ -128,7 +128,7 @@ impl Keys<'_> {
         })
     }
 
-    /// Where the mold stands and how it is turned.
+    /// Position and rotation of the mold.
     fn pose(&self) -> Result<Pose, Error> {
         let MoldTable { position, rotation, .. } = self.table;
         pose(position.as_ref(), rotation.as_ref(), self.document, &usual::COORDINATE)

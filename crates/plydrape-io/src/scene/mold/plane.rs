@@ -39,7 +39,7 @@ pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Erro
                 return Err(document.error(
                     tilt.span.clone(),
                     "the mold is (all but) a wall",
-                    "a tilt below 89.9 deg is wanted",
+                    "expected a tilt below 89.9 deg",
                 ));
             }
             let climb = match &table.tilt_direction {

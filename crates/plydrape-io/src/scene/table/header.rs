@@ -12,7 +12,7 @@ const HEAD: usize = 1000;
 /// Lines of nothing but numbers above a header that are a table of their own.
 const BLOCK: usize = 3;
 
-/// Where the columns of a table stand.
+/// Positions of the columns of a table.
 pub(super) struct Header {
     pub separator: u8,
     /// Bytes of its line.
@@ -85,7 +85,7 @@ pub(super) fn find(
                 if block.len() >= BLOCK {
                     return Err(document.error(
                         block[0].clone(),
-                        "numbers stand above the header, and it is not known what they are",
+                        "there are numbers above the header, and it is not known what they are",
                         "give each table a file of its own",
                     ));
                 }
@@ -127,7 +127,7 @@ pub(super) fn find(
         return Err(document.error(
             line,
             format!("no column is called `{}`", excerpt(title)),
-            format!("give the title of a column as it stands in the file: {}", all.join(", ")),
+            format!("give the title of a column as it is written in the file: {}", all.join(", ")),
         ));
     }
     let mut help = named(expected);
@@ -233,7 +233,7 @@ pub(super) fn units_below(
     Ok(true)
 }
 
-/// The size of a unit that stands in a field.
+/// The size of a unit in a field.
 fn size(
     document: &Document,
     field: Range<usize>,
@@ -245,7 +245,7 @@ fn size(
         Ok((_, found)) => Err(document.error(
             field,
             format!("`{}` is the unit of {found}", excerpt(written)),
-            format!("{dimension} is wanted in this column"),
+            format!("expected {dimension} in this column"),
         )),
         Err(fault) => {
             let title = document.excerpt(&field);

@@ -10,7 +10,7 @@ use crate::Error;
 use crate::scene::units::Dimension;
 use std::ops::Range;
 
-/// A number with either mark; none of what is no finite one.
+/// A number with either mark; `None` for what is no finite one.
 pub(super) fn number(text: &str) -> Option<f64> {
     let value = match text.contains(',') {
         true => text.replace(',', ".").parse::<f64>(),

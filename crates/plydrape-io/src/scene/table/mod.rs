@@ -1,8 +1,8 @@
 //! Tables as machines, spreadsheets and people write them: the one reader of all CSV files.
 //!
-//! Columns stand between semicolons, tabs or commas, and numbers have a decimal point or a decimal comma. Lines above the header and other
+//! Columns are separated by semicolons, tabs or commas, and numbers have a decimal point or a decimal comma. Lines above the header and other
 //! columns are passed over; lines that are empty or start with `#` are skipped. A column is found by its names, see [`title`], its unit
-//! stands behind the name or in a line of its own below the header; without one it is in SI units. Fields are those of the crate
+//! follows the name or has a line of its own below the header; without one it is in SI units. Fields are those of the crate
 //! `csv-core`, a line at a time, so that every fault has the place of its field. What could be read in two ways is refused, see [`mark`].
 
 mod header;
@@ -26,9 +26,9 @@ pub(super) struct Column {
     pub last_words: &'static [&'static str],
     /// What the last word of a title may end in, as in the German `Traversenweg`.
     pub endings: &'static [&'static str],
-    /// What it measures; none of names and whole numbers.
+    /// What it measures; none for names and whole numbers.
     pub dimension: Dimension,
-    /// Its unit in examples.
+    /// Unit in examples.
     pub unit: &'static str,
     /// The option that names the column where its title is another one.
     pub option: Option<&'static str>,
@@ -41,7 +41,7 @@ pub(super) struct Column {
 pub(super) struct Plain {
     /// The smallest and the largest that is believed without a unit.
     pub believed: [f64; 2],
-    /// The same in words.
+    /// That range as text.
     pub words: &'static str,
 }
 
@@ -64,7 +64,7 @@ impl Column {
     }
 }
 
-/// What may stand between columns.
+/// What may separate columns.
 const SEPARATORS: [u8; 3] = [b';', b'\t', b','];
 
 /// A table whose header is read.
@@ -76,11 +76,11 @@ pub(super) struct Table<'a> {
 
 /// The title of a column.
 pub(super) struct Title {
-    /// Its name as names are compared.
+    /// The name as names are compared.
     pub name: String,
-    /// Its unit, where the title says one.
+    /// Unit, where the title says one.
     pub unit: Option<String>,
-    /// Its bytes.
+    /// Bytes.
     pub place: Range<usize>,
 }
 

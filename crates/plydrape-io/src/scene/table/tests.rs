@@ -104,7 +104,7 @@ fn what_may_be_another_table_is_refused() {
         ),
         (
             "Time;Load\n1;2\n2;3\n3;4\nWeg (mm);Kraft (N)\n4;1\n",
-            "numbers stand above the header, and it is not known what they are",
+            "there are numbers above the header, and it is not known what they are",
         ),
     ] {
         let error = of(text).unwrap_err();

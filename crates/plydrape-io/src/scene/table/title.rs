@@ -1,7 +1,7 @@
 //! Titles of columns: names and units.
 //!
 //! Names are compared in small letters, without accents, bars and numbers behind them, so that `Deplacement`, `Déplacement_` and
-//! `DEPLACEMENT 1` are one. A unit stands behind the name, as in `Force (N)`, `Kraft [N]`, `force / N`, `Kraft in N`, `Weg, mm` and
+//! `DEPLACEMENT 1` are one. A unit follows the name, as in `Force (N)`, `Kraft [N]`, `force / N`, `Kraft in N`, `Weg, mm` and
 //! `force_N`.
 
 use super::Column;
@@ -84,7 +84,7 @@ fn plain(c: char) -> char {
     }
 }
 
-/// What stands before, in and behind the last brackets that are in no others, as `N/(m rad)` is in `Shear [N/(m rad)]`.
+/// What is before, in and behind the last brackets that are in no others, as `N/(m rad)` is in `Shear [N/(m rad)]`.
 fn last_group(text: &str) -> Option<(&str, &str, &str)> {
     let (mut depth, mut start, mut found) = (0_usize, 0, None);
     for (at, c) in text.char_indices() {

@@ -13,7 +13,7 @@ use serde::Serialize;
 ///
 /// # Errors
 /// [`Error::NotFinite`] if any number is NaN or infinite.
-pub fn of<T: Serialize>(value: &T) -> Result<String, Error> {
+pub fn to_text<T: Serialize>(value: &T) -> Result<String, Error> {
     finite::check(value)?;
     let mut text = serde_json::to_string(value).map_err(Error::json)?;
     text.push('\n');

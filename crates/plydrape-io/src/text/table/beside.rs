@@ -18,7 +18,7 @@ pub(super) fn line(result: &ResultFile) -> String {
     shown::excerpt(&text, WIDTH) + "\n"
 }
 
-/// Its steps and its worst values; empty where it was not asked.
+/// Steps and worst values; empty where it was not asked.
 pub(super) fn details(result: &ResultFile) -> String {
     let Some(Also { summary, steps }) = &result.also else { return String::new() };
     let worst = summary.worst.iter().map(|(name, _)| format!("  {}\n", values(summary, &[name])));

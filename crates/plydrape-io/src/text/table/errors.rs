@@ -78,14 +78,14 @@ fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> Vec<String>
         return vec!["tolerates no errors: it is not accepted without any".into()];
     }
     let least = Tolerance::least_mm(pitch(&result.scene.ply));
-    let (millimetres, most) = match tolerance.gripper_mm {
+    let (millimeters, most) = match tolerance.gripper_mm {
         0.0 => (least, "less than "),
         mm if tolerance.gripper_at_least => (mm, "at least "),
         mm => (mm, ""),
     };
     let mut lines = vec![format!(
         "tolerates errors of {most}{} mm (standard deviation of each gripper's position along each axis)",
-        rounded(millimetres)
+        rounded(millimeters)
     )];
     let multiples = |[least, most]: [f64; 2]| {
         let at_most = if 1.0 / least >= Tolerance::MOST { "at most " } else { "" };

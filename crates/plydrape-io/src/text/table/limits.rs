@@ -95,10 +95,10 @@ mod tests {
 
     fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
         let at = "gripper g0_0".to_owned();
-        Verdict::of(name, Worst { value, at, place: None }, limit, Some(3))
+        Verdict::new(name, Worst { value, at, place: None }, limit, Some(3))
     }
 
-    /// Those that do not hold come first, by how far they are exceeded; of those that hold as many as fit.
+    /// Limits that are not kept come first, by how far they are exceeded; then as many of the others as fit.
     #[test]
     fn the_closest_limit_comes_first() {
         let all = [

@@ -147,7 +147,7 @@ mod tests {
 
     fn verdict_of(name: Name, value: f64, limit: f64) -> Verdict {
         let at = "very far away ".repeat(20);
-        Verdict::of(name, Worst { value, at, place: None }, limit, Some(90))
+        Verdict::new(name, Worst { value, at, place: None }, limit, Some(90))
     }
 
     fn widest(text: &str) -> usize {
@@ -173,7 +173,7 @@ mod tests {
         assert!(rest.lines().count() > 90 + result.summary.limits.len() && widest(&rest) <= 100);
     }
 
-    /// Load and pull stand beside their limits, or the words that they have none.
+    /// Load and pull are shown beside their limits, or as having none.
     #[test]
     fn margins_say_which_force_has_no_limit() {
         let mut result = sample::sheet(4, 2, 3);
@@ -184,14 +184,14 @@ mod tests {
         assert_eq!(text, wanted);
     }
 
-    /// What a cup bears stands beside what it holds, which is more than its limit by the safety.
+    /// What a cup bears is shown beside what it holds, which is more than its limit by the safety.
     #[test]
     fn margins_say_what_a_cup_holds() {
         let mut result = sample::sheet(4, 2, 3);
         result.scene.settings.pad.slip_force = Some(10.0);
         let at = "gripper g3_1".to_owned();
         let worst = Worst { value: 4.4, at, place: None };
-        result.summary.limits = vec![Verdict::of(Name::Slip, worst, 10.0 / 1.5, Some(2))];
+        result.summary.limits = vec![Verdict::new(Name::Slip, worst, 10.0 / 1.5, Some(2))];
         let text = verdict(&result, Ink::Plain);
         let wanted = "accepted by the sheet in an ideal cell, without errors\n\
             largest load of a cup 4.4 of 10 N along the ply (g3_1)\n";

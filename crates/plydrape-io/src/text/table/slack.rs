@@ -38,7 +38,7 @@ mod tests {
     fn slack_is_said_once_in_each_currency() {
         let mut summary = sample::draped(4, 2, 3).summary;
         let verdict = |name: Name, value: f64, limit: f64| {
-            Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
+            Verdict::new(name, Worst { value, at: String::new(), place: None }, limit, None)
         };
         assert_eq!(slack_in_words(&summary), None);
         summary.limits.push(verdict(Name::SlackRatio, 0.005, 0.0005));

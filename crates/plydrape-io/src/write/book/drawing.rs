@@ -18,21 +18,21 @@ const TRIANGLES: usize = 900;
 const YARNS: [usize; 2] = [12, 48];
 
 /// The plan of a drawing: what is where.
-struct Plan {
+struct PlanView {
     low: [f64; 2],
     high: [f64; 2],
     /// Pixels for a meter.
     scale: f64,
 }
 
-impl Plan {
-    fn of(book: &Book) -> Self {
+impl PlanView {
+    fn new(book: &Book) -> Self {
         let points = || book.plies.iter().flat_map(|ply| ply.region.iter().flatten());
         let low = [0, 1].map(|n| points().map(|p| p[n]).fold(f64::INFINITY, f64::min));
         let high = [0, 1].map(|n| points().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max));
         let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
         let (low, high) = (low.map(|c| c - more), high.map(|c| c + more));
-        Plan { low, high, scale: WIDTH / (high[0] - low[0]).max(high[1] - low[1]) }
+        PlanView { low, high, scale: WIDTH / (high[0] - low[0]).max(high[1] - low[1]) }
     }
 
     /// Pixels of a place in plan (m), y upwards.
@@ -63,15 +63,15 @@ impl Plan {
 
 /// All outlines on the mold, numbered, each with the direction of its warp.
 pub(super) fn all(book: &Book, plies: &[PlyRecord]) -> String {
-    let plan = Plan::of(book);
+    let plan = PlanView::new(book);
     let mut body = mold(book, &plan);
     for (n, ply) in plies.iter().enumerate() {
-        let class = format!("ply c{}", n % COLOURS);
+        let class = format!("ply c{}", n % COLORS);
         let _ = write!(body, "<path class=\"{class}\" d=\"{}\"/>", plan.rings(&ply.region));
     }
     for (n, ply) in plies.iter().enumerate() {
         let Some(middle) = middle(&ply.region) else { continue };
-        // labels of plies with the same middle stand side by side
+        // labels of plies with the same middle are side by side
         let twins = plies[..n].iter().filter_map(|other| self::middle(&other.region));
         let reach = 0.05 * (plan.high[0] - plan.low[0]);
         let before = twins
@@ -82,14 +82,14 @@ pub(super) fn all(book: &Book, plies: &[PlyRecord]) -> String {
             let (sin, cos) = heading.sin_cos();
             let ends = [-1.0, 1.0].map(|s| [at[0] + s * reach * cos, at[1] + s * reach * sin]);
             let line = plan.path(ends.into_iter(), false);
-            let _ = write!(body, "<path class=\"warp c{}\" d=\"{line}\"/>", n % COLOURS);
+            let _ = write!(body, "<path class=\"warp c{}\" d=\"{line}\"/>", n % COLORS);
         }
         let pixels = plan.pixels(at);
         let (x, y) = pixels.split_once(',').unwrap_or(("0", "0"));
         let _ = write!(
             body,
             "<circle class=\"mark c{}\" cx=\"{x}\" cy=\"{y}\" r=\"11\"/><text class=\"number\" x=\"{x}\" y=\"{y}\">{}</text>",
-            n % COLOURS,
+            n % COLORS,
             n + 1
         );
     }
@@ -97,27 +97,27 @@ pub(super) fn all(book: &Book, plies: &[PlyRecord]) -> String {
 }
 
 /// Number of colors of plies in the page.
-pub(super) const COLOURS: usize = 6;
+pub(super) const COLORS: usize = 6;
 
 /// One ply with its yarns, over those that it lies on.
 pub(super) fn one(book: &Book, index: usize) -> String {
-    let (plan, ply) = (Plan::of(book), &book.plies[index]);
+    let (plan, ply) = (PlanView::new(book), &book.plies[index]);
     let mut body = String::new();
     for lower in &ply.lies_on {
         let rings = plan.rings(&book.plies[*lower].region);
         let _ = write!(body, "<path class=\"below\" d=\"{rings}\"/>");
     }
-    let class = format!("ply c{}", index % COLOURS);
+    let class = format!("ply c{}", index % COLORS);
     let _ = write!(body, "<path class=\"{class}\" d=\"{}\"/>", plan.rings(&ply.region));
     for yarn in yarns(ply) {
         let line = plan.path(yarn.into_iter(), false);
-        let _ = write!(body, "<path class=\"yarn c{}\" d=\"{line}\"/>", index % COLOURS);
+        let _ = write!(body, "<path class=\"yarn c{}\" d=\"{line}\"/>", index % COLORS);
     }
     plan.svg(&format!("ply {} with its warp, seen from above", index + 1), "one", &body)
 }
 
 /// The mold in triangles, darker the steeper it is.
-fn mold(book: &Book, plan: &Plan) -> String {
+fn mold(book: &Book, plan: &PlanView) -> String {
     let found = patch(&book.mold, plan.low, plan.high, TRIANGLES);
     let mut body = String::new();
     for corners in &found.triangles {
@@ -159,7 +159,7 @@ fn warp_axis(ply: &BookPly) -> usize {
 pub(super) fn warp_heading(ply: &BookPly) -> Option<f64> {
     let (net, mold) = (net(ply)?, ply.scene.layup.mold.as_ref()?);
     let [low, high] = net.ply_outline()?.bounds();
-    let tangents = net.fibres(mold, [0, 1].map(|n| 0.5 * (low[n] + high[n])))?;
+    let tangents = net.fibers(mold, [0, 1].map(|n| 0.5 * (low[n] + high[n])))?;
     let [x, y, _] = tangents[warp_axis(ply)];
     Some(y.atan2(x))
 }

@@ -27,13 +27,13 @@ const VERSION: u32 = 1;
 /// How one ply of a book was planned.
 #[derive(Debug, Clone, Serialize)]
 pub struct PlyRecord {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// Folder of its results, beside `book.json`.
     pub folder: String,
     /// Numbers of the plies that it lies on, counted from 1.
     pub lies_on: Vec<usize>,
-    /// Its thickness (m), if the book says it.
+    /// Thickness (m), if the book says it.
     pub thickness: Option<f64>,
     /// Whether its plan keeps all limits.
     pub accepted: bool,
@@ -54,7 +54,7 @@ pub struct PlyRecord {
 impl PlyRecord {
     /// Of a ply of a book and its planned result.
     #[must_use]
-    pub fn of(book: &Book, index: usize, result: &ResultFile) -> Self {
+    pub fn new(book: &Book, index: usize, result: &ResultFile) -> Self {
         let ply: &BookPly = &book.plies[index];
         let limits = &result.summary.limits;
         let worst = limiting(limits).or_else(|| closest(limits)).cloned();
@@ -73,7 +73,7 @@ impl PlyRecord {
         }
     }
 
-    /// Its worst limit as text.
+    /// Worst limit as text.
     #[must_use]
     pub fn worst_text(&self) -> String {
         self.worst.as_ref().map_or_else(|| "–".into(), measure_text)
@@ -106,7 +106,7 @@ struct Written<'a> {
 /// # Errors
 /// [`Error`] if a number is not finite.
 pub fn text(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Result<String, Error> {
-    json::of(&Written {
+    json::to_text(&Written {
         format: "plydrape-book",
         version: VERSION,
         program: PROGRAM,

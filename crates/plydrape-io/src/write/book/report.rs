@@ -44,7 +44,7 @@ pub(super) fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Strin
 <table><thead><tr><th class=\"n\">order</th><th>ply</th><th>lies on</th><th class=\"n\">thickness mm</th><th>verdict</th><th>worst limit</th><th class=\"n\">motion s</th><th class=\"n\">drapes</th></tr></thead>\n\
 <tbody>\n{rows}</tbody></table>\n<p class=\"faint\">All motions together take {motion:.1} s. A ply's name leads to its own page. The worst limit is the one that is \
 exceeded most; of an accepted plan, the one nearest to not holding.</p>\n<h2>The plies on the mold, seen from above</h2>\n\
-<p class=\"faint\">x to the right, y upwards. Each number stands in the middle of its ply, on a line along the warp there.</p>\n{all}\
+<p class=\"faint\">x to the right, y upwards. Each number is in the middle of its ply, on a line along the warp there.</p>\n{all}\
 <h2>Ply by ply</h2>\n<p class=\"faint\">Lines of warp of the ideal drape; dashed, the plies beneath.</p>\n<div class=\"plies\">\n{figures}</div>\n\
 <p class=\"faint\">{}</p>\n</body></html>\n",
         text(PROGRAM)
@@ -62,7 +62,7 @@ fn row(n: usize, ply: &PlyRecord) -> String {
         ply.folder,
         text(&ply.name),
         text(&ply.lies_on_text()),
-        ply.thickness.map_or_else(|| "–".into(), shown::millimetres),
+        ply.thickness.map_or_else(|| "–".into(), shown::millimeters),
         text(&ply.worst_text()),
         ply.motion_s,
         ply.evaluations,

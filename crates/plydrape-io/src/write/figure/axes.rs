@@ -5,12 +5,12 @@ pub(super) const TICK: f64 = 11.5;
 /// Size of axis labels (picture points).
 pub(super) const LABEL: f64 = 12.5;
 
-/// Round numbers (mm) within a range (m), at most so many intervals.
+/// Round numbers (mm) within a range (m), at most this many intervals.
 pub(super) fn ticks(low: f64, high: f64, most: f64) -> Vec<f64> {
     round(low * 1e3, high * 1e3, most)
 }
 
-/// Round numbers within a range, at most so many intervals.
+/// Round numbers within a range, at most this many intervals.
 pub(super) fn round(low: f64, high: f64, most: f64) -> Vec<f64> {
     let raw = (high - low) / most.max(1.0);
     if !raw.is_finite() || raw <= 0.0 {

@@ -2,7 +2,7 @@
 
 use super::axes::{self, LABEL, TICK};
 use super::canvas::{Canvas, Px, plain};
-use super::colour::{FRAME, viridis};
+use super::color::{FRAME, viridis};
 
 /// Greatest length (picture points).
 const LENGTH: f64 = 340.0;

@@ -2,7 +2,7 @@
 //!
 //! Coordinates are exact to a tenth of a point.
 
-use super::colour::DARK;
+use super::color::DARK;
 use std::fmt::Write;
 
 /// A place on the sheet: right and down (picture points).

@@ -5,11 +5,11 @@
 mod axes;
 mod bar;
 mod canvas;
-mod colour;
+mod color;
 pub mod seeds;
 pub mod shear_map;
 
-pub(crate) use colour::viridis_rgb;
+pub(crate) use color::viridis_rgb;
 
 /// Most characters of a picture's title.
 const TITLE: usize = 60;

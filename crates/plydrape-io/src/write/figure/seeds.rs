@@ -3,7 +3,7 @@
 use super::axes::{self, LABEL, TICK};
 use super::bar::bar;
 use super::canvas::{Canvas, Ink, Px, heading, plain};
-use super::colour::{BLACK, DARK, FRAME, GRID, viridis};
+use super::color::{BLACK, DARK, FRAME, GRID, viridis};
 use crate::store::shown;
 use plydrape::net::{Choice, Net, Seeds};
 
@@ -17,7 +17,7 @@ const PLY: f64 = 300.0;
 const HEADINGS: f64 = 150.0;
 /// Half the side of a seed's square (picture points).
 const HALF: f64 = 7.0;
-/// The color scale spans at least so much (°), so that rounding errors have no color.
+/// The color scale spans at least this much (°), so that rounding errors have no color.
 const LEAST: f64 = 0.05;
 
 /// The picture of a search, as an SVG 640 points wide.

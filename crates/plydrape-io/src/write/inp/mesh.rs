@@ -1,6 +1,6 @@
 //! The flat ply in quadratic shells of eight nodes, a grid of squares or nearly so.
 //!
-//! Nodes stand on a grid of half an element's side, without the middles of the elements: a row through corners has
+//! Nodes lie on a grid of half an element's side, without the middles of the elements: a row through corners has
 //! `2n+1` nodes, a row between them `n+1`. Numbers count from 1, along u first. A side of an element is a whole part of
 //! the cell's, so that every gripper has a node of its own.
 
@@ -32,7 +32,7 @@ impl Mesh {
         let cells = [grid.nu.saturating_sub(1).max(1), grid.nv.saturating_sub(1).max(1)];
         let area = (0..2).map(|c| cells[c] as f64 * cell[c]).product::<f64>();
         let aim = SIDE.max((area / MOST).sqrt());
-        // `as` saturates: a cell of a kilometre has as many elements as a large one
+        // `as` saturates: a cell of a kilometer has as many elements as a large one
         let per_cell = cell.map(|side| ((side / aim).round() as usize).clamp(FEWEST, 1000));
         let count = [0, 1].map(|c| cells[c] * per_cell[c]);
         Mesh { grid, per_cell, count, side: [0, 1].map(|c| cell[c] / per_cell[c] as f64) }
@@ -112,7 +112,7 @@ mod tests {
 
     /// 4 × 2 grippers on cells of 100 mm: 30 × 10 squares of 10 mm, and the sides and middles by Euler's formula.
     #[test]
-    fn the_paper_s_ply_has_elements_of_ten_millimetres() {
+    fn the_paper_s_ply_has_elements_of_ten_millimeters() {
         let [mesh, ..] = plies();
         assert_eq!(mesh.count, [30, 10]);
         assert!(mesh.side.iter().all(|side| (side - 0.01).abs() < 1e-15));

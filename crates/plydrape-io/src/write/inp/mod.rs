@@ -55,7 +55,7 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     let (flat, places): (Vec<_>, Vec<_>) =
         first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();
     let pose = Pose::fit(&flat, &places).ok_or_else(|| {
-        let message = "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them";
+        let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
     let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
@@ -127,7 +127,7 @@ fn middles(result: &ResultFile, mesh: &Mesh, deck: &mut Deck) {
 
 /// Fiber directions, moduli, density and thickness.
 fn material(section: &ShellSection, warp: plydrape::ply::Direction, pose: &Pose, deck: &mut Deck) {
-    deck.line("*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR");
+    deck.line("*ORIENTATION, NAME=FIBERS, SYSTEM=RECTANGULAR");
     deck.numbers(axes(warp).into_iter().flat_map(|axis| pose.turn(axis)));
     deck.line("*MATERIAL, NAME=FABRIC");
     deck.line("*ELASTIC, TYPE=ENGINEERING CONSTANTS");
@@ -136,7 +136,7 @@ fn material(section: &ShellSection, warp: plydrape::ply::Direction, pose: &Pose,
     deck.numbers([g23]);
     deck.line("*DENSITY");
     deck.numbers([section.density()]);
-    deck.line("*SHELL SECTION, ELSET=PLY, MATERIAL=FABRIC, ORIENTATION=FIBRES");
+    deck.line("*SHELL SECTION, ELSET=PLY, MATERIAL=FABRIC, ORIENTATION=FIBERS");
     deck.numbers([section.thickness]);
 }
 

@@ -22,7 +22,7 @@
 //! shape depends on EI/m alone, forces on the width.
 
 use crate::result::SceneEcho;
-use crate::store::shown::millimetres;
+use crate::store::shown::millimeters;
 use plydrape::material::Section;
 use plydrape::ply::Direction;
 
@@ -64,7 +64,7 @@ impl ShellSection {
             Section::Line { mass, flexural_rigidity } => {
                 assumed.push(format!(
                     "Mass and rigidity are given per catenary: each stands for {} mm of width.",
-                    millimetres(width)
+                    millimeters(width)
                 ));
                 (mass / width, [flexural_rigidity / width; 2])
             }
@@ -84,10 +84,10 @@ impl ShellSection {
         let weight = areal_mass * scene.settings.gravity.abs().max(1.0);
         let side = a.min(b);
         let limp = weight * (LEAST_BENDING_LENGTH * side).powi(3);
-        for (rigidity, fibre) in rigidity.iter_mut().zip(["warp", "weft"]) {
+        for (rigidity, fiber) in rigidity.iter_mut().zip(["warp", "weft"]) {
             if *rigidity < limp {
                 assumed.push(format!(
-                    "The ply's bending rigidity along the {fibre}, {rigidity:.3e} N m, is raised to {limp:.3e} N m: shells need some."
+                    "The ply's bending rigidity along the {fiber}, {rigidity:.3e} N m, is raised to {limp:.3e} N m: shells need some."
                 ));
                 *rigidity = limp;
             }

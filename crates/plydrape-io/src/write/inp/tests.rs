@@ -38,7 +38,7 @@ fn every_line_can_be_read() {
 
 /// The material's first axis is the warp's direction in space.
 #[test]
-fn fibres_follow_the_warp() {
+fn fibers_follow_the_warp() {
     let mut result = sample::tilted(3, 2);
     for (warp, gripper) in [(plydrape::ply::Direction::U, 1), (plydrape::ply::Direction::V, 3)] {
         result.scene.ply.warp = warp;

@@ -28,7 +28,7 @@ pub fn table(boundary: &Boundary) -> Result<String, Error> {
 /// The same lines in space as DXF, in millimeters.
 #[must_use]
 pub fn dxf(boundary: &Boundary) -> String {
-    let line = |(line, part): (&plydrape::net::Line, usize)| pattern::Line {
+    let line = |(line, part): (&plydrape::net::BoundaryLine, usize)| pattern::PatternLine {
         name: match line.ring {
             0 => format!("boundary {part}"),
             hole => format!("hole {hole}, part {part}"),
@@ -36,7 +36,8 @@ pub fn dxf(boundary: &Boundary) -> String {
         points: line.points.iter().map(|point| point.place).collect(),
         closed: line.closed,
     };
-    let lines: Vec<pattern::Line> = boundary.lines.iter().zip(parts(boundary)).map(line).collect();
+    let lines: Vec<pattern::PatternLine> =
+        boundary.lines.iter().zip(parts(boundary)).map(line).collect();
     pattern::boundary::dxf(&lines)
 }
 

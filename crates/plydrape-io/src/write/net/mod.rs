@@ -68,7 +68,7 @@ pub fn write_all(
     folder::write(dir, "net", &files, read)
 }
 
-/// Shear at a node (rad): mean magnitude of the whole cells around it; none beside missing nodes only.
+/// Shear at a node (rad): mean magnitude of the whole cells around it; `None` beside missing nodes only.
 fn nodal_shear(net: &Net, [i, j]: [usize; 2]) -> Option<f64> {
     let around = [[1, 1], [0, 1], [1, 0], [0, 0]];
     let cells = around.iter().filter_map(|[a, b]| Some([i.checked_sub(*a)?, j.checked_sub(*b)?]));

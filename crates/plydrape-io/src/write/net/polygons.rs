@@ -16,8 +16,8 @@ const TRIANGLES: usize = 8000;
 const BEYOND: f64 = 0.06;
 
 /// The net. At points: fabric coordinates `u`, `v` (m), grid indices `i`, `j`, `shear_deg` as in
-/// `nodes.csv`, and `has_shear`, 1 where that is known; else both 0. In cells: `shear_deg`, the magnitude; `signed_shear_deg`, positive where u and v stand at
-/// less than 90°; `fibre_u`, `fibre_v`, unit vectors along the two fiber directions in the cell's middle.
+/// `nodes.csv`, and `has_shear`, 1 where that is known; else both 0. In cells: `shear_deg`, the magnitude; `signed_shear_deg`, positive where u and v meet at
+/// less than 90°; `fiber_u`, `fiber_v`, unit vectors along the two fiber directions in the cell's middle.
 #[must_use]
 pub fn net(net: &Net) -> Vec<u8> {
     let [nu, nv] = net.placement.nodes;
@@ -37,7 +37,7 @@ pub fn net(net: &Net) -> Vec<u8> {
     ];
 
     let mut cells = Vec::new();
-    let (mut magnitude, mut angle, mut fibres) = (Vec::new(), Vec::new(), [Vec::new(), Vec::new()]);
+    let (mut magnitude, mut angle, mut fibers) = (Vec::new(), Vec::new(), [Vec::new(), Vec::new()]);
     for [i, j] in (0..nv.saturating_sub(1)).flat_map(|j| (0..nu - 1).map(move |i| [i, j])) {
         let ring = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
         let found = ring.map(|id| number.get(&id).copied());
@@ -49,19 +49,19 @@ pub fn net(net: &Net) -> Vec<u8> {
         let [p, q, r, s] = [a, b, c, d].map(|n| points[n]);
         magnitude.push(shear.magnitude.to_degrees());
         angle.push(shear.angle.to_degrees());
-        fibres[0].push(middle([p, q], [s, r]));
-        fibres[1].push(middle([p, s], [q, r]));
+        fibers[0].push(middle([p, q], [s, r]));
+        fibers[1].push(middle([p, s], [q, r]));
     }
     let in_cells = vec![
         Array::new("shear_deg", magnitude),
         Array::new("signed_shear_deg", angle),
-        Array::vectors("fibre_u", &fibres[0]),
-        Array::vectors("fibre_v", &fibres[1]),
+        Array::vectors("fiber_u", &fibers[0]),
+        Array::vectors("fiber_v", &fibers[1]),
     ];
     PolyData { points, kind: Kind::Polys, cells, at_points, in_cells, fields: Vec::new() }.bytes()
 }
 
-/// The mold under a net and a little beyond, in triangles; none if the mold is not near the net.
+/// The mold under a net and a little beyond, in triangles; `None` if the mold is not near the net.
 #[must_use]
 pub fn mold(net: &Net, mold: &Mold) -> Option<Vec<u8>> {
     let places = || net.nodes.iter().flatten();

@@ -27,7 +27,7 @@ pub struct Summary {
     pub seed: [usize; 2],
     /// Where it lies (m).
     pub seed_place: [f64; 3],
-    /// Largest magnitude of a cell's shear (°); none without whole cells.
+    /// Largest magnitude of a cell's shear (°); `None` without whole cells.
     pub max_shear_deg: Option<f64>,
     /// Where that is.
     pub max_shear_at: Option<ShearPlace>,
@@ -47,13 +47,13 @@ pub struct Summary {
     pub unreached: usize,
     /// Of each reason that occurs, the missing node closest to the seed.
     pub first_missing: Vec<Missing>,
-    /// The ply's boundary on the mold; none of a strip without width.
+    /// The ply's boundary on the mold; `None` for a strip without width.
     pub boundary: Option<BoundarySummary>,
-    /// Sharp edges of the mold under the ply; none where the mold has no edges to tell.
+    /// Sharp edges of the mold under the ply; `None` where the mold has no edges to tell.
     pub sharp_edges: Option<SharpEdgesSummary>,
-    /// How far the ply's boundary is from where it is wanted (m); none where that is not given.
+    /// How far the ply's boundary is from the target boundary (m); `None` without one.
     pub trim: Option<Trim>,
-    /// How the seed was chosen; none where it was given.
+    /// How the seed was chosen; `None` where it was given.
     pub search: Option<SearchSummary>,
 }
 
@@ -68,7 +68,7 @@ pub struct BoundarySummary {
     pub off_mold_area: f64,
     /// How far beyond it reaches (m); 0 where it does not.
     pub farthest_beyond: f64,
-    /// Which fabric that is, and where; none where there is none.
+    /// Which fabric that is, and where; `None` where there is none.
     pub farthest_at: Option<PlyPoint>,
     /// Length of fabric of the boundary where the ply folds (m).
     pub folded_length: f64,
@@ -81,7 +81,7 @@ pub struct BoundarySummary {
 pub struct SharpEdgesSummary {
     /// Their length (m).
     pub length: f64,
-    /// The largest angle by which the mold turns across one (°); none without any.
+    /// The largest angle by which the mold turns across one (°); `None` without any.
     pub sharpest_deg: Option<f64>,
     /// Which fabric runs over that, and where.
     pub sharpest_at: Option<PlyPoint>,
@@ -100,14 +100,14 @@ pub struct SearchSummary {
     pub max_shear_deg: Option<f64>,
     /// Largest shear from the point itself that was to lie at the origin (°), with the same heading.
     pub held_max_shear_deg: Option<f64>,
-    /// How far that point is from the origin (m); none where it has no place.
+    /// How far that point is from the origin (m); `None` where it has no place.
     pub off: Option<f64>,
 }
 
 /// The middle of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ShearPlace {
-    /// Its lowest node.
+    /// Lowest node.
     pub cell: [usize; 2],
     /// Fabric coordinates (m).
     pub u: f64,
@@ -120,9 +120,9 @@ pub struct ShearPlace {
 impl Summary {
     /// Of a net and what is found of it, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
-    pub fn of(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
+    pub fn new(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
         let (layup, report) = (&net.placement, &net.report);
-        let boundary = findings.boundary.as_ref().map(BoundarySummary::of);
+        let boundary = findings.boundary.as_ref().map(BoundarySummary::new);
         let hair = HAIR * layup.mesh[0].min(layup.mesh[1]);
         let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies(hair));
         let all = net.missing.is_empty() && lies;
@@ -139,7 +139,7 @@ impl Summary {
             seed: layup.seed,
             seed_place: layup.place,
             max_shear_deg: report.largest_shear.map(|(largest, _)| largest.to_degrees()),
-            max_shear_at: report.largest_shear.and_then(|(_, cell)| ShearPlace::of(net, cell)),
+            max_shear_at: report.largest_shear.and_then(|(_, cell)| ShearPlace::new(net, cell)),
             mean_shear_deg: report.mean_shear.to_degrees(),
             shear_limit_deg: shear_limit.map(f64::to_degrees),
             max_edge_error: report.largest_edge_error,
@@ -149,9 +149,9 @@ impl Summary {
             unreached: report.unreached,
             first_missing: report.first.clone(),
             boundary,
-            sharp_edges: findings.sharp_edges.as_ref().map(SharpEdgesSummary::of),
+            sharp_edges: findings.sharp_edges.as_ref().map(SharpEdgesSummary::new),
             trim: findings.trim,
-            search: findings.seeds.as_ref().map(SearchSummary::of),
+            search: findings.seeds.as_ref().map(SearchSummary::new),
         }
     }
 
@@ -217,7 +217,7 @@ impl Summary {
             if let Some(at) = &boundary.farthest_at {
                 let [length, beyond] =
                     [boundary.off_mold_length, boundary.farthest_beyond].map(tenths);
-                let area = square_millimetres(boundary.off_mold_area);
+                let area = square_millimeters(boundary.off_mold_area);
                 lines.push((
                     "hangs over",
                     format!(
@@ -228,7 +228,7 @@ impl Summary {
             }
             if boundary.folded_length > 0.0 || boundary.folded_area > 0.0 {
                 let length = tenths(boundary.folded_length);
-                let area = square_millimetres(boundary.folded_area);
+                let area = square_millimeters(boundary.folded_area);
                 lines.push((
                     "no place",
                     format!("{length} mm of boundary, {area} mm²: the ply folds"),
@@ -264,7 +264,7 @@ impl Summary {
             let (place, far) = trim.farthest_wanted;
             lines.push((
                 "",
-                format!("{} mm from it at most what is wanted, at {} mm", mm(far), at(place)),
+                format!("{} mm from the target boundary at most, at {} mm", mm(far), at(place)),
             ));
             if trim.not_compared > 0.0 {
                 lines.push((
@@ -325,7 +325,7 @@ impl Summary {
 }
 
 impl ShearPlace {
-    fn of(net: &Net, [i, j]: [usize; 2]) -> Option<Self> {
+    fn new(net: &Net, [i, j]: [usize; 2]) -> Option<Self> {
         let low = net.placement.fabric([i, j]);
         let [u, v] = [0, 1].map(|c| low[c] + 0.5 * net.placement.mesh[c]);
         let ring = [
@@ -340,7 +340,7 @@ impl ShearPlace {
 }
 
 impl BoundarySummary {
-    fn of(boundary: &Boundary) -> Self {
+    fn new(boundary: &Boundary) -> Self {
         BoundarySummary {
             length: boundary.length,
             off_mold_length: boundary.off_mold.length,
@@ -370,7 +370,7 @@ fn faults_of(boundary: Option<&BoundarySummary>) -> String {
 }
 
 impl SharpEdgesSummary {
-    fn of(edges: &SharpEdges) -> Self {
+    fn new(edges: &SharpEdges) -> Self {
         SharpEdgesSummary {
             length: edges.length,
             sharpest_deg: edges.sharpest.map(|(turn, _)| turn.to_degrees()),
@@ -380,7 +380,7 @@ impl SharpEdgesSummary {
 }
 
 impl SearchSummary {
-    fn of(seeds: &Seeds) -> Self {
+    fn new(seeds: &Seeds) -> Self {
         let taken = &seeds.choices[seeds.chosen];
         // only the held point is in its place to the last bit
         let held = seeds.choices.iter().find(|choice| {
@@ -410,17 +410,17 @@ fn missing_text(count: usize, first: &Missing) -> String {
 }
 
 /// Millimeters, to a thousandth.
-fn mm(metres: f64) -> String {
-    format!("{}", (metres * 1e6).round() / 1e3 + 0.0)
+fn mm(meters: f64) -> String {
+    format!("{}", (meters * 1e6).round() / 1e3 + 0.0)
 }
 
 /// Millimeters, to a tenth.
-fn tenths(metres: f64) -> String {
-    format!("{}", (metres * 1e4).round() / 10.0 + 0.0)
+fn tenths(meters: f64) -> String {
+    format!("{}", (meters * 1e4).round() / 10.0 + 0.0)
 }
 
 /// Square millimeters, whole ones.
-fn square_millimetres(area: f64) -> String {
+fn square_millimeters(area: f64) -> String {
     format!("{:.0}", area * 1e6)
 }
 

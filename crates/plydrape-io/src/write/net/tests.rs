@@ -88,12 +88,12 @@ fn a_line_of_nodes_has_no_map() {
     );
 }
 
-/// Its files, and the same bytes again from the same net.
+/// Files, and the same bytes again from the same net.
 #[test]
 fn a_net_writes_its_files_twice_the_same() {
     let dir = tempfile::tempdir().unwrap();
     let (mold, net) = &nets()[0];
-    let findings = Findings::of(net, mold, None, None);
+    let findings = Findings::new(net, mold, None, None);
     let paths = write_all(net, mold, &findings, "dome", dir.path(), &[]).unwrap();
     let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
     assert_eq!(
@@ -113,14 +113,14 @@ fn a_net_is_refused_beyond_its_shear_limit_and_beyond_its_mold() {
     let [(_, whole), (bowl, large)] = &nets();
     let none = Findings::default();
     let (largest, cell) = whole.report.largest_shear.unwrap();
-    let free = Summary::of(whole, &none, None);
+    let free = Summary::new(whole, &none, None);
     assert!(free.accepted && free.table().ends_with("\naccepted\n"), "{}", free.table());
     assert_eq!(free.max_shear_at.unwrap().cell, cell);
-    assert!(Summary::of(whole, &none, Some(largest)).accepted);
-    let tight = Summary::of(whole, &none, Some(0.5 * largest));
+    assert!(Summary::new(whole, &none, Some(largest)).accepted);
+    let tight = Summary::new(whole, &none, Some(0.5 * largest));
     assert!(!tight.accepted);
     assert!(tight.verdict().starts_with("not accepted: shear 5"), "{}", tight.verdict());
-    let beyond = Summary::of(large, &Findings::of(large, bowl, None, None), None);
+    let beyond = Summary::new(large, &Findings::new(large, bowl, None, None), None);
     assert!(!beyond.accepted && beyond.verdict().contains("beyond the mold's boundary"));
     assert!(beyond.table().lines().all(|l| l.chars().count() <= 100), "{}", beyond.table());
 }

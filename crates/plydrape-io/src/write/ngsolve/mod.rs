@@ -39,7 +39,7 @@ struct Data<'a> {
     version: u32,
     title: &'a str,
     program: &'a str,
-    /// Check sum of the states that the result was written with; none without a sheet.
+    /// Check sum of the states that the result was written with; `None` without a sheet.
     result: Option<&'a str>,
     nodes: Vec<[f64; 2]>,
     quads: Vec<[u32; 4]>,
@@ -68,7 +68,7 @@ struct Cup {
     place: [f64; 2],
     radius: f64,
     stiffness: [f64; 3],
-    /// When it lets go (s); none if it holds to the end.
+    /// When it lets go (s); `None` if it holds to the end.
     release: Option<f64>,
     positions: Vec<[f64; 3]>,
     quaternions: Vec<[f64; 4]>,
@@ -79,7 +79,7 @@ struct Cup {
 struct Contact {
     depth: f64,
     clear: f64,
-    /// Coulomb's coefficient; none if what touches sticks.
+    /// Coulomb's coefficient; `None` if what touches sticks.
     friction: Option<f64>,
     tack: f64,
 }
@@ -113,7 +113,7 @@ pub(crate) fn files(
     let places: Vec<[f64; 2]> = sheet.grippers.iter().map(|gripper| gripper.place).collect();
     let held: Vec<[f64; 3]> = first.grippers.iter().map(|gripper| gripper.commanded).collect();
     let pose = Pose::fit(&places, &held).ok_or_else(|| {
-        let message = "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them";
+        let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
     let points = match &result.sheet_states {
@@ -169,7 +169,7 @@ pub(crate) fn files(
     };
     Ok(vec![
         ("drape.py".into(), SCRIPT.as_bytes().to_vec()),
-        ("ply.json".into(), json::of(&data)?.into_bytes()),
+        ("ply.json".into(), json::to_text(&data)?.into_bytes()),
     ])
 }
 

@@ -1,6 +1,6 @@
 //! Lines in space for a laser projector, such as the boundary of a ply on the mold: as a table and as DXF.
 
-use super::Line;
+use super::PatternLine;
 use super::dxf_text::Text;
 use crate::Error;
 use crate::write::csv::{cell, number, text};
@@ -10,7 +10,7 @@ use ::csv::Writer;
 ///
 /// # Errors
 /// If the table cannot be formed; memory apart there is no known case.
-pub fn csv(lines: &[Line]) -> Result<String, Error> {
+pub fn csv(lines: &[PatternLine]) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     table.write_record(["polyline", "point", "x (m)", "y (m)", "z (m)"])?;
     for line in lines {
@@ -26,7 +26,7 @@ pub fn csv(lines: &[Line]) -> Result<String, Error> {
 /// The lines as polylines in space on the layer `BOUNDARY` of a DXF text, in millimeters and in their order. Same lines, same
 /// bytes.
 #[must_use]
-pub fn dxf(lines: &[Line]) -> String {
+pub fn dxf(lines: &[PatternLine]) -> String {
     let mut text = Text::new(&[("BOUNDARY", 1)]);
     for line in lines {
         text.polyline_3d("BOUNDARY", &line.points, line.closed);

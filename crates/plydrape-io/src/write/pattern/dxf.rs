@@ -1,14 +1,14 @@
 //! The flat pattern as DXF, in millimeters.
 //!
 //! Layers: `CUT` is the boundary and `HOLES` are the holes, which a cutter follows; `GRIPPERS` has a circle and a name for each
-//! gripper, `FIBRE` the arrow of the warp, and `TITLE` the title.
+//! gripper, `FIBER` the arrow of the warp, and `TITLE` the title.
 
 use super::dxf_text::Text;
 use super::{Pattern, arrow};
 
 /// Layers and their colors: red, blue, green, magenta and the color of the page.
 const LAYERS: [(&str, u8); 5] =
-    [("CUT", 1), ("HOLES", 5), ("GRIPPERS", 3), ("FIBRE", 6), ("TITLE", 7)];
+    [("CUT", 1), ("HOLES", 5), ("GRIPPERS", 3), ("FIBER", 6), ("TITLE", 7)];
 
 /// The drawing as DXF text. Same pattern, same bytes.
 #[must_use]
@@ -31,7 +31,7 @@ pub fn text(pattern: &Pattern) -> String {
         );
     }
     for line in arrow(pattern) {
-        text.polyline("FIBRE", &line, false);
+        text.polyline("FIBER", &line, false);
     }
     let height = 0.02 * size;
     let middle = [0.5 * (low[0] + high[0]), high[1] + 1.5 * height];

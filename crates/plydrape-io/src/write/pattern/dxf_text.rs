@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-/// Handles that stand in several places (hexadecimal).
+/// Handles that occur in several places (hexadecimal).
 const MODEL: &str = "20";
 const PAPER: &str = "21";
 const ROOT: &str = "30";
@@ -52,12 +52,12 @@ impl Text {
     }
 
     /// A circle (m).
-    pub fn circle(&mut self, layer: &str, centre: [f64; 2], radius: f64) {
+    pub fn circle(&mut self, layer: &str, center: [f64; 2], radius: f64) {
         self.entity("CIRCLE", layer, "AcDbCircle");
         for side in [-radius, radius] {
-            self.at([centre[0] + side, centre[1] + side, 0.0]);
+            self.at([center[0] + side, center[1] + side, 0.0]);
         }
-        let [x, y, z] = self.at([centre[0], centre[1], 0.0]);
+        let [x, y, z] = self.at([center[0], center[1], 0.0]);
         self.pairs(&[(10, &x), (20, &y), (30, &z), (40, &mm(radius))]);
     }
 
@@ -110,7 +110,7 @@ impl Text {
         self.section("HEADER");
         let [low, high] = self.bounds.map(|bound| bound.map(finite));
         self.strings(&[(9, "$ACADVER"), (1, "AC1024"), (9, "$DWGCODEPAGE"), (3, "ANSI_1252")]);
-        // millimetres, metric
+        // millimeters, metric
         self.strings(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")]);
         for (name, [x, y, z]) in [("$EXTMIN", low), ("$EXTMAX", high)] {
             self.pairs(&[(9, &name), (10, &mm(x)), (20, &mm(y)), (30, &mm(z))]);
@@ -133,9 +133,9 @@ impl Text {
         self.pair(0, &"ENDTAB");
         let layers = std::mem::take(&mut self.layers);
         self.table("LAYER", "3", layers.len() + 1);
-        for (n, (name, colour)) in [("0", 7)].iter().chain(&layers).enumerate() {
+        for (n, (name, color)) in [("0", 7)].iter().chain(&layers).enumerate() {
             self.record("LAYER", &format!("{:X}", 0x40 + n), "3", "AcDbLayerTableRecord");
-            self.pairs(&[(2, name), (70, &0), (62, colour), (6, &"Continuous"), (370, &-3)]);
+            self.pairs(&[(2, name), (70, &0), (62, color), (6, &"Continuous"), (370, &-3)]);
         }
         self.pair(0, &"ENDTAB");
         self.table("STYLE", "4", 1);

@@ -16,7 +16,7 @@ use plydrape::ply::Outline;
 pub struct Pattern<'a> {
     /// What it is called; one line of text.
     pub title: &'a str,
-    /// Its boundary and its holes, in the coordinates of the drawing (m).
+    /// Boundary and holes, in the coordinates of the drawing (m).
     pub outline: &'a Outline,
     /// Angle from the x axis of the drawing to the warp, counterclockwise (rad).
     pub warp: f64,
@@ -29,7 +29,7 @@ pub struct Pattern<'a> {
 pub struct Gripper {
     /// What it is called, as in `g2_0`.
     pub name: String,
-    /// Its middle, in the coordinates of the drawing (m).
+    /// Middle, in the coordinates of the drawing (m).
     pub place: [f64; 2],
     /// Radius of its pad (m).
     pub radius: f64,
@@ -37,10 +37,10 @@ pub struct Gripper {
 
 /// A line in space, such as the boundary of a ply on the mold.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct PatternLine {
     /// What it is called.
     pub name: String,
-    /// Its points (m); of a closed one the first is not repeated.
+    /// Points (m); of a closed one the first is not repeated.
     pub points: Vec<[f64; 3]>,
     /// Whether its end is its beginning.
     pub closed: bool,

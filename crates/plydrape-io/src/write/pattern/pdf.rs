@@ -25,7 +25,7 @@ const CIRCLE: f64 = 0.552_284_75;
 /// The page as a PDF file. Same pattern, same bytes.
 #[must_use]
 pub fn bytes(pattern: &Pattern) -> Vec<u8> {
-    let page = Page::of(pattern);
+    let page = Page::new(pattern);
     let [catalog, pages, id, font, contents, info] = [1, 2, 3, 4, 5, 6].map(Ref::new);
     let content = page.content(pattern);
     let mut pdf = Pdf::new();
@@ -50,7 +50,7 @@ pub fn bytes(pattern: &Pattern) -> Vec<u8> {
     pdf.finish()
 }
 
-/// A page and where the pattern stands on it.
+/// A page and the position of the pattern on it.
 struct Page {
     /// Width and height (mm).
     size: [f64; 2],
@@ -63,7 +63,7 @@ struct Page {
 }
 
 impl Page {
-    fn of(pattern: &Pattern) -> Self {
+    fn new(pattern: &Pattern) -> Self {
         let [low, high] = bounds(pattern).map(|corner| corner.map(|c| c * 1e3));
         let mut size = [0, 1].map(|n| high[n] - low[n] + 2.0 * MARGIN);
         // the bar fits under a small ply too

@@ -1,6 +1,6 @@
 //! The flat pattern and the boundary of a result.
 
-use super::{Gripper, Line, Pattern, boundary, dxf, pdf};
+use super::{Gripper, Pattern, PatternLine, boundary, dxf, pdf};
 use crate::Error;
 use crate::result::ResultFile;
 use crate::store::folder::Files;
@@ -63,7 +63,7 @@ fn outline(result: &ResultFile) -> Outline {
 }
 
 /// The rings of the boundary in space.
-fn lines(result: &ResultFile) -> Result<Vec<Line>, Error> {
+fn lines(result: &ResultFile) -> Result<Vec<PatternLine>, Error> {
     let none = || {
         let message = "the result has no sheet whose boundary could be written";
         Error::not_possible(message, "drape the scene with kind = \"sheet\" in [model]")
@@ -72,16 +72,16 @@ fn lines(result: &ResultFile) -> Result<Vec<Line>, Error> {
     let last = states.steps()?.last().copied().ok_or_else(none)?;
     let state = states.state(last.1)?.ok_or_else(none)?;
     let scene = &result.scene;
-    let fabric = Fabric::of(&scene.ply, &scene.settings).map_err(|_| none())?;
+    let fabric = Fabric::new(&scene.ply, &scene.settings).map_err(|_| none())?;
     if fabric.places.len() != state.positions.len() {
         return Err(none());
     }
     let outline = outline(result);
     let rings = outline.rings().enumerate().map(|(n, ring)| {
-        let rim = fabric.along(ring);
-        Line {
+        let boundary = fabric.along(ring);
+        PatternLine {
             name: if n == 0 { "boundary".into() } else { format!("hole {n}") },
-            points: rim.iter().map(|rim| rim.of(&state.positions)).collect(),
+            points: boundary.iter().map(|point| point.interpolate(&state.positions)).collect(),
             closed: true,
         }
     });

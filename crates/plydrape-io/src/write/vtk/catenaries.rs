@@ -40,7 +40,7 @@ struct Piece<'a> {
 
 impl Piece<'_> {
     /// A number of a span from the length of its catenary; 0 for what is in contact.
-    fn of(&self, number: fn(&SpanState, f64) -> f64) -> f64 {
+    fn span_number(&self, number: fn(&SpanState, f64) -> f64) -> f64 {
         self.span.map_or(0.0, |span| number(span, self.line.length))
     }
 
@@ -117,11 +117,11 @@ pub(super) fn catenaries(result: &ResultFile, step: &Step) -> PolyData {
         numbers("length_m", |p| p.length()),
         numbers("H_N", |p| p.force().unwrap_or(0.0)),
         codes("has_force", |p| p.force().is_some().into()),
-        numbers("slack_mm", |p| p.of(SpanState::slack_mm)),
-        numbers("slack_ratio", |p| p.of(SpanState::slack_ratio)),
+        numbers("slack_mm", |p| p.span_number(SpanState::slack_mm)),
+        numbers("slack_ratio", |p| p.span_number(SpanState::slack_ratio)),
         numbers("wrinkle_mm", |p| p.wrinkle),
         numbers("overstretch", |p| p.span.map_or(0.0, |span| p.line.overstretch(span))),
-        numbers("overstretch_mm", |p| p.of(SpanState::overstretch_mm)),
+        numbers("overstretch_mm", |p| p.span_number(SpanState::overstretch_mm)),
     ];
     PolyData {
         points: pieces.iter().flat_map(|piece| piece.points).copied().collect(),

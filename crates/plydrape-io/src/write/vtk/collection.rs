@@ -15,7 +15,7 @@ pub(super) struct Part {
     pub time: f64,
     /// Number of the part, of those that share a time.
     pub part: usize,
-    /// Its name, as ParaView lists it.
+    /// Name, as ParaView lists it.
     pub name: &'static str,
     /// Name of the file, beside the collection.
     pub file: String,

@@ -2,7 +2,7 @@
 //!
 //! | files | what |
 //! |---|---|
-//! | `ply.pvd`, `ply_0001.vtp` … | the surface between the catenaries in quads (`ply`); none of a strip, nor where no catenaries were draped |
+//! | `ply.pvd`, `ply_0001.vtp` … | the surface between the catenaries in quads (`ply`); none for a strip, nor where no catenaries were draped |
 //! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`); none where none were draped |
 //! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`), by the model that decides |
 //! | `sheet.pvd`, `sheet_0001.vtp` … | the cells of the sheet in each step that was kept (`sheet`); none without a sheet |
@@ -38,7 +38,7 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let mut all = Collection::default();
     let surface = result.scene.ply.lines().surface().cells() > 0;
     let mut series = ["ply", "catenaries", "grippers"].map(|name| (name, Collection::default()));
-    // a drape of 10 000 steps still stands in order in a folder
+    // a drape of 10 000 steps is still in order in a folder
     let digits = result.steps.last().map_or(1, |step| step.step).to_string().len().max(4);
     let mold = mold::mold(result);
 

@@ -28,7 +28,7 @@ pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
     let intervals = (QUADS / grid.cells().max(1)).isqrt().clamp(1, INTERVALS);
     let Surface { size: [nu, nv], vertices, gap } = Surface::new(result, step, intervals);
 
-    // fabric coordinates and fibres
+    // fabric coordinates and fibers
     let place = |k: usize| [k % nu, k / nu];
     let fabric = |direction: usize| -> Vec<f64> {
         let side = result.scene.ply.cell[direction];

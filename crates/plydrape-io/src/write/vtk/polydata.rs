@@ -1,6 +1,6 @@
 //! VTK's XML PolyData: a short text that names the arrays, and behind it their bytes.
 //!
-//! The arrays stand at the end in their own binary form, little endian, each behind its length in bytes as an
+//! The arrays are at the end in their own binary form, little endian, each behind its length in bytes as an
 //! unsigned number of 64 bits, so that doubles come back to the last bit; version 1.0 of the format.
 
 use std::fmt::Write;
@@ -95,7 +95,7 @@ impl Array {
 }
 
 impl PolyData {
-    /// The same with its time (s), where VTK looks for it.
+    /// This data with its time (s), where VTK looks for it.
     pub fn at(mut self, time: f64) -> Self {
         self.fields.push(Array::new("TimeValue", vec![time]));
         self

@@ -209,13 +209,13 @@ impl Played {
             let [from, to] = [&self.points[after - 1], &self.points[after]];
             let span = to.time - from.time;
             let share = if span > 0.0 { ((time - from.time) / span).clamp(0.0, 1.0) } else { 1.0 };
-            let centre = towards(&from.pose, &to.pose, share);
+            let center = towards(&from.pose, &to.pose, share);
             let due = product(&flange[k], &program.frames.tool);
             // durations are rounded to half a microsecond, up to a microsecond in blocks, at less than 0.5 m/s
             let slip = 0.5 * 1e-6 * after as f64;
-            let off = distance(centre.position, due.position);
+            let off = distance(center.position, due.position);
             assert!(off < most.position + slip, "{off} at {time} s, {most:?}");
-            let turn = angle(&product(&centre, &back), &flange[k]);
+            let turn = angle(&product(&center, &back), &flange[k]);
             assert!(turn < most.angle + 10.0 * slip, "{turn} at {time} s, {most:?}");
             if self.is_coupled(program) {
                 continue;

@@ -35,18 +35,18 @@ impl Cam {
 }
 
 /// How far the strokes are from those that belong to the place of the arm: where it is nearest to the way of the program, not far from the sample `near`.
-fn off(program: &Program, centre: &[Pose], arm: &Pose, strokes: &[f64], near: &mut usize) -> f64 {
+fn off(program: &Program, center: &[Pose], arm: &Pose, strokes: &[f64], near: &mut usize) -> f64 {
     let away = |pose: &Pose| distance(pose.position, arm.position);
-    let around = near.saturating_sub(150)..(*near + 150).min(centre.len());
-    *near = around.min_by(|a, b| away(&centre[*a]).total_cmp(&away(&centre[*b]))).unwrap();
+    let around = near.saturating_sub(150)..(*near + 150).min(center.len());
+    *near = around.min_by(|a, b| away(&center[*a]).total_cmp(&away(&center[*b]))).unwrap();
     let k = *near;
     // the strokes of the samples around, and between them where the arm is between
     let of = |k: usize| program.axes.iter().map(move |axis| axis.values[k]);
     let mut least = f64::INFINITY;
-    for pair in [[k.saturating_sub(1), k], [k, (k + 1).min(centre.len() - 1)]] {
-        let way = sub(centre[pair[1]].position, centre[pair[0]].position);
+    for pair in [[k.saturating_sub(1), k], [k, (k + 1).min(center.len() - 1)]] {
+        let way = sub(center[pair[1]].position, center[pair[0]].position);
         let square = dot(way, way);
-        let part = sub(arm.position, centre[pair[0]].position);
+        let part = sub(arm.position, center[pair[0]].position);
         let share = if square > 0.0 { (dot(part, way) / square).clamp(0.0, 1.0) } else { 0.0 };
         let due = of(pair[0]).zip(of(pair[1])).map(|(a, b)| a + share * (b - a));
         let worst = due.zip(strokes).map(|(due, is)| (due - is).abs()).fold(0.0, f64::max);
@@ -55,7 +55,7 @@ fn off(program: &Program, centre: &[Pose], arm: &Pose, strokes: &[f64], near: &m
     least
 }
 
-fn centres(program: &Program) -> Vec<Pose> {
+fn centers(program: &Program) -> Vec<Pose> {
     let flange = program.flange.as_ref().unwrap();
     flange.iter().map(|pose| product(pose, &program.frames.tool)).collect()
 }
@@ -69,7 +69,7 @@ fn worst(
     override_at: impl Fn(f64) -> f64,
     by_clock: bool,
 ) -> f64 {
-    let centre = centres(program);
+    let center = centers(program);
     let cycle = 0.004;
     let (mut clock, mut rate, mut time, mut worst) = (0.0, 0.0, 0.0, 0.0_f64);
     let (mut seen, mut near) = (0.0, 0);
@@ -93,7 +93,7 @@ fn worst(
                 program.axes.iter().map(|axis| axis.values[k]).collect()
             }
         };
-        worst = worst.max(off(program, &centre, &arm, &strokes, &mut near));
+        worst = worst.max(off(program, &center, &arm, &strokes, &mut near));
         seen = progress;
     }
     worst
@@ -131,8 +131,8 @@ fn a_script_waits_for_its_arm_and_says_where_that_is() {
     let program = still(cell(12, 1001));
     let files = files(&program, Robot::Urscript, 1e-4);
     let cam = Cam::read(&files);
-    let (centre, name) = (centres(&program), names(&files)[0].trim_end_matches(".script"));
-    let in_base: Vec<Pose> = centre.iter().map(|p| product(&program.frames.mold, p)).collect();
+    let (center, name) = (centers(&program), names(&files)[0].trim_end_matches(".script"));
+    let in_base: Vec<Pose> = center.iter().map(|p| product(&program.frames.mold, p)).collect();
     let released = program.times.iter().position(|t| *t >= 4.8).unwrap();
     for (what, slider, longer) in [
         ("full speed", Box::new(|_| 1.0) as Box<dyn Fn(f64) -> f64>, 1.0),
@@ -156,13 +156,13 @@ fn a_script_waits_for_its_arm_and_says_where_that_is() {
                 &mut near,
             ));
         }
-        // the progress is told from the lag, which is large where the arm is slowed
+        // the progress is found from the lag, which is large where the arm is slowed
         let most = if what == "full speed" || what == "90 %" { 2e-3 } else { 1e-2 };
         assert!(worst < most, "{what}: {worst}");
         println!("{what}: {worst} m");
         for pair in arm.moments.windows(2) {
             if pair[1].vacuum < pair[0].vacuum {
-                let due = if pair[1].vacuum > 1 { released } else { centre.len() - 1 };
+                let due = if pair[1].vacuum > 1 { released } else { center.len() - 1 };
                 let away = distance(pair[0].arm.position, in_base[due].position);
                 assert!(away < 1e-3, "{what}: released {away} m from its place");
             }

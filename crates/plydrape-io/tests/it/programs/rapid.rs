@@ -176,7 +176,7 @@ fn data(reader: &mut Reader, [tool_name, mold_name]: &[String; 2]) -> Frames {
     reader.expect(&[",", "["]);
     let mass = reader.number();
     reader.expect(&[","]);
-    let _centre = reader.list::<3>();
+    let _center = reader.list::<3>();
     reader.expect(&[","]);
     let _axes = reader.list::<4>();
     reader.expect(&[","]);

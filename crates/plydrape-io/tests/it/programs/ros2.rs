@@ -1,4 +1,4 @@
-//! The bag of a program, played without ROS 2: every message is decoded by the definition that stands in the bag.
+//! The bag of a program, played without ROS 2: every message is decoded by the definition in the bag.
 
 use super::cell::{DURATION, IDS, cell, product, rejected, text};
 use plydrape::geometry::vector::distance;
@@ -143,7 +143,7 @@ fn play(bag: &[u8]) -> Topics {
     let mut last = 0;
     for message in mcap::MessageStream::new(bag).unwrap() {
         let message = message.unwrap();
-        assert!(message.log_time >= last, "messages stand in the order of time");
+        assert!(message.log_time >= last, "messages are in the order of time");
         last = message.log_time;
         let schema = message.channel.schema.as_ref().unwrap();
         assert_eq!((&*schema.encoding, &*message.channel.message_encoding), ("ros2msg", "cdr"));

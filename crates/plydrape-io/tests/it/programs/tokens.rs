@@ -10,7 +10,7 @@ pub enum Token {
     End,
 }
 
-/// What stands in one line.
+/// Content of one line.
 #[derive(Debug)]
 pub struct Line {
     pub number: usize,
@@ -50,7 +50,7 @@ fn tokens(mut code: &str, number: usize) -> Vec<Token> {
             code = &code[end..];
             continue;
         }
-        // a sign belongs to a number where no value stands before it
+        // a sign belongs to a number where no value precedes it
         let after_value =
             matches!(found.last(), Some(Token::Number(_) | Token::Sign(")" | "]" | "}")));
         let digits = code.strip_prefix('-').filter(|_| !after_value).unwrap_or(code);
@@ -126,7 +126,7 @@ impl Reader {
 
     pub fn fault(&self, wanted: &str) -> ! {
         let line = self.tokens.get(self.at.min(self.tokens.len() - 1)).map(|(_, line)| line);
-        panic!("line {line:?}: {wanted} is wanted, not {:?}", self.peek())
+        panic!("line {line:?}: expected {wanted}, not {:?}", self.peek())
     }
 
     /// Whether a sign or a word comes next; if so, it is read.
@@ -178,7 +178,7 @@ impl Reader {
         })
     }
 
-    /// The same in square brackets.
+    /// Numbers in square brackets.
     pub fn list<const N: usize>(&mut self) -> [f64; N] {
         self.expect(&["["]);
         let numbers = self.numbers();

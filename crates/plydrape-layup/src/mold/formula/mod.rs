@@ -23,7 +23,7 @@ pub struct Formula {
     program: Vec<Operation>,
     /// Most heights that wait on the stack at a time.
     depth: usize,
-    /// The same as a sum of powers, where it is written as one.
+    /// The formula as a sum of powers, where it is written as one.
     polynomial: Option<Polynomial>,
 }
 
@@ -33,7 +33,7 @@ const MOST: usize = 64;
 const FEW: usize = 8;
 
 impl Formula {
-    /// A formula of operations, each behind its operands, and the text that stands for it in reports; none if they
+    /// A formula of operations, each behind its operands, and the text that stands for it in reports; `None` if they
     /// leave not exactly one height, need one that is not there, or more than 64 at a time.
     #[must_use]
     pub fn new(text: &str, program: Vec<Operation>) -> Option<Self> {
@@ -48,7 +48,7 @@ impl Formula {
         if top != 1 || depth > MOST {
             return None;
         }
-        let polynomial = Polynomial::of(&program);
+        let polynomial = Polynomial::from_program(&program);
         Some(Formula { text: text.to_string(), program, depth, polynomial })
     }
 

@@ -27,7 +27,7 @@ pub enum Operation {
     Real(f64),
     /// A power whose exponent is a formula itself.
     Power,
-    /// The same with the other sign.
+    /// The number with the other sign.
     Negate,
     /// A function of one.
     Call(Function),
@@ -114,9 +114,9 @@ impl Operation {
                 let power = |shift: f64| a.z.powf(n - shift);
                 a.chain(Dual2_64::new(power(0.0), n * power(1.0), n * (n - 1.0) * power(2.0)))
             }
-            Operation::Power => Function::Exp.of(&b.times(&Function::Ln.of(&a))),
+            Operation::Power => Function::Exp.apply(&b.times(&Function::Ln.apply(&a))),
             Operation::Negate => zero.plus(-1.0, &a),
-            Operation::Call(function) => function.of(&a),
+            Operation::Call(function) => function.apply(&a),
         }
     }
 }
@@ -141,7 +141,7 @@ fn variable(z: f64) -> Dual2_64 {
 
 impl Function {
     /// The function of a height.
-    fn of(self, a: &Height) -> Height {
+    fn apply(self, a: &Height) -> Height {
         let z = variable(a.z);
         a.chain(match self {
             Function::Sqrt => z.sqrt(),

@@ -36,7 +36,7 @@ pub(super) struct Polynomial {
 
 impl Polynomial {
     /// The sum that a list of operations is, if it is written out as one.
-    pub fn of(program: &[Operation]) -> Option<Self> {
+    pub fn from_program(program: &[Operation]) -> Option<Self> {
         let mut stack: Vec<Vec<Term>> = Vec::new();
         for operation in program {
             let terms = match *operation {

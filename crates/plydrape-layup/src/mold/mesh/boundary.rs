@@ -1,15 +1,15 @@
 //! The boundaries of an open surface.
 
-use super::orient::{Component, NONE, Neighbours};
+use super::orient::{Component, NONE, Neighbors};
 use crate::geometry::vector::distance;
 
 /// A closed line of edges that have a triangle on one side only.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Boundary {
-    /// Its vertices in turn, the surface to the left.
+    /// Vertices in turn, the surface to the left.
     pub vertices: Vec<u32>,
-    /// Its length (m).
+    /// Length (m).
     pub length: f64,
     /// Corners of the box around it (m): lowest and highest coordinates.
     pub bounds: [[f64; 3]; 2],
@@ -23,7 +23,7 @@ pub struct Boundary {
 pub(super) fn boundaries(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
-    neighbours: &Neighbours,
+    neighbors: &Neighbors,
     component: &[u32],
     components: &[Component],
 ) -> Vec<Boundary> {
@@ -31,7 +31,7 @@ pub(super) fn boundaries(
     let mut boundaries: Vec<Boundary> = Vec::new();
     for start in 0..triangles.len() {
         for side in 0..3 {
-            if neighbours[start][side] != NONE || done[start][side] {
+            if neighbors[start][side] != NONE || done[start][side] {
                 continue;
             }
             let mut line = Vec::new();
@@ -39,7 +39,7 @@ pub(super) fn boundaries(
             while !done[t][k] {
                 done[t][k] = true;
                 line.push(triangles[t][k]);
-                (t, k) = next_on_boundary(triangles, neighbours, t, k);
+                (t, k) = next_on_boundary(triangles, neighbors, t, k);
             }
             boundaries.push(boundary(vertices, line, component[start] as usize));
         }
@@ -61,14 +61,14 @@ pub(super) fn boundaries(
 /// triangles in between.
 fn next_on_boundary(
     triangles: &[[u32; 3]],
-    neighbours: &Neighbours,
+    neighbors: &Neighbors,
     t: usize,
     k: usize,
 ) -> (usize, usize) {
     let (mut t, mut k) = (t, (k + 1) % 3);
     let pivot = triangles[t][k];
-    while neighbours[t][k] != NONE {
-        t = neighbours[t][k] as usize;
+    while neighbors[t][k] != NONE {
+        t = neighbors[t][k] as usize;
         k = (0..3).find(|&n| triangles[t][n] == pivot).unwrap_or(0);
     }
     (t, k)

@@ -30,7 +30,7 @@ impl Mesh {
     /// As [`Mesh::of_triangles`], with boundaries of faces stitched that are no farther apart than `tolerance` (m).
     ///
     /// # Errors
-    /// Those of [`Mesh::of_triangles`].
+    /// The errors of [`Mesh::of_triangles`].
     pub fn of_faces(
         vertices: Vec<[f64; 3]>,
         triangles: &[[u32; 3]],
@@ -53,7 +53,7 @@ impl Mesh {
     /// by `pose`. Boundaries of faces that are no farther apart than `tolerance` (m) are stitched; none are at 0.
     ///
     /// # Errors
-    /// Those of [`Mesh::of_triangles`], and [`Error::MeshScale`] if the scale is no positive number.
+    /// The errors of [`Mesh::of_triangles`], and [`Error::MeshScale`] if the scale is no positive number.
     pub fn of_soup(
         soup: Soup,
         scale: f64,
@@ -63,10 +63,10 @@ impl Mesh {
         build(soup, scale, pose, tolerance)
     }
 
-    /// The mold with boundaries of faces stitched that are no farther apart than `tolerance` (m); none where there are none.
+    /// The mold with boundaries of faces stitched that are no farther apart than `tolerance` (m); `None` where there are none.
     ///
     /// # Errors
-    /// Those of [`Mesh::of_triangles`].
+    /// The errors of [`Mesh::of_triangles`].
     pub fn stitched(&self, tolerance: f64) -> Result<Option<(Self, MeshReport)>, Error> {
         if self.boundaries.is_empty() {
             return Ok(None);
@@ -127,25 +127,25 @@ fn build(
         joined.leave_out_caps(TUNING.merge * size, &mut report);
     }
     report.stitched = stitch::stitch(&mut joined, tolerance);
-    let mut neighbours = orient::neighbours(&joined, noun)?;
-    let (component, components) = match orient(&mut joined, &mut neighbours, noun, &mut report) {
+    let mut neighbors = orient::neighbors(&joined, noun)?;
+    let (component, components) = match orient(&mut joined, &mut neighbors, noun, &mut report) {
         // faces that make a surface without two sides once they are stitched stay apart
         Err(_) if report.stitched.count > 0 => {
             report.stitched = Stitches::default();
             joined = apart;
-            neighbours = orient::neighbours(&joined, noun)?;
-            orient(&mut joined, &mut neighbours, noun, &mut report)?
+            neighbors = orient::neighbors(&joined, noun)?;
+            orient(&mut joined, &mut neighbors, noun, &mut report)?
         }
         found => found?,
     };
     joined.renumber();
-    let first_corners = one_ring::split(&mut joined, &neighbours);
+    let first_corners = one_ring::split(&mut joined, &neighbors);
 
     let join::Joined { vertices, triangles, .. } = joined;
     let triangle_normals = normals::of_triangles(&vertices, &triangles);
     let vertex_normals = normals::of_vertices(&vertices, &triangles, &triangle_normals);
     let boundaries =
-        boundary::boundaries(&vertices, &triangles, &neighbours, &component, &components);
+        boundary::boundaries(&vertices, &triangles, &neighbors, &component, &components);
     let tree = Tree::new(
         triangles.iter().map(|corners| bounds(corners.iter().map(|n| vertices[*n as usize]))),
     );
@@ -158,7 +158,7 @@ fn build(
     let mesh = Mesh {
         vertices,
         triangles,
-        neighbours,
+        neighbors,
         first_corners,
         triangle_normals,
         vertex_normals,

@@ -54,7 +54,7 @@ impl Mesh {
         self.surface_point_within(p, f64::MAX).unwrap_or_else(corner)
     }
 
-    /// The same, if the square of its distance is less than `most` (m²).
+    /// The closest point, if the square of its distance is less than `most` (m²).
     fn surface_point_within(&self, p: [f64; 3], most: f64) -> Option<SurfacePoint> {
         let corners = |triangle| self.corners(triangle as usize);
         let (triangle, Closest { weights, point, .. }) = self.tree.closest(p, most, corners)?;
@@ -76,7 +76,7 @@ impl Mesh {
         let own = self.triangle_normals[place.triangle];
         match place.feature() {
             Feature::Inside => own,
-            Feature::Edge(k) => match self.neighbours[place.triangle][k] {
+            Feature::Edge(k) => match self.neighbors[place.triangle][k] {
                 NONE => own,
                 other => {
                     let other = self.triangle_normals[other as usize];
@@ -94,7 +94,7 @@ impl Mesh {
             let edge = sub(corners[(k + 1) % 3], corners[k]);
             let aside = cross(edge, self.triangle_normals[t]);
             let limit = TUNING.aside * (self.size + distance);
-            self.neighbours[t][k] == NONE && dot(off, aside) > limit * norm(aside)
+            self.neighbors[t][k] == NONE && dot(off, aside) > limit * norm(aside)
         };
         match place.feature() {
             Feature::Inside => false,
@@ -103,11 +103,11 @@ impl Mesh {
                 // at the boundary the one-ring begins with one boundary edge and ends with the other
                 let vertex = self.triangles[place.triangle][k] as usize;
                 let (first, edge) = self.first_corners[vertex];
-                if self.neighbours[first][edge] != NONE {
+                if self.neighbors[first][edge] != NONE {
                     return false;
                 }
                 let mut last = (first, edge);
-                while let Some(next) = one_ring::next(&self.triangles, &self.neighbours, last) {
+                while let Some(next) = one_ring::next(&self.triangles, &self.neighbors, last) {
                     last = next;
                 }
                 outwards((first, edge)) || outwards((last.0, (last.1 + 2) % 3))

@@ -24,13 +24,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 pub struct Detail {
     /// What it is.
     pub kind: DetailKind,
-    /// Its width in plan, of a long one across (m).
+    /// Width in plan, of a long one across (m).
     pub width: f64,
-    /// Its length in plan (m).
+    /// Length in plan (m).
     pub length: f64,
     /// How far it goes below the surface around it, or above (m); 0 of a hole.
     pub depth: f64,
-    /// Its middle, on the surface around it (m).
+    /// Middle, on the surface around it (m).
     pub place: [f64; 3],
     /// The ply spans it: a cap was put in its place.
     pub spanned: bool,
@@ -51,7 +51,7 @@ pub enum DetailKind {
 /// The surface around a place: a paraboloid over the plan.
 #[derive(Clone, Copy)]
 struct Around {
-    centre: [f64; 2],
+    center: [f64; 2],
     /// Length of one unit of its coordinates (m).
     unit: f64,
     coefficients: SVector<f64, 6>,
@@ -116,7 +116,7 @@ impl Mesh {
         for boundary in self.boundaries.iter().filter(|boundary| boundary.hole) {
             let points: Vec<[f64; 3]> =
                 boundary.vertices.iter().map(|n| self.vertices[*n as usize]).collect();
-            let Some(size) = Size::of(&points, None).filter(|size| size.width <= width) else {
+            let Some(size) = Size::new(&points, None).filter(|size| size.width <= width) else {
                 continue;
             };
             if boundary.vertices.len() <= TUNING.cap_corners
@@ -212,9 +212,9 @@ impl Mesh {
         (top[2] - middle[2] <= tolerance).then_some(middle)
     }
 
-    /// The surface around a place, from rings that are wider than details of some width (m); none where the mold ends
+    /// The surface around a place, from rings that are wider than details of some width (m); `None` where the mold ends
     /// within them, or has no surface there that most of it lies on.
-    fn around(&self, centre: [f64; 2], width: f64, tolerance: f64) -> Option<Around> {
+    fn around(&self, center: [f64; 2], width: f64, tolerance: f64) -> Option<Around> {
         let count = TUNING.ring_points;
         let mut rows: Vec<(SVector<f64, 6>, f64)> = Vec::with_capacity(2 * count);
         for (ring, radius) in TUNING.rings.into_iter().enumerate() {
@@ -222,7 +222,7 @@ impl Mesh {
                 // the second ring half a step on
                 let angle = std::f64::consts::TAU * (n as f64 + 0.5 * ring as f64) / count as f64;
                 let [x, y] = [radius * angle.cos(), radius * angle.sin()];
-                let place = [centre[0] + width * x, centre[1] + width * y];
+                let place = [center[0] + width * x, center[1] + width * y];
                 if let Some(top) = self.highest_point(place) {
                     rows.push((terms([x, y]), top[2]));
                 }
@@ -252,7 +252,7 @@ impl Mesh {
         let spread = off[off.len() / 2];
         let near = off.iter().filter(|off| **off <= tolerance + 3.0 * spread).count();
         (near as f64 >= TUNING.ring_share * off.len() as f64).then_some(Around {
-            centre,
+            center,
             unit: width,
             coefficients,
             spread,
@@ -281,14 +281,14 @@ impl Mesh {
             let mut next = 0;
             while next < part.len() {
                 // over the walls beside a triangle, as between a countersink and its hole
-                let Around { centre, unit, .. } = part[next].around;
+                let Around { center, unit, .. } = part[next].around;
                 let mut waiting = vec![part[next].triangle];
                 while let Some(triangle) = waiting.pop() {
-                    for other in self.neighbours[triangle].into_iter().filter(|n| *n != NONE) {
+                    for other in self.neighbors[triangle].into_iter().filter(|n| *n != NONE) {
                         let other = other as usize;
                         if off.get(&other).is_some_and(|own| own.below == below) {
                             part.extend(off.remove(&other));
-                        } else if self.is_within(other, centre, unit)
+                        } else if self.is_within(other, center, unit)
                             && !walls.contains(&other)
                             && self.seen_from_above(other, tolerance).is_none()
                         {
@@ -303,7 +303,7 @@ impl Mesh {
             let (mut whole, mut open) = (0.0, 0.0);
             for own in &part {
                 for k in 0..3 {
-                    let other = self.neighbours[own.triangle][k];
+                    let other = self.neighbors[own.triangle][k];
                     if other != NONE && all.contains(&(other as usize, below)) {
                         continue;
                     }
@@ -343,7 +343,7 @@ impl Mesh {
                 continue;
             }
             for k in 0..3 {
-                let other = self.neighbours[triangle][k];
+                let other = self.neighbors[triangle][k];
                 if other != NONE && self.seen_from_above(other as usize, tolerance).is_some() {
                     let corners = self.triangles[triangle];
                     next.insert(corners[k], corners[(k + 1) % 3]);
@@ -357,7 +357,7 @@ impl Mesh {
                 points.push(self.vertices[vertex as usize]);
                 vertex = after;
             }
-            let Some(size) = Size::of(&points, None).filter(|size| size.width <= width) else {
+            let Some(size) = Size::new(&points, None).filter(|size| size.width <= width) else {
                 continue;
             };
             if vertex == start && points.len() > 2 && self.highest_point(size.middle).is_none() {
@@ -381,7 +381,7 @@ impl Mesh {
             points.extend(corners);
             area += 0.5 * cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))[2].abs();
             for k in 0..3 {
-                if !numbers.contains(&(self.neighbours[own.triangle][k] as usize)) {
+                if !numbers.contains(&(self.neighbors[own.triangle][k] as usize)) {
                     let ends = [corners[k], corners[(k + 1) % 3]];
                     let side = sub(ends[1], ends[0]);
                     let mut key = ends.map(plan);
@@ -397,20 +397,20 @@ impl Mesh {
         // in their order, because a sum of floats depends on it
         let mut lengths: Vec<f64> = perimeter.copied().collect();
         lengths.sort_by(f64::total_cmp);
-        let size = Size::of(&points, Some([area, lengths.iter().sum()]))?;
+        let size = Size::new(&points, Some([area, lengths.iter().sum()]))?;
         let around = part.first()?.around;
         let [x, y] = size.middle;
         let kind = if part[0].below { DetailKind::Pit } else { DetailKind::Stud };
         Some(size.detail(kind, depth, [x, y, around.height([x, y])], false))
     }
 
-    /// The triangles of a pit with its walls, and the corners of the flat cap that takes their place; none where its boundary
+    /// The triangles of a pit with its walls, and the corners of the flat cap that takes their place; `None` where its boundary
     /// is not one closed line on the surface around it.
     fn cap(&self, part: &[Off], width: f64, tolerance: f64) -> Option<(HashSet<usize>, Vec<u32>)> {
         let mut region: HashSet<usize> = part.iter().map(|own| own.triangle).collect();
         let mut waiting: Vec<usize> = part.iter().map(|own| own.triangle).collect();
         while let Some(triangle) = waiting.pop() {
-            for other in self.neighbours[triangle] {
+            for other in self.neighbors[triangle] {
                 if other == NONE {
                     return None;
                 }
@@ -429,7 +429,7 @@ impl Mesh {
         let mut next: BTreeMap<u32, u32> = BTreeMap::new();
         for &triangle in &region {
             for k in 0..3 {
-                let other = self.neighbours[triangle][k];
+                let other = self.neighbors[triangle][k];
                 if other != NONE && region.contains(&(other as usize)) {
                     continue;
                 }
@@ -456,9 +456,9 @@ impl Mesh {
 }
 
 impl Around {
-    /// Its height at a place of the plan (m).
+    /// Height at a place of the plan (m).
     fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        let [x, y] = [(x - self.centre[0]) / self.unit, (y - self.centre[1]) / self.unit];
+        let [x, y] = [(x - self.center[0]) / self.unit, (y - self.center[1]) / self.unit];
         terms([x, y]).dot(&self.coefficients)
     }
 }
@@ -485,7 +485,7 @@ pub(super) struct Size {
 
 impl Size {
     /// Of some points (m), and of the area (m²) and the perimeter (m) that they bound, if these are known.
-    pub fn of(points: &[[f64; 3]], area_and_perimeter: Option<[f64; 2]>) -> Option<Self> {
+    pub fn new(points: &[[f64; 3]], area_and_perimeter: Option<[f64; 2]>) -> Option<Self> {
         let extents = (0..TUNING.extents).map(|n| {
             let angle = std::f64::consts::PI * n as f64 / TUNING.extents as f64;
             let (sin, cos) = angle.sin_cos();

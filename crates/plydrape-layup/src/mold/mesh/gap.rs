@@ -22,15 +22,15 @@ pub struct Gaps {
 }
 
 impl Mesh {
-    /// Gaps and steps between faces that are no wider than `width` (m); none where faces meet. A hole in a face is none.
+    /// Gaps and steps between faces that are no wider than `width` (m); `None` where faces meet. A hole in a face is none.
     #[must_use]
     pub fn gaps(&self, width: f64) -> Option<Gaps> {
-        let sides = Sides::of(&self.vertices, &self.triangles);
+        let sides = Sides::new(&self.vertices, &self.triangles);
         // a narrow hole faces itself, and is a hole
         let holes = self.boundaries.iter().filter(|boundary| {
             let points: Vec<[f64; 3]> =
                 boundary.vertices.iter().map(|n| self.vertices[*n as usize]).collect();
-            boundary.hole && Size::of(&points, None).is_some_and(|size| size.width <= width)
+            boundary.hole && Size::new(&points, None).is_some_and(|size| size.width <= width)
         });
         let holes: HashMap<u32, usize> = holes
             .enumerate()

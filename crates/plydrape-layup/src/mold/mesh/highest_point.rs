@@ -4,7 +4,7 @@ use super::Mesh;
 use crate::mold::tuning::TUNING;
 
 impl Mesh {
-    /// The highest point of the mesh at the place (x, y) (m); none beside the mesh.
+    /// The highest point of the mesh at the place (x, y) (m); `None` beside the mesh.
     #[must_use]
     pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let mut top: Option<f64> = None;
@@ -17,7 +17,7 @@ impl Mesh {
             });
             let area: f64 = weights.iter().sum();
             let weights = weights.map(|w| w / area);
-            // an upright triangle has no area in plan; its upper edge belongs to its neighbour as well
+            // an upright triangle has no area in plan; its upper edge belongs to its neighbor as well
             if weights.iter().all(|w| *w >= -TUNING.outside_in_plan) {
                 let z = (0..3).map(|k| weights[k] * corners[k][2]).sum();
                 top = Some(top.map_or(z, |top: f64| top.max(z)));

@@ -1,7 +1,7 @@
 //! A mold given by triangles.
 //!
 //! Triangles are taken as they come ([`Soup`]), vertices are merged, faces that all but meet are stitched, triangles turned to
-//! face one way and boundaries found; what was repaired stands in the [`MeshReport`]. The mesh then answers
+//! face one way and boundaries found; what was repaired is listed in the [`MeshReport`]. The mesh then answers
 //! what any mold is asked: the closest point and which side it is on, a smooth normal, curvatures, lines along
 //! it in a vertical plane, and its highest point at a place.
 
@@ -43,7 +43,7 @@ pub struct Mesh {
     /// Corners of each triangle, anticlockwise seen from outside.
     triangles: Vec<[u32; 3]>,
     /// Triangles across the edges from corner k to corner k + 1, or none.
-    neighbours: Vec<[u32; 3]>,
+    neighbors: Vec<[u32; 3]>,
     /// First corner of the triangles around each vertex.
     first_corners: Vec<one_ring::Corner>,
     /// Unit normal of each triangle, outwards.
@@ -99,7 +99,7 @@ impl PartialEq for Mesh {
     }
 }
 
-/// Its size only.
+/// Size only.
 impl fmt::Debug for Mesh {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Mesh")

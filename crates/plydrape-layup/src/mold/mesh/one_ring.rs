@@ -1,39 +1,39 @@
 //! The triangles around a vertex: its one-ring, which begins and ends at the boundary if there is one.
 
 use super::join::Joined;
-use super::orient::{NONE, Neighbours};
+use super::orient::{NONE, Neighbors};
 
 /// Corner `k` of triangle `t`.
 pub(super) type Corner = (usize, usize);
 
-/// The next corner at the same vertex, anticlockwise seen from outside; none at the boundary.
+/// The next corner at the same vertex, anticlockwise seen from outside; `None` at the boundary.
 pub(super) fn next(
     triangles: &[[u32; 3]],
-    neighbours: &[[u32; 3]],
+    neighbors: &[[u32; 3]],
     (t, k): Corner,
 ) -> Option<Corner> {
-    across(triangles, neighbours, (t, k), (k + 2) % 3)
+    across(triangles, neighbors, (t, k), (k + 2) % 3)
 }
 
-/// The next corner at the same vertex, clockwise; none at the boundary.
-fn previous(triangles: &[[u32; 3]], neighbours: &[[u32; 3]], (t, k): Corner) -> Option<Corner> {
-    across(triangles, neighbours, (t, k), k)
+/// The next corner at the same vertex, clockwise; `None` at the boundary.
+fn previous(triangles: &[[u32; 3]], neighbors: &[[u32; 3]], (t, k): Corner) -> Option<Corner> {
+    across(triangles, neighbors, (t, k), k)
 }
 
 fn across(
     triangles: &[[u32; 3]],
-    neighbours: &[[u32; 3]],
+    neighbors: &[[u32; 3]],
     (t, k): Corner,
     edge: usize,
 ) -> Option<Corner> {
-    let other = neighbours[t][edge];
+    let other = neighbors[t][edge];
     let index = triangles.get(other as usize)?.iter().position(|n| *n == triangles[t][k])?;
     Some((other as usize, index))
 }
 
 /// Gives every vertex one one-ring: a vertex at which several of them meet in a point only is doubled.
 /// Returns the first corner of each one-ring.
-pub(super) fn split(mesh: &mut Joined, neighbours: &Neighbours) -> Vec<Corner> {
+pub(super) fn split(mesh: &mut Joined, neighbors: &Neighbors) -> Vec<Corner> {
     let unknown: Corner = (NONE as usize, 0);
     let mut first = vec![unknown; mesh.vertices.len()];
     let mut done = vec![[false; 3]; mesh.triangles.len()];
@@ -43,7 +43,7 @@ pub(super) fn split(mesh: &mut Joined, neighbours: &Neighbours) -> Vec<Corner> {
                 continue;
             }
             let mut start = (t, k);
-            while let Some(before) = previous(&mesh.triangles, neighbours, start) {
+            while let Some(before) = previous(&mesh.triangles, neighbors, start) {
                 start = before;
                 if start == (t, k) {
                     break;
@@ -54,7 +54,7 @@ pub(super) fn split(mesh: &mut Joined, neighbours: &Neighbours) -> Vec<Corner> {
             while let Some((t, k)) = corner.filter(|&(t, k)| !done[t][k]) {
                 done[t][k] = true;
                 corners.push((t, k));
-                corner = next(&mesh.triangles, neighbours, (t, k));
+                corner = next(&mesh.triangles, neighbors, (t, k));
             }
             let vertex = mesh.triangles[t][k] as usize;
             if first[vertex] == unknown {

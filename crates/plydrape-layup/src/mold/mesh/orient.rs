@@ -13,7 +13,7 @@ use crate::mold::tuning::TUNING;
 /// No triangle: a boundary.
 pub(super) const NONE: u32 = u32::MAX;
 /// For each triangle its neighbors across the edges from corner k to corner k + 1.
-pub(super) type Neighbours = Vec<[u32; 3]>;
+pub(super) type Neighbors = Vec<[u32; 3]>;
 
 /// One connected surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +22,7 @@ pub(super) struct Component {
 }
 
 /// Finds the neighbors of all triangles; refuses edges of three triangles or more.
-pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours, Error> {
+pub(super) fn neighbors(mesh: &Joined, noun: &'static str) -> Result<Neighbors, Error> {
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (corners, n) in mesh.triangles.iter().zip(0u32..) {
         for k in 0..3 {
@@ -31,13 +31,13 @@ pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours
         }
     }
     edges.sort_unstable();
-    let mut neighbours = vec![[NONE; 3]; mesh.triangles.len()];
+    let mut neighbors = vec![[NONE; 3]; mesh.triangles.len()];
     for same in edges.chunk_by(|a, b| a.0 == b.0) {
         match *same {
             [_] => {}
             [(_, s), (_, t)] => {
-                neighbours[s as usize / 3][s as usize % 3] = t / 3;
-                neighbours[t as usize / 3][t as usize % 3] = s / 3;
+                neighbors[s as usize / 3][s as usize % 3] = t / 3;
+                neighbors[t as usize / 3][t as usize % 3] = s / 3;
             }
             [(_, s), (_, t), (_, u), ..] => {
                 return Err(Error::MeshBranching {
@@ -49,14 +49,14 @@ pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours
             [] => {}
         }
     }
-    Ok(neighbours)
+    Ok(neighbors)
 }
 
 /// Turns triangles over until each surface faces one way: outwards, or upwards if it is open.
 /// Gives the component of each triangle, and the components.
 pub(super) fn orient(
     mesh: &mut Joined,
-    neighbours: &mut Neighbours,
+    neighbors: &mut Neighbors,
     noun: &'static str,
     report: &mut MeshReport,
 ) -> Result<(Vec<u32>, Vec<Component>), Error> {
@@ -78,7 +78,7 @@ pub(super) fn orient(
             next += 1;
             let t = t as usize;
             for k in 0..3 {
-                let other = neighbours[t][k];
+                let other = neighbors[t][k];
                 if other == NONE {
                     closed = false;
                     continue;
@@ -98,7 +98,7 @@ pub(super) fn orient(
                 }
             }
         }
-        let sides = Sides::of(mesh, &members, &turn);
+        let sides = Sides::new(mesh, &members, &turn);
         let over = if closed {
             sides.volume < 0.0
         } else {
@@ -121,7 +121,7 @@ pub(super) fn orient(
     for t in 0..count {
         if turn[t] {
             mesh.triangles[t].swap(1, 2);
-            neighbours[t].swap(0, 2);
+            neighbors[t].swap(0, 2);
             let [a, b, c] = mesh.triangles[t].map(|n| mesh.vertices[n as usize]);
             report.flipped.note(mesh.numbers[t], [0, 1, 2].map(|n| (a[n] + b[n] + c[n]) / 3.0));
         }
@@ -148,7 +148,7 @@ struct Sides {
 }
 
 impl Sides {
-    fn of(mesh: &Joined, members: &[u32], turn: &[bool]) -> Self {
+    fn new(mesh: &Joined, members: &[u32], turn: &[bool]) -> Self {
         let mut sides = Sides { volume: 0.0, vector_area: [0.0; 3], area: 0.0 };
         // volumes are counted from a vertex, so that a far origin costs no digits
         let origin = members

@@ -14,9 +14,9 @@ pub struct MeshReport {
     pub vertices: usize,
     /// Triangles of the mold.
     pub triangles: usize,
-    /// Its connected surfaces.
+    /// Connected surfaces.
     pub surfaces: usize,
-    /// Those of them without a boundary.
+    /// Connected surfaces without a boundary.
     pub closed: usize,
     /// Corners of the box around the mold (m): lowest and highest coordinates.
     pub bounds: [[f64; 3]; 2],
@@ -162,7 +162,7 @@ impl Gaps {
 }
 
 impl Skipped {
-    /// What the surface misses without these elements, and what to do; none where they are no part of a surface.
+    /// What the surface misses without these elements, and what to do; `None` where they are no part of a surface.
     fn warning(&self) -> Option<String> {
         let Skipped { kind, role, count, beside, place } = self;
         let what = match role {

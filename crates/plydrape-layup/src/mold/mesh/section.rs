@@ -121,7 +121,7 @@ impl Cut<'_> {
             } else {
                 idle += 1;
             }
-            match mesh.neighbours[triangle][edge] {
+            match mesh.neighbors[triangle][edge] {
                 NONE => return End::Boundary,
                 _ if idle.max(curve.points.len() / TUNING.rounds) > mesh.triangles.len() => {
                     return End::Boundary;
@@ -149,7 +149,7 @@ impl Cut<'_> {
         best.map(|(_, triangle)| triangle)
     }
 
-    /// The edge of a triangle over which the line leaves it, or enters it, and where; none if the plane
+    /// The edge of a triangle over which the line leaves it, or enters it, and where; `None` if the plane
     /// does not cross the triangle.
     fn crossing(&self, triangle: usize, entry: bool) -> Option<(usize, [f64; 3])> {
         let corners = self.mesh.corners(triangle);

@@ -7,18 +7,18 @@ use crate::geometry::vector::{cross, dot, norm};
 /// An edge across which the mesh turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SharpEdge {
-    /// Its ends (m).
+    /// Ends (m).
     pub ends: [[f64; 3]; 2],
     /// Angle between the normals of its two triangles (rad).
     pub turn: f64,
 }
 
 impl Mesh {
-    /// Its edges across which it turns by more than an angle (rad).
+    /// Edges across which it turns by more than an angle (rad).
     pub fn sharp_edges(&self, angle: f64) -> impl Iterator<Item = SharpEdge> + '_ {
         let sides = (0..self.triangles.len()).flat_map(|t| (0..3).map(move |k| (t, k)));
         sides.filter_map(move |(t, k)| {
-            let other = self.neighbours[t][k];
+            let other = self.neighbors[t][k];
             // of two triangles the first one says it
             if other == NONE || (other as usize) < t {
                 return None;

@@ -13,7 +13,7 @@ pub(super) struct Side {
     pub ends: [u32; 2],
     /// Their places (m).
     pub points: [[f64; 3]; 2],
-    /// Its length (m).
+    /// Length (m).
     pub length: f64,
     /// Unit vector from its first end to its second.
     pub direction: [f64; 3],
@@ -28,7 +28,7 @@ pub(super) struct Sides {
 }
 
 impl Side {
-    fn of(vertices: &[[f64; 3]], triangles: &[[u32; 3]], triangle: u32, corner: usize) -> Self {
+    fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]], triangle: u32, corner: usize) -> Self {
         let corners = triangles[triangle as usize];
         let [a, b, c] = [0, 1, 2].map(|n| corners[(corner + n) % 3]);
         let [p, q, r] = [a, b, c].map(|n| vertices[n as usize]);
@@ -46,7 +46,7 @@ impl Side {
         (share, distance(p, self.at(share)))
     }
 
-    /// Its point at a share of its length.
+    /// Point at a share of its length.
     pub fn at(&self, share: f64) -> [f64; 3] {
         along(self.points[0], share * self.length, self.direction)
     }
@@ -64,7 +64,7 @@ impl Side {
 
 impl Sides {
     /// All of a mesh, in the order of their triangles.
-    pub fn of(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Self {
+    pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Self {
         let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
         for (corners, n) in triangles.iter().zip(0u32..) {
             for k in 0..3 {
@@ -76,7 +76,7 @@ impl Sides {
         let lone = edges.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
         let mut numbers: Vec<u32> = lone.map(|same| same[0].1).collect();
         numbers.sort_unstable();
-        let side = |n: &u32| Side::of(vertices, triangles, n / 3, *n as usize % 3);
+        let side = |n: &u32| Side::new(vertices, triangles, n / 3, *n as usize % 3);
         let all: Vec<Side> = numbers.iter().map(side).collect();
         let tree = (!all.is_empty())
             .then(|| Tree::new(all.iter().map(|side| bounds(side.points.into_iter()))));

@@ -20,7 +20,7 @@ pub(super) fn stitch(mesh: &mut Joined, tolerance: f64) -> Stitches {
     if tolerance <= 0.0 {
         return stitches;
     }
-    let mut sides = Sides::of(&mesh.vertices, &mesh.triangles);
+    let mut sides = Sides::new(&mesh.vertices, &mesh.triangles);
     let mut around: HashMap<u32, Vec<u32>> =
         sides.all.iter().flat_map(|side| side.ends).map(|n| (n, Vec::new())).collect();
     for (corners, n) in mesh.triangles.iter().zip(0..) {
@@ -39,7 +39,7 @@ pub(super) fn stitch(mesh: &mut Joined, tolerance: f64) -> Stitches {
         if !work.merge_vertices(&sides) && !work.divide_sides(&sides) {
             break;
         }
-        sides = Sides::of(&work.mesh.vertices, &work.mesh.triangles);
+        sides = Sides::new(&work.mesh.vertices, &work.mesh.triangles);
     }
     stitches
 }
@@ -210,10 +210,10 @@ impl Stitching<'_> {
         let Some(c) = corners.into_iter().find(|n| *n != a && *n != b) else { return false };
         let mut changed = false;
         for &(share, v) in along {
-            let foot = side.at(share);
-            let away = distance(self.at(v), foot);
+            let closest = side.at(share);
+            let away = distance(self.at(v), closest);
             let place =
-                [self.at(v), foot].into_iter().find(|at| self.may_divide([a, b, c], v, *at));
+                [self.at(v), closest].into_iter().find(|at| self.may_divide([a, b, c], v, *at));
             let Some(place) = place else {
                 let [low, high] = [a.min(b), a.max(b)];
                 changed |= self.refused.insert([v, low, high]);

@@ -78,7 +78,7 @@ impl Tree {
         number as u32
     }
 
-    /// The triangle closest to `p` (m) and its point there, from the corners of each triangle (m); none if the square
+    /// The triangle closest to `p` (m) and its point there, from the corners of each triangle (m); `None` if the square
     /// of its distance is not less than `most` (m²).
     pub fn closest(
         &self,

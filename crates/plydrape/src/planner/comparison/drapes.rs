@@ -30,10 +30,10 @@ pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Err
         _ => TimedMotion::new(&layup.motion.positions, &scene.limits.motion_bounds())?.duration(),
     };
     let stop = || state.report().is_break();
-    let mut see = |_: usize, _: Option<&crate::sheet::State>| ControlFlow::Continue(());
+    let mut see = |_: usize, _: Option<&crate::sheet::ClothState>| ControlFlow::Continue(());
     let mut watch = DrapeWatch { stop: &stop, see: &mut see };
     let drape = outcome::drape_places(&scene, layup.settings.model, &mut watch)?;
-    let judged = Judged::of(&drape);
+    let judged = Judged::new(&drape);
     Ok(ComparedDrape { drape, judged, time })
 }
 

@@ -27,14 +27,14 @@ pub struct MoldHeights {
 #[derive(Debug, Clone)]
 pub struct Formation<'a> {
     heights: Arc<HeightGrid>,
-    /// The lines between grippers; none where the ideal drape is not known as a net.
+    /// The lines between grippers; `None` where the ideal drape is not known as a net.
     lines: Option<Arc<Lines>>,
-    /// The net from the front's start; none where the ideal drape is not known as a net.
+    /// The net from the front's start; `None` where the ideal drape is not known as a net.
     layup: Option<Placement>,
     ply: &'a Ply,
     targets: &'a [Point],
     strategy: Strategy,
-    centre: [f64; 2],
+    center: [f64; 2],
     /// Unit of length (m).
     cell: f64,
     /// From each gripper's place in the net on the mold to its target (m).
@@ -42,14 +42,14 @@ pub struct Formation<'a> {
 }
 
 impl MoldHeights {
-    /// The heights of a scene's mold around its drape; none without a mold or a target.
+    /// The heights of a scene's mold around its drape; `None` without a mold or a target.
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let heights = heights(scene.layup.mold.as_ref()?, &scene.layup.target.as_ref()?.grippers)?;
         Some(MoldHeights { heights: Arc::new(heights), lines: Lines::new(scene).map(Arc::new) })
     }
 
-    /// The same for formations whose lines stay as long as the net on the lifted mold makes them: equation (17) of
+    /// Heights for formations whose lines stay as long as the net on the lifted mold makes them: equation (17) of
     /// `docs/theory` alone. They hang slack ahead of the front, and are there to be compared with.
     #[must_use]
     pub fn untightened(self) -> Self {
@@ -58,7 +58,7 @@ impl MoldHeights {
 }
 
 impl<'a> Formation<'a> {
-    /// The formation of a strategy; none without a mold or a target.
+    /// The formation of a strategy; `None` without a mold or a target.
     #[must_use]
     pub fn new(scene: &'a Scene, heights: &MoldHeights, strategy: Strategy) -> Option<Self> {
         let target = scene.layup.target.as_ref()?;
@@ -72,7 +72,7 @@ impl<'a> Formation<'a> {
             ply: &scene.layup.ply,
             targets: &target.grippers,
             strategy,
-            centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
+            center: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
             cell: scene.layup.ply.shorter_side(),
             offsets: Vec::new(),
         };
@@ -95,7 +95,7 @@ impl<'a> Formation<'a> {
             along * sin * sin + cos * cos,
         ];
         let (curvature, tip) = (curvature * unit, TUNING.front.tip * self.cell);
-        Rise { centre: self.centre, metric, front, curvature, slope, tip }
+        Rise { center: self.center, metric, front, curvature, slope, tip }
     }
 
     /// How far the front has to come to have passed every gripper (m).
@@ -105,13 +105,13 @@ impl<'a> Formation<'a> {
         self.targets.iter().map(|p| lift.radius([p[0], p[1]])).fold(0.0, f64::max)
     }
 
-    /// The net on the lifted mold at the grippers (m); none where it folds or there is none.
+    /// The net on the lifted mold at the grippers (m); `None` where it folds or there is none.
     fn net(&self, front: f64) -> Option<Vec<Point>> {
         let layup = self.layup?;
         let lifted = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Front(lifted));
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
-        let place = mold.highest_point(self.centre)?;
+        let place = mold.highest_point(self.center)?;
         let net = Net::drape(&mold, Placement { place, ..layup }).ok()?;
         let place = |n: usize| net.place_or_node(&mold, self.ply.place(n));
         (0..self.ply.grippers()).map(place).collect()
@@ -140,7 +140,7 @@ impl<'a> Formation<'a> {
     }
 }
 
-/// The layup of a scene's ideal drape, begun where the front starts; none where the drape is not known.
+/// The layup of a scene's ideal drape, begun where the front starts; `None` where the drape is not known.
 fn layup(scene: &Scene, strategy: &Strategy) -> Option<Placement> {
     let (mold, drape) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?.drape.as_ref()?);
     let [origin, high] = scene.layup.ply.held_bounds();
@@ -157,7 +157,7 @@ fn layup(scene: &Scene, strategy: &Strategy) -> Option<Placement> {
     let seed = [0, 1].map(|n| (strategy.start[n] * parts[n]).round() as usize);
     let uv = [0, 1].map(|n| origin[n] + seed[n] as f64 * mesh[n]);
     let place = drape.place(mold, uv)?;
-    let [u, v] = drape.fibres(mold, uv)?;
+    let [u, v] = drape.fibers(mold, uv)?;
     let shear = dot(u, v).clamp(-1.0, 1.0).asin();
     Some(Placement {
         nodes,

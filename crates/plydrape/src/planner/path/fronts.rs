@@ -23,7 +23,7 @@ pub struct Fronts<'a> {
 }
 
 impl<'a> Fronts<'a> {
-    /// Those of a scene; none without a mold or a target.
+    /// The fronts of a scene; `None` without a mold or a target.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Option<Self> {
         let heights = MoldHeights::new(scene)?;
@@ -47,7 +47,7 @@ impl<'a> Fronts<'a> {
     /// exceed a limit too far have no drape, and a score worse than that of any drape.
     ///
     /// # Errors
-    /// Those of [`evaluation::drape`] if the model that decides cannot drape the scene.
+    /// The errors of [`evaluation::drape`] if the model that decides cannot drape the scene.
     pub fn rank(
         &self,
         positions: &[Vec<Point>],

@@ -4,7 +4,7 @@ use crate::geometry::Point;
 use crate::geometry::vector::{angle_between, cross, unit};
 use crate::measure::Name;
 use crate::measure::{closest_grippers, outside_workspace};
-use crate::ply::{Neighbours, Ply, tangents};
+use crate::ply::{Neighbors, Ply, tangents};
 use crate::scene::Scene;
 
 /// The largest ratio of a measure to its limit: tilt, workspace, and distance of the grippers. Above 1 no drape keeps
@@ -12,9 +12,9 @@ use crate::scene::Scene;
 #[must_use]
 pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
-    let neighbours = scene.layup.ply.neighbours();
+    let neighbors = scene.layup.ply.neighbors();
     let one = |step: &Vec<Point>| {
-        let tilt = tilt(&scene.layup.ply, &neighbours, step, scene.layup.stems(step))
+        let tilt = tilt(&scene.layup.ply, &neighbors, step, scene.layup.stems(step))
             / limits.most(Name::Tilt);
         let workspace =
             limits.workspace.and_then(|box_| outside_workspace(step, box_, scene.layup.ply.cell));
@@ -27,9 +27,9 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
 }
 
 /// Largest angle (rad) between the stems (unit vector) and the normal of the lines to neighboring grippers.
-fn tilt(ply: &Ply, neighbours: &[Neighbours], positions: &[Point], stem: Point) -> f64 {
+fn tilt(ply: &Ply, neighbors: &[Neighbors], positions: &[Point], stem: Point) -> f64 {
     let one = |n: usize| {
-        let [u, v] = tangents(ply, neighbours, positions, n);
+        let [u, v] = tangents(ply, neighbors, positions, n);
         unit(cross(u, v)).map_or(0.0, |normal| angle_between(normal, stem))
     };
     (0..ply.grippers()).map(one).fold(0.0, f64::max)
@@ -57,7 +57,7 @@ mod tests {
                 };
                 let places: Vec<Point> = (0..grid.grippers()).map(place).collect();
                 let ply = cloth(grid);
-                let found = tilt(&ply, &ply.neighbours(), &places, [0.0, 0.0, 1.0]);
+                let found = tilt(&ply, &ply.neighbors(), &places, [0.0, 0.0, 1.0]);
                 assert!((found - inclination).abs() < 1e-7, "{nu} × {nv}: {found} {inclination}");
             }
         }

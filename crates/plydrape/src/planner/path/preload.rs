@@ -16,14 +16,14 @@ use crate::geometry::Point;
 use crate::geometry::vector::{along, between, sub, unit};
 use crate::measure::Name;
 use crate::mold::distance;
-use crate::ply::Neighbours;
+use crate::ply::Neighbors;
 use crate::scene::Scene;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
-/// The preload of a strategy's grippers; none of rigid ones.
+/// The preload of a strategy's grippers; none for rigid ones.
 pub struct Preload<'a> {
     scene: &'a Scene,
-    neighbours: Vec<Neighbours>,
+    neighbors: Vec<Neighbors>,
     targets: &'a [Point],
     /// How far a mount gives along x, y and z (m/N).
     compliance: [f64; 3],
@@ -74,7 +74,7 @@ impl<'a> Preload<'a> {
         let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
         Some(Preload {
             scene,
-            neighbours: scene.layup.ply.neighbours(),
+            neighbors: scene.layup.ply.neighbors(),
             targets: &target.grippers,
             compliance: [lateral, lateral, axial],
             pull,
@@ -115,7 +115,7 @@ impl<'a> Preload<'a> {
     /// bridges a hollow.
     fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
         let (mut sum, mut over_hollow) = ([0.0; 3], false);
-        let beside = self.neighbours.iter().filter(|pair| pair.grippers.contains(&gripper));
+        let beside = self.neighbors.iter().filter(|pair| pair.grippers.contains(&gripper));
         for pair in beside {
             let other = pair.grippers[usize::from(pair.grippers[0] == gripper)];
             let way = unit(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
@@ -129,7 +129,7 @@ impl<'a> Preload<'a> {
     }
 }
 
-/// The same for all steps (m) of a motion, whose first one stays: the pull comes up in the first of them.
+/// Applies the preload to all steps (m) of a motion. The first step stays; the pretension grows in those after it.
 pub fn commanded(scene: &Scene, strategy: &Strategy, steps: &mut [Vec<Point>]) {
     let Some(preload) = Preload::new(scene, strategy) else { return };
     let growing = (TUNING.preload.growing * steps.len() as f64).max(1.0);

@@ -29,7 +29,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 struct Candidate {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
-    /// Its drapes; none of one that was not draped, or of which only the score is known.
+    /// Drapes; `None` for one that was not draped, or of which only the score is known.
     drapes: Option<Drapes>,
     score: f64,
     /// The key of its drapes in the journal, until it was compared with the others.
@@ -61,7 +61,7 @@ struct Choice {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
     known: Known,
-    /// The decision itself; none if a search before has made it.
+    /// The decision itself; `None` if a search before has made it.
     decision: Option<Decision>,
 }
 
@@ -246,7 +246,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Evolution about the best until no more than so many drapes are left; a search that continues an earlier one takes other
+    /// Evolution about the best until no more than this many drapes are left; a search that continues an earlier one takes other
     /// samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>, left: usize) {
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
@@ -259,7 +259,7 @@ impl Search<'_, '_> {
         let found: Mutex<Vec<Candidate>> = Mutex::new(Vec::new());
         let objective = |unit: &DVector<f64>| -> f64 {
             let strategy = Strategy::of_unit(unit.as_slice());
-            let Some(candidate) = shared.of(strategy) else { return f64::MAX };
+            let Some(candidate) = shared.candidate(strategy) else { return f64::MAX };
             let score = candidate.score;
             lock(&found).push(candidate);
             score
@@ -305,8 +305,8 @@ impl Search<'_, '_> {
     /// Drapes along strategies.
     fn drape(&mut self, strategies: &[Strategy]) {
         self.left = self.left.saturating_sub(strategies.len());
-        let of = |strategy: &Strategy| self.shared.of(*strategy);
-        let found: Vec<Candidate> = strategies.par_iter().filter_map(of).collect();
+        let candidate = |strategy: &Strategy| self.shared.candidate(*strategy);
+        let found: Vec<Candidate> = strategies.par_iter().filter_map(candidate).collect();
         self.candidates.extend(found);
         self.rank();
     }
@@ -407,7 +407,7 @@ impl Search<'_, '_> {
 
 impl Shared<'_, '_> {
     /// The candidate of a strategy; none once the search is stopped.
-    fn of(&self, strategy: Strategy) -> Option<Candidate> {
+    fn candidate(&self, strategy: Strategy) -> Option<Candidate> {
         if self.state.is_stopped() {
             return None;
         }

@@ -175,7 +175,7 @@ impl Strategy {
         [&rings_and_ellipses, beside, &others].concat()
     }
 
-    /// The same for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far; and pulled and
+    /// This strategy for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far; and pulled and
     /// pressed at least as hard as the errors of the grippers need.
     fn preloaded(self, scene: &Scene) -> Self {
         let front = TUNING.front;
@@ -216,7 +216,7 @@ impl Strategy {
     }
 }
 
-/// The middle of the cell that is nearest the middle of so many cells, as a share of the fabric.
+/// The middle of the cell that is nearest the middle of this many cells, as a share of the fabric.
 fn middle_of_cell(cells: usize) -> f64 {
     let cells = cells.max(1);
     ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64

@@ -35,7 +35,7 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
     Cow::Owned(Scene { layup, ..scene.clone() })
 }
 
-/// The formula as a table; none where its error exceeds a tolerance (m).
+/// The formula as a table; `None` where its error exceeds a tolerance (m).
 fn table(z: &Formula, domain: [[f64; 2]; 2], tolerance: f64) -> Option<HeightGrid> {
     let nodes = TUNING.front.table_nodes;
     let table = height_grid(domain, nodes, |[x, y]| z.at(x, y).z)?;
@@ -61,7 +61,7 @@ pub(super) fn height_grid(
     HeightGrid::new(x, y, z).ok()
 }
 
-/// Node k of so many evenly spaced ones (m).
+/// Node k of this many evenly spaced ones (m).
 fn node([low, high]: [f64; 2], k: f64, nodes: usize) -> f64 {
     low + (high - low) * k / (nodes - 1) as f64
 }

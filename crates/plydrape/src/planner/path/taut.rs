@@ -10,15 +10,15 @@
 use super::tuning::TUNING;
 use crate::geometry::Point;
 use crate::geometry::vector::{between, distance};
-use crate::ply::Neighbours;
+use crate::ply::Neighbors;
 use crate::scene::Scene;
 
 /// The lines between neighboring grippers of a scene, as they shall lie on the mold.
 #[derive(Debug, Clone)]
-pub struct Lines(Vec<Line>);
+pub struct Lines(Vec<TautLine>);
 
 #[derive(Debug, Clone)]
-struct Line {
+struct TautLine {
     /// Grippers at both ends.
     grippers: [usize; 2],
     /// Fabric length (m).
@@ -41,28 +41,28 @@ enum End {
 }
 
 impl Lines {
-    /// The lines of a scene; none where its ideal drape is not known.
+    /// The lines of a scene; `None` where its ideal drape is not known.
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let (mold, drape) =
             (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?.drape.as_ref()?);
         let ply = &scene.layup.ply;
         let parts = TUNING.front.line_parts;
-        let line = |pair: Neighbours| {
+        let line = |pair: Neighbors| {
             let [a, b] = pair.grippers.map(|n| ply.place(n));
             let place = |k: usize| {
                 let t = k as f64 / parts as f64;
                 drape.place(mold, [0, 1].map(|c| a[c] + t * (b[c] - a[c])))
             };
             let places: Vec<Point> = (0..=parts).map(place).collect::<Option<_>>()?;
-            let length = match pair.fibre {
+            let length = match pair.fiber {
                 Some(_) => ply.length_factor * (b[0] - a[0]).hypot(b[1] - a[1]),
                 // a line across the yarns becomes as long as the shear of the ideal drape makes it
                 None => places.windows(2).map(|pair| distance(pair[0], pair[1])).sum(),
             };
-            Some(Line { grippers: pair.grippers, length, places })
+            Some(TautLine { grippers: pair.grippers, length, places })
         };
-        ply.neighbours().into_iter().map(line).collect::<Option<_>>().map(Lines)
+        ply.neighbors().into_iter().map(line).collect::<Option<_>>().map(Lines)
     }
 
     /// Moves grippers (m) that are not in contact sideways until all free lines are taut, `stretch` beyond their length.
@@ -176,7 +176,7 @@ mod tests {
             let ends = graph.ends(n);
             let [a, b] = ends.map(|gripper| target(GRID.id(gripper)));
             let places = (0..=16).map(|k| between(a, b, f64::from(k) / 16.0)).collect();
-            Line { grippers: ends, length: 0.1, places }
+            TautLine { grippers: ends, length: 0.1, places }
         };
         Lines((0..graph.edges()).map(line).collect())
     }

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, LN_10, PI};
 
 /// Constants of each stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct PathTuning {
     /// The way from the start to the first formation of a front.
     pub transport: Transport,
     /// Fronts and the trajectories that they give.
@@ -97,7 +97,7 @@ pub struct Front {
     pub finer: usize,
     /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
     pub steepest: f64,
-    /// The same for grippers on mounts.
+    /// Steepest slope that is tried first for grippers on mounts.
     pub steepest_on_mounts: f64,
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
@@ -170,7 +170,7 @@ pub struct Search {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub const TUNING: PathTuning = PathTuning {
     transport: Transport {
         margin: 0.1,
         divisions: 5,

@@ -43,8 +43,8 @@ use shapes::Shapes;
 
 /// A plan that was found and draped, with all that a correction needs of it.
 #[derive(Debug, Clone, Copy)]
-pub struct Plan<'a> {
-    /// Its scene; the motion in it does not count.
+pub struct KnownPlan<'a> {
+    /// Scene; the motion in it does not count.
     pub scene: &'a Scene,
     /// What its motion is made of.
     pub record: &'a PlanRecord,
@@ -144,8 +144,8 @@ impl<'a> Replanner<'a> {
     /// [`Error::ReplanAgain`] if the plan was corrected before; [`Error::ReplanRealTime`], [`Error::ReplanUnfinished`], [`Error::ReplanNoShapes`]
     /// or [`Error::ReplanMotion`] if its drape says too little; [`Error::ReplanNoTransport`] if it has no transport in which an offset could
     /// be taken out.
-    pub fn new(plan: Plan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, Error> {
-        let Plan { scene, record, steps, summary } = plan;
+    pub fn new(plan: KnownPlan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, Error> {
+        let KnownPlan { scene, record, steps, summary } = plan;
         if record.picked_up.is_some() {
             return Err(Error::ReplanAgain);
         }
@@ -224,9 +224,9 @@ impl<'a> Replanner<'a> {
     }
 
     /// The plan in the time of the drape alone.
-    fn plan(&self) -> Plan<'_> {
+    fn plan(&self) -> KnownPlan<'_> {
         let Replanner { scene, record, steps, summary, .. } = self;
-        Plan { scene, record, steps, summary }
+        KnownPlan { scene, record, steps, summary }
     }
 
     /// Share of the offset in each step of the motion.

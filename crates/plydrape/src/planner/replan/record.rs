@@ -4,7 +4,7 @@
 //! recorded. Measured again is what depends on where the ply is or on the motion: how fast grippers tilt, the workspace, the clearance of bodies, the
 //! gap, the distance to the target, the duration, the rates of the motion and of the tool. The rest of the verdict is that of the plan.
 
-use super::Plan;
+use super::KnownPlan;
 use crate::clearance::Nearest;
 use crate::geometry::vector::distance;
 use crate::measure::{Course, Name, Observation, Past, Scope, Verdict, WholeMotion, Worst};
@@ -21,7 +21,12 @@ const AGAIN: [Name; 5] =
     [Name::TiltRate, Name::Workspace, Name::LandingGripper, Name::Clearance, Name::Duration];
 
 /// The recorded steps, moved, with the grippers where the motion has them.
-pub fn steps(plan: Plan, motion: &TimedMotion, moved: &[Moved], last_free: usize) -> Vec<Step> {
+pub fn steps(
+    plan: KnownPlan,
+    motion: &TimedMotion,
+    moved: &[Moved],
+    last_free: usize,
+) -> Vec<Step> {
     let mut steps = plan.steps.to_vec();
     let targets = plan.scene.layup.target.as_ref().map(|target| &target.grippers);
     for (k, step) in steps.iter_mut().take(last_free + 1).enumerate() {
@@ -107,7 +112,7 @@ pub struct Outcome<'a> {
 
 impl Outcome<'_> {
     /// The outcome along the steps.
-    pub fn summary(&self, plan: Plan, steps: &mut [Step], moved: &[Moved]) -> Summary {
+    pub fn summary(&self, plan: KnownPlan, steps: &mut [Step], moved: &[Moved]) -> Summary {
         let scene = plan.scene;
         let mut summary = plan.summary.clone();
         for verdict in &mut summary.limits {

@@ -73,7 +73,7 @@ struct Nearest {
 }
 
 impl Shapes {
-    /// Those of the steps up to one (from 0), of the catenaries and of a sheet.
+    /// The shapes of the steps up to `last` (from 0), of the catenaries and of a sheet.
     pub fn new(scene: &Scene, steps: &[Step], sheet: Option<&SheetShapes>, last: usize) -> Self {
         let hanging = |step: &Step| match &step.catenaries {
             Some(catenaries) => {
@@ -226,7 +226,7 @@ fn falls_short_of(mold: &Mold, a: Point, b: Point, resolution: f64) -> f64 {
     least
 }
 
-/// The nearest point of a straight way that touches the mold, closer than `tolerance` (m); none if none does.
+/// The nearest point of a straight way that touches the mold, closer than `tolerance` (m); `None` if none does.
 fn nearest(mold: &Mold, a: Point, b: Point, tolerance: f64) -> Option<Nearest> {
     let mut found: Option<Nearest> = None;
     let mut see = |place: Point| {

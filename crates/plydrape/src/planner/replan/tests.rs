@@ -59,8 +59,8 @@ struct Found {
 }
 
 impl Found {
-    fn plan(&self) -> Plan<'_> {
-        Plan {
+    fn plan(&self) -> KnownPlan<'_> {
+        KnownPlan {
             scene: &self.scene,
             record: &self.record,
             steps: &self.drape.steps,
@@ -78,7 +78,7 @@ fn planned(path: Steps, bodies: Bodies) -> Found {
     carried(path, bodies, None)
 }
 
-/// The same with a tool.
+/// The clearance along a path, with a tool.
 fn carried(path: Steps, bodies: Bodies, tool: Option<Tool>) -> Found {
     let (ply, mut settings) = (cloth(GRID), Settings::default());
     settings.model = Model::Catenaries;

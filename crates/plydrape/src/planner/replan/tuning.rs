@@ -2,7 +2,7 @@
 
 /// Constants of the correction of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub struct ReplanTuning {
     /// Rounds in which the control points are improved until the path passes the moved steps. Each takes off a third of the roughest
     /// part of what is left and far more of a smooth part.
     pub rounds: usize,
@@ -16,4 +16,5 @@ pub struct Tuning {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning { rounds: 40, passed: 1e-10, rigid: 1e-4, loose: 0.5 };
+pub const TUNING: ReplanTuning =
+    ReplanTuning { rounds: 40, passed: 1e-10, rigid: 1e-4, loose: 0.5 };

@@ -66,7 +66,7 @@ fn held(max_tilt: f64) -> Sheet {
 /// is tilted by 0.28 rad.
 fn loaded(sheet: &Sheet) -> Cloth<'_> {
     // a penalty so soft that pressure and friction are of the size of the other forces
-    let tuning = Tuning { contact_depth: 1e-3, slip: 1e-3, ..Tuning::default() };
+    let tuning = SheetTuning { contact_depth: 1e-3, slip: 1e-3, ..SheetTuning::default() };
     let Configuration { x, pads, .. } = crumpled(sheet).now;
     let mut cloth = Cloth::new(sheet, tuning, x, pads);
     let mut seed = 99_u64;
@@ -218,7 +218,7 @@ fn a_tilt_limit_is_as_stiff_about_its_axis_as_its_torque_grows() {
         product(&cloth.system.gradient_of_unknowns(), &direction)
     };
     let central = (torque(1e-5) - torque(-1e-5)) / 2e-5;
-    let k = Tuning::default().tilt_stiffness * 3.143 * G * sheet.pitch.powi(3);
+    let k = SheetTuning::default().tilt_stiffness * 3.143 * G * sheet.pitch.powi(3);
     assert!((stiffness / k - 1.0).abs() < 1e-8, "{stiffness} {k}");
     assert!((central / k - 1.0).abs() < 1e-6, "{central} {k}");
 }

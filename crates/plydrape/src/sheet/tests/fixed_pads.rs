@@ -4,7 +4,7 @@ use super::release::{GRID, draped, handed_over, layup};
 use super::*;
 use crate::geometry::vector::{distance, norm, sub, turned};
 use crate::layup::Layup;
-use crate::sheet::State;
+use crate::sheet::ClothState;
 use crate::tool::Tool;
 
 /// A tool without axes whose pads have no joints.
@@ -110,7 +110,7 @@ fn a_ply_in_pads_without_joints_does_not_know_where_it_is() {
     let heights = here.last.heights.iter().zip(&there.last.heights);
     let off = heights.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(off < 2e-5, "{off}");
-    let most = |states: &[State]| {
+    let most = |states: &[ClothState]| {
         states.iter().flat_map(|state| &state.forces).map(|f| norm(*f)).fold(0.0, f64::max)
     };
     let (a, b) = (most(&before), most(&after));

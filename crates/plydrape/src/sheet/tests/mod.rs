@@ -12,7 +12,7 @@ mod release;
 
 use super::cloth::Cloth;
 use super::gripper::{Gripper, Pad};
-use super::{Fabric, Sheet, Tuning};
+use super::{Fabric, Sheet, SheetTuning};
 use crate::layup::Friction;
 use crate::material::{ShearCurve, TensionLaw};
 use crate::mold::{Mold, Plane};
@@ -65,7 +65,7 @@ fn flat(sheet: &Sheet, z: f64) -> Cloth<'_> {
     let at = |[u, v]: [f64; 2]| [u, v, z];
     let x = sheet.fabric.places.iter().map(|uv| at(*uv)).collect();
     let pads = sheet.grippers.iter().map(|gripper| Pad::new(at(gripper.place))).collect();
-    Cloth::new(sheet, Tuning::default(), x, pads)
+    Cloth::new(sheet, SheetTuning::default(), x, pads)
 }
 
 /// Moves the grippers straight to places (m) in a time (s), in shorter steps where one is not solved.

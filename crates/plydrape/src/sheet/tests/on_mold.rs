@@ -114,7 +114,7 @@ fn an_isometric_roll_leaves_nothing() {
         for (x, uv) in cloth.now.x.iter().zip(&sheet.fabric.places) {
             let height = mold.signed_distance(*x);
             let off = crate::mold::distance(*x, place(*uv, 0.3));
-            // ahead of the front the taut fabric sags by (3 w L⁴ / 64 EA′)^(1/3), half a millimetre, as its yarns stretch
+            // ahead of the front the taut fabric sags by (3 w L⁴ / 64 EA′)^(1/3), half a millimeter, as its yarns stretch
             assert!(height < 2e-4 && off < 1.5e-3, "{radius} {uv:?}: {height} {off}");
         }
     }

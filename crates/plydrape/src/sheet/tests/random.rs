@@ -10,7 +10,7 @@ use crate::motion::Motion;
 use crate::outcome::{self, simulate};
 use crate::ply::{Grid, Ply};
 use crate::scene::Scene;
-use crate::sheet::{HandOver, State, Status, drape};
+use crate::sheet::{ClothState, HandOver, Status, drape};
 use crate::tool::Tool;
 use std::ops::ControlFlow;
 
@@ -119,7 +119,7 @@ fn layup(seed: u64) -> Layup {
 #[test]
 fn random_sheets_answer_with_numbers_and_an_honest_status() {
     // what is hard is given up early: its status is looked at here, and not how far it comes
-    let tuning = Tuning { iterations: 12, ..Tuning::default() };
+    let tuning = SheetTuning { iterations: 12, ..SheetTuning::default() };
     let (mut solved, mut refused) = (0, 0);
     for seed in 0..200 {
         let mut layup = layup(seed);
@@ -136,7 +136,7 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         let limits = Limits::of(&layup);
         let (mut judge, mut hand_over) = (Judge::new(&layup, &limits, true), HandOver::default());
         let mut strain = 0.0_f64;
-        let see = |sheet: &Sheet, state: &State, last: bool| {
+        let see = |sheet: &Sheet, state: &ClothState, last: bool| {
             let measures = judge.see_all(&hand_over.state(&layup, sheet, state, last));
             strain += measures.value(Name::Strain).expect("segments");
             ControlFlow::Continue(())
@@ -193,8 +193,8 @@ fn a_mesh_is_refused_from_half_of_the_free_fabric_between_pads_on() {
 fn the_same_layup_gives_the_same_bytes() {
     let run = || {
         let layup = layup(WHOLE);
-        let go_on = |_: &Sheet, _: &State, _: bool| ControlFlow::Continue(());
-        drape(&layup, Tuning::default(), 0.0, &|| false, go_on).expect("a sheet")
+        let go_on = |_: &Sheet, _: &ClothState, _: bool| ControlFlow::Continue(());
+        drape(&layup, SheetTuning::default(), 0.0, &|| false, go_on).expect("a sheet")
     };
     let first = run();
     let beside: Vec<_> = std::thread::scope(|scope| {
@@ -208,12 +208,12 @@ fn the_same_layup_gives_the_same_bytes() {
     }
 }
 
-/// A drape that is told to stop says so, and is not accepted.
+/// A drape that is stopped says so, and is not accepted.
 #[test]
 fn a_stopped_drape_is_interrupted() {
     let layup = layup(WHOLE);
-    let go_on = |_: &Sheet, _: &State, _: bool| ControlFlow::Continue(());
-    let stopped = drape(&layup, Tuning::default(), 0.0, &|| true, go_on).expect("a sheet");
+    let go_on = |_: &Sheet, _: &ClothState, _: bool| ControlFlow::Continue(());
+    let stopped = drape(&layup, SheetTuning::default(), 0.0, &|| true, go_on).expect("a sheet");
     assert_eq!(stopped.status, Status::Interrupted);
     let scene =
         Scene { layup: layup.clone(), ..Scene::new(layup.ply, layup.settings, layup.motion) };

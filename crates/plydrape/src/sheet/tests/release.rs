@@ -11,7 +11,7 @@ use crate::ply::{Grid, GripperId, Ply};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::Energy;
 use crate::sheet::event::{at_these_times, holds};
-use crate::sheet::{Drape, EventKind, HandOver, State, Status, drape};
+use crate::sheet::{ClothState, Drape, EventKind, HandOver, Status, drape};
 use crate::state::PlyState;
 use std::ops::ControlFlow;
 
@@ -59,18 +59,18 @@ fn release(order: ReleaseOrder, dwell: f64) -> Option<Release> {
 }
 
 /// The drape of a layup and all of its states.
-pub(super) fn draped(layup: &Layup) -> (Drape, Vec<State>) {
+pub(super) fn draped(layup: &Layup) -> (Drape, Vec<ClothState>) {
     let mut states = Vec::new();
-    let keep = |_: &Sheet, state: &State, _: bool| {
+    let keep = |_: &Sheet, state: &ClothState, _: bool| {
         states.push(state.clone());
         ControlFlow::Continue(())
     };
-    let drape = drape(layup, Tuning::default(), LOW, &|| false, keep).expect("a sheet");
+    let drape = drape(layup, SheetTuning::default(), LOW, &|| false, keep).expect("a sheet");
     (drape, states)
 }
 
 /// The states of a drape as measures see them.
-pub(super) fn handed_over(layup: &Layup, drape: &Drape, states: &[State]) -> Vec<PlyState> {
+pub(super) fn handed_over(layup: &Layup, drape: &Drape, states: &[ClothState]) -> Vec<PlyState> {
     let mut hand_over = HandOver::default();
     let last = states.len() - 1;
     let states = states.iter().enumerate();
@@ -135,7 +135,7 @@ fn a_dwell_delays_the_release_by_itself() {
     assert_eq!((gripper, time + 0.75), (same, later));
 }
 
-/// A pad that lets go on the way does so when all nodes within a cell have lain for the dwell, told from the states of the steps:
+/// A pad that lets go on the way does so when all nodes within a cell have lain for the dwell, found from the states of the steps:
 /// these surround the moment by a step. Pads that are left do at the end, and no pad holds after it has let go.
 #[test]
 fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
@@ -158,7 +158,7 @@ fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
         let near: Vec<usize> = (0..places.len())
             .filter(|n| (places[*n][0] - u).hypot(places[*n][1] - v) < 0.1 + 1e-9)
             .collect();
-        let lies = |state: &State| near.iter().all(|n| state.heights[*n] <= LOW);
+        let lies = |state: &ClothState| near.iter().all(|n| state.heights[*n] <= LOW);
         if time > end {
             assert_eq!(time, end + dwell);
             continue;

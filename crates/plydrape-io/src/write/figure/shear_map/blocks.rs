@@ -2,7 +2,7 @@
 
 use crate::write::figure::axes;
 use crate::write::figure::canvas::Ink;
-use crate::write::figure::colour::viridis;
+use crate::write::figure::color::viridis;
 use plydrape::net::Net;
 
 /// Most blocks that have a color of their own.
@@ -13,7 +13,7 @@ const LEAST: f64 = 0.5;
 /// Shear by block of cells, in degrees.
 pub(super) struct Blocks<'a> {
     pub net: &'a Net,
-    /// Cells of a block along each side; less at the far rims.
+    /// Cells of a block along each side; less at the far sides.
     pub side: usize,
     /// Blocks along u and v.
     count: [usize; 2],

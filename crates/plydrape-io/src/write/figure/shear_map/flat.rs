@@ -4,7 +4,7 @@ use super::blocks::Blocks;
 use super::marks::{arrow, dot, mark, marked, seed_ways};
 use crate::write::figure::axes::{self, LABEL, TICK};
 use crate::write::figure::canvas::{Canvas, Ink, Px, plain};
-use crate::write::figure::colour::{DARK, FRAME};
+use crate::write::figure::color::{DARK, FRAME};
 
 /// Where the flat fabric is on the sheet.
 pub(super) struct Flat {

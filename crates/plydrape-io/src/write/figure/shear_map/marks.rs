@@ -1,7 +1,7 @@
 //! What is marked on the picture of a net: its seed, the ways of u and v, the largest shear.
 
 use crate::write::figure::canvas::{Canvas, Ink, Px, Type};
-use crate::write::figure::colour::{BLACK, DARK, RED};
+use crate::write::figure::color::{BLACK, DARK, RED};
 use plydrape::net::Net;
 
 /// Cells whose shear differs by no more than this (°) shear alike.
@@ -62,7 +62,7 @@ pub(super) fn mark(canvas: &mut Canvas, at: Px, value: &str, right: f64) {
     badge(canvas, [at[0] + side * (10.0 + half), at[1]], value);
 }
 
-/// A short text on a light ground.
+/// A short text on a light background.
 fn badge(canvas: &mut Canvas, at: Px, text: &str) {
     let half = [3.4 * text.chars().count() as f64 + 2.5, 7.5];
     let corner = |x: f64, y: f64| [at[0] + x * half[0], at[1] + y * half[1]];

@@ -10,7 +10,7 @@ mod marks;
 use super::axes;
 use super::bar::bar;
 use super::canvas::{Canvas, Px, heading, plain};
-use super::colour::{FRAME, RED};
+use super::color::{FRAME, RED};
 use crate::store::shown;
 use blocks::Blocks;
 use flat::Flat;
@@ -29,7 +29,7 @@ const HEAD: f64 = 66.0;
 const LINE: f64 = 16.0;
 const LEGEND: f64 = 42.0;
 
-/// The shear map of a net as an SVG; none of a net without a cell that has all its nodes, such as a strip.
+/// The shear map of a net as an SVG; `None` for a net without a cell that has all its nodes, such as a strip.
 #[must_use]
 pub fn svg(net: &Net, name: &str) -> Option<String> {
     let blocks = Blocks::of(net);

@@ -6,7 +6,7 @@
 //! `A_(k−1) + 4 A_k + A_(k+1) = 6 R_k`.
 
 use super::clearance::Clearance;
-use super::turn::{Rotation, Turn, centre, turned};
+use super::turn::{Rotation, Turn, center, turned};
 use crate::geometry::Point;
 use crate::geometry::vector::{along, distance, sub};
 use crate::mold::Mold;
@@ -39,7 +39,7 @@ type Control = (Point, f64);
 impl<'a> Carriage<'a> {
     /// The way of the grippers of a scene from its start to where they form a shape (m).
     pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], shape: &[Point]) -> Self {
-        let ends = [centre(start), centre(shape)];
+        let ends = [center(start), center(shape)];
         let clearance = Clearance::new(scene, mold, start, ends[1]);
         let turn = Turn::new(&scene.layup.ply, start, shape);
         let array: Vec<Point> = start.iter().map(|p| sub(*p, ends[0])).collect();
@@ -54,7 +54,7 @@ impl<'a> Carriage<'a> {
         carriage
     }
 
-    /// Positions (m) of its steps in a plan of so many: the start is the first, the place where the array is formed the
+    /// Positions (m) of its steps in a plan of this many: the start is the first, the place where the array is formed the
     /// last. Only the start, where there is no step for so short a way.
     pub fn positions(&self, start: &[Point], steps: usize) -> Vec<Vec<Point>> {
         let controls = self.clear_controls(steps);
@@ -164,13 +164,13 @@ impl<'a> Carriage<'a> {
     /// By how much the spline is too low at a parameter that counts legs (m).
     fn shortfall_at(&self, controls: &[Control], at: f64) -> f64 {
         let leg = (at as usize).min(controls.len() - 2);
-        let (centre, turned) = spline(controls, leg, at - leg as f64);
+        let (center, turned) = spline(controls, leg, at - leg as f64);
         let rotation = self.turn.at(turned);
         // a table is on the first half of the way: the mold may be lower
         if turned < 0.5 {
-            self.clearance.shortfall(centre, &rotation)
+            self.clearance.shortfall(center, &rotation)
         } else {
-            self.clearance.shortfall_over_mold(centre, &rotation)
+            self.clearance.shortfall_over_mold(center, &rotation)
         }
     }
 
@@ -191,14 +191,14 @@ impl<'a> Carriage<'a> {
         lengths.into_iter().fold(0.0, f64::max)
     }
 
-    fn array_at(&self, (centre, share): Control) -> Vec<Point> {
-        placed(&self.array, centre, &self.turn.at(share))
+    fn array_at(&self, (center, share): Control) -> Vec<Point> {
+        placed(&self.array, center, &self.turn.at(share))
     }
 }
 
 /// An array (m) turned, with its center at a place.
-fn placed(array: &[Point], centre: Point, rotation: &Rotation) -> Vec<Point> {
-    array.iter().map(|p| along(centre, 1.0, turned(rotation, *p))).collect()
+fn placed(array: &[Point], center: Point, rotation: &Rotation) -> Vec<Point> {
+    array.iter().map(|p| along(center, 1.0, turned(rotation, *p))).collect()
 }
 
 /// The cubic B-spline with evenly spaced knots at a share `t` of the way from knot `k` to the next; it begins and ends at

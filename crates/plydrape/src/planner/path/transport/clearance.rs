@@ -1,6 +1,6 @@
 //! How far an array that is carried stays above the mold, and above the table that it was picked up from.
 
-use super::turn::{Rotation, centre, turned};
+use super::turn::{Rotation, center, turned};
 use crate::bodies::Obstacle;
 use crate::clearance::{Poses, from_obstacles};
 use crate::geometry::Point;
@@ -15,10 +15,10 @@ use crate::scene::Scene;
 #[derive(Debug)]
 pub struct Clearance<'a> {
     mold: &'a Mold,
-    /// Points of the ply at the start, from the center of the grippers (m): the grippers, and so many between them and
+    /// Points of the ply at the start, from the center of the grippers (m): the grippers, and this many between them and
     /// on the overhang.
     points: Vec<Point>,
-    /// So many of them in a line along u.
+    /// This many of them in a line along u.
     line: usize,
     /// Center of the grippers at the start (m).
     start: Point,
@@ -26,7 +26,7 @@ pub struct Clearance<'a> {
     hang: f64,
     /// Distance to keep (m).
     margin: f64,
-    /// Height of a table below the start (m); none where the mold is below all of it.
+    /// Height of a table below the start (m); `None` where the mold is below all of it.
     table: Option<f64>,
     /// How far the start is above the mold (m).
     own: f64,
@@ -55,13 +55,13 @@ struct Carried<'a> {
 }
 
 impl<'a> Carried<'a> {
-    /// Those of a scene at its start (m), which keep a margin (m) beside the limit; none without bodies or obstacles.
+    /// What the grippers of a scene carry at its start (m), with a margin (m) beside the limit; `None` without bodies or obstacles.
     fn new(scene: &'a Scene, start: &[Point], margin: f64) -> Option<Self> {
         let obstacles = scene.layup.bodies.obstacles();
         if scene.layup.bodies.is_empty() || obstacles.is_empty() {
             return None;
         }
-        let poses = Poses::by_neighbours(&scene.layup, &scene.layup.ply.neighbours(), start);
+        let poses = Poses::by_neighbors(&scene.layup, &scene.layup.ply.neighbors(), start);
         let wanted = scene.limits.most(Name::Clearance) + margin;
         let own = from_obstacles(&scene.layup, &poses, wanted).unwrap_or(wanted);
         let top = |obstacle: &Obstacle| obstacle.bounds()[1][2];
@@ -71,9 +71,9 @@ impl<'a> Carried<'a> {
 
     /// By how much the array must be higher at most to keep the distance (m), with its center at a place (m) and turned; `from` is
     /// its center at the start (m), and it has `moved` so far (m).
-    fn shortfall(&self, from: Point, centre: Point, rotation: &Rotation, moved: f64) -> f64 {
+    fn shortfall(&self, from: Point, center: Point, rotation: &Rotation, moved: f64) -> f64 {
         let wanted = self.wanted.min(self.own + moved);
-        let poses = self.start.carried(from, centre, rotation);
+        let poses = self.start.carried(from, center, rotation);
         match from_obstacles(&self.scene.layup, &poses, wanted) {
             // over all that stands there, and no less than the distance lacks: the way is lowered again as far as it may
             Some(distance) if distance < wanted => {
@@ -91,7 +91,7 @@ impl<'a> Clearance<'a> {
     pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
         let ply = &scene.layup.ply;
         let overhang = scene.layup.settings.sheet.overhang;
-        let middle = centre(start);
+        let middle = center(start);
         let lines = points(ply, start, overhang);
         let line = lines.first().map_or(0, Vec::len);
         let points: Vec<Point> = lines.into_iter().flatten().map(|p| sub(p, middle)).collect();
@@ -129,26 +129,26 @@ impl<'a> Clearance<'a> {
     }
 
     /// By how much the array, with its center at a place (m) and turned, is too low over the mold and the table (m).
-    pub fn shortfall(&self, centre: Point, rotation: &Rotation) -> f64 {
-        let lowest = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p))[2]);
+    pub fn shortfall(&self, center: Point, rotation: &Rotation) -> f64 {
+        let lowest = self.points.iter().map(|p| along(center, 1.0, turned(rotation, *p))[2]);
         let lowest = lowest.fold(f64::INFINITY, f64::min) - self.hang;
         let over_table = self.table.map_or(f64::NEG_INFINITY, |table| {
-            table + self.margin.min(self.moved(centre, rotation)) - lowest
+            table + self.margin.min(self.moved(center, rotation)) - lowest
         });
-        over_table.max(self.shortfall_over_mold(centre, rotation))
+        over_table.max(self.shortfall_over_mold(center, rotation))
     }
 
     /// By how much it is too low over the mold and the obstacles (m), the table that it was picked up from left out. It shall keep the margin; where it has hardly moved, as much as it
     /// had at the start and the distance that it has moved.
-    pub fn shortfall_over_mold(&self, centre: Point, rotation: &Rotation) -> f64 {
-        let wanted = self.margin.min(self.own + self.moved(centre, rotation));
-        let places = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p)));
+    pub fn shortfall_over_mold(&self, center: Point, rotation: &Rotation) -> f64 {
+        let wanted = self.margin.min(self.own + self.moved(center, rotation));
+        let places = self.points.iter().map(|p| along(center, 1.0, turned(rotation, *p)));
         let over_mold = wanted - self.over_mold(&places.collect::<Vec<Point>>());
         match &self.bodies {
             None => over_mold,
             Some(bodies) => {
-                let moved = self.moved(centre, rotation);
-                over_mold.max(bodies.shortfall(self.start, centre, rotation, moved))
+                let moved = self.moved(center, rotation);
+                over_mold.max(bodies.shortfall(self.start, center, rotation, moved))
             }
         }
     }
@@ -184,13 +184,13 @@ impl<'a> Clearance<'a> {
     }
 
     /// The farthest that a point of the array has moved in plan (m).
-    fn moved(&self, centre: Point, rotation: &Rotation) -> f64 {
-        let by = sub(centre, self.start);
+    fn moved(&self, center: Point, rotation: &Rotation) -> f64 {
+        let by = sub(center, self.start);
         let moves = self.points.iter().map(|p| along(sub(turned(rotation, *p), *p), 1.0, by));
         moves.map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
     }
 
-    /// Height of the ply that hangs from a place over what is below it (m), the mold or the box around an obstacle; none where there
+    /// Height of the ply that hangs from a place over what is below it (m), the mold or the box around an obstacle; `None` where there
     /// is neither.
     fn above(&self, place: Point) -> Option<f64> {
         let mold = self.mold.highest_point([place[0], place[1]]).map(|top| top[2]);
@@ -273,7 +273,7 @@ fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
     let (u, v) = (axis(0), axis(1));
     let at: Box<dyn Fn(f64, f64) -> Point> = match ply.grid {
         Grid::NONE => {
-            let (middle, [along_u, along_v]) = (centre(places), directions(ply, places));
+            let (middle, [along_u, along_v]) = (center(places), directions(ply, places));
             let count = places.len() as f64;
             let own =
                 [0, 1].map(|n| (0..places.len()).map(|k| ply.place(k)[n]).sum::<f64>() / count);
@@ -304,7 +304,7 @@ fn bilinear(grid: Grid, places: &[Point], [u, v]: [f64; 2]) -> Point {
 /// along the other direction does, each as a parabola, `f² = 3/8 ℓ (L − ℓ)`.
 fn sag(ply: &Ply, places: &[Point]) -> f64 {
     let mut largest = [0.0_f64; 2];
-    for pair in ply.neighbours() {
+    for pair in ply.neighbors() {
         let [a, b] = pair.grippers.map(|n| places[n]);
         let [p, q] = pair.grippers.map(|n| ply.place(n));
         let way = [q[0] - p[0], q[1] - p[1]];

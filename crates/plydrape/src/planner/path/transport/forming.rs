@@ -130,7 +130,7 @@ mod tests {
     const GRID: Grid = Grid { nu: 5, nv: 4 };
 
     fn edges(grid: Grid) -> Vec<[usize; 2]> {
-        crate::planner::sample::cloth(grid).neighbours().iter().map(|pair| pair.grippers).collect()
+        crate::planner::sample::cloth(grid).neighbors().iter().map(|pair| pair.grippers).collect()
     }
 
     fn array(place: impl Fn(f64, f64) -> Point) -> Vec<Point> {

@@ -21,7 +21,7 @@ use crate::scene::Scene;
 use carriage::Carriage;
 use forming::formed;
 
-/// Positions (m) from the scene's start to a formation of the grippers, of a plan with so many steps; the formation itself
+/// Positions (m) from the scene's start to a formation of the grippers, of a plan with this many steps; the formation itself
 /// is the next step. None without a mold or a start.
 #[must_use]
 pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec<Vec<Point>>> {
@@ -35,7 +35,7 @@ pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec
     let forming = share(TUNING.transport.forming);
     let tight = TUNING.transport.tight;
     let edges: Vec<[usize; 2]> =
-        scene.layup.ply.neighbours().iter().map(|pair| pair.grippers).collect();
+        scene.layup.ply.neighbors().iter().map(|pair| pair.grippers).collect();
     let form = |k: usize| formed(&edges, &carried, &above, k as f64 / forming as f64, tight);
     positions.extend((1..forming).map(form));
     let descent = share(TUNING.transport.descent);

@@ -56,7 +56,7 @@ impl Turn {
 }
 
 /// The mean of some places (m).
-pub fn centre(places: &[Point]) -> Point {
+pub fn center(places: &[Point]) -> Point {
     let sum = places.iter().fold([0.0; 3], |sum, p| along(sum, 1.0, *p));
     sum.map(|c| c / places.len() as f64)
 }
@@ -70,7 +70,7 @@ pub fn turned(rotation: &Rotation, v: Point) -> Point {
 ///
 /// Newton's method for the trace of Rᵀ B with B = Σ (b − b̄)(a − ā)ᵀ, from the rotation about z that is best.
 fn best_rotation(from: &[Point], to: &[Point]) -> Rotation {
-    let (here, there) = (centre(from), centre(to));
+    let (here, there) = (center(from), center(to));
     let mut moments = [[0.0; 3]; 3];
     for (a, b) in from.iter().zip(to) {
         let (a, b) = (sub(*a, here), sub(*b, there));
@@ -148,7 +148,7 @@ fn transposed(a: &Rotation) -> Rotation {
     [0, 1, 2].map(|r| [0, 1, 2].map(|c| a[c][r]))
 }
 
-/// The solution of three equations by Cramer's rule; none if they are singular.
+/// The solution of three equations by Cramer's rule; `None` if they are singular.
 fn solve(rows: &Rotation, right: Point) -> Option<Point> {
     let [a, b, c] = *rows;
     let determinant = dot(a, cross(b, c));
@@ -198,7 +198,7 @@ mod tests {
         let places = all(&rotation_about([0.3, -0.2, 1.1]), &there);
         let turn = Turn::new(&cloth(GRID), &places, &there);
         for (share, expected) in [(0.0, &places), (1.0, &there)] {
-            let (from, to) = (centre(&places), centre(expected));
+            let (from, to) = (center(&places), center(expected));
             for (p, q) in places.iter().zip(expected) {
                 let off = norm(sub(turned(&turn.at(share), sub(*p, from)), sub(*q, to)));
                 assert!(off < 1e-12, "{share}: {off} m");

@@ -7,11 +7,11 @@ use crate::geometry::vector::{cross, dot, norm, unit};
 use crate::layup::Layup;
 
 /// Fiber angle; see the head of this file.
-pub struct FibreAngle;
+pub struct FiberAngle;
 
-impl Measure for FibreAngle {
+impl Measure for FiberAngle {
     fn description(&self) -> Description {
-        let own = Description::new("fibre_angle", "fibre_angle_deg", "fiber angle", Unit::DEGREE);
+        let own = Description::new("fiber_angle", "fiber_angle_deg", "fiber angle", Unit::DEGREE);
         Description { scope: Scope::End, ..own }
     }
 
@@ -41,7 +41,7 @@ impl Measure for FibreAngle {
             for cell in &seen.state.cells {
                 let Some((_, uv)) = cell.directions else { continue };
                 let Some(parts) = parts(cell, mold) else { continue };
-                let Some(fibers) = ideal.fibres(mold, uv) else { continue };
+                let Some(fibers) = ideal.fibers(mold, uv) else { continue };
                 for ((_, flat), fiber) in parts.into_iter().zip(fibers) {
                     // a fiber that stands upright has no direction along the mold
                     let Some(flat) = unit(flat) else { continue };
@@ -90,7 +90,7 @@ mod tests {
             state.cells[0].directions = turned(heading, rise);
             state.lines[0].fiber_angle = line.map(f64::to_radians);
             let seen = Observation { layup: &layup, limits: &limits, state: &state, past: None };
-            Name::FibreAngle.measure().evaluate(&seen).unwrap().value
+            Name::FiberAngle.measure().evaluate(&seen).unwrap().value
         };
         assert!((angle(0.0, 0.0, None) - 10.0).abs() < 1e-9);
         assert!((angle(0.0, 30.0, None) - 10.0).abs() < 1e-9);

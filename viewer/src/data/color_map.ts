@@ -30,7 +30,7 @@ export function mapOf(field: Field): Rgb[] {
 }
 
 /** The color at a share of the range, 0 to 1; beyond it the end's color. */
-export function colourAt(map: Rgb[], share: number): Rgb {
+export function colorAt(map: Rgb[], share: number): Rgb {
   const last = map.length - 1;
   const place = Math.min(Math.max(share, 0), 1) * last;
   const low = Math.min(Math.floor(place), last - 1);
@@ -38,7 +38,7 @@ export function colourAt(map: Rgb[], share: number): Rgb {
   return [0, 1, 2].map((c) => Math.round(a[c]! + (place - low) * (b[c]! - a[c]!))) as Rgb;
 }
 
-/** Where a value stands in the range of its color mode, 0 to 1; on a scale of orders its amount counts. */
+/** Position of a value in the range of its color mode, 0 to 1; on a scale of orders its amount counts. */
 export function shareOf(field: Field, value: number): number {
   if (field.scale === "orders") {
     const share = Math.log(Math.max(Math.abs(value), 1e-300) / field.low) / Math.log(field.high / field.low);
