@@ -42,7 +42,7 @@ pub enum Near {
 /// The nearest pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// Their distance (m); negative where they penetrate each other, by this much.
+    /// Their distance (m); minus the depth where they penetrate each other.
     pub distance: f64,
     /// A body.
     pub part: Part,
