@@ -1998,7 +1998,7 @@ class Sample:
     @property
     def ok(self, /) -> bool:
         """
-        Whether this many do, or as many without a failure as give 95 % confidence.
+        Whether enough of them do, or as many without a failure as give 95 % confidence.
         """
     @property
     def ratios(self, /) -> NDArray[float64]:

@@ -221,7 +221,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         };
         *to = value(option, text, measured, usual, range, help)?;
     }
-    let given = |option: &str, text: &Option<String>, formats: &[Format], what, usual, range| {
+    let checked = |option: &str, text: &Option<String>, formats: &[Format], what, usual, range| {
         let Some(text) = text else { return Ok(None) };
         let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
         if !formats.contains(&arguments.to) {
@@ -237,7 +237,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             "give a positive value with its unit, as in --mesh \"10 mm\" or --tension \"2e4 N/m\"";
         value(option, text, what, usual, range, help).map(Some)
     };
-    let mesh = given(
+    let mesh = checked(
         "--mesh",
         &arguments.mesh,
         &[Format::Ngsolve],
@@ -246,7 +246,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         MESHES,
     )?;
     let shells = [Format::Inp, Format::Ngsolve];
-    let tension = given(
+    let tension = checked(
         "--tension",
         &arguments.tension,
         &shells,

@@ -118,7 +118,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         rate: None,
     };
     let titles = [0, 1].map(|n| request.titles[n].as_deref());
-    let of = |reading: Reading| -> Result<[Vec<Specimen>; 2], Error> {
+    let tables_of = |reading: Reading| -> Result<[Vec<Specimen>; 2], Error> {
         let read = |paths: &[PathBuf]| -> Result<Vec<_>, Error> {
             paths.iter().map(|path| Ok((name(path), read_fit(path, reading, &titles)?))).collect()
         };
@@ -126,7 +126,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
     };
     match &request.test {
         Test::Bias { width, length } => {
-            let [tables, _] = of(Reading::Pull)?;
+            let [tables, _] = tables_of(Reading::Pull)?;
             let test = |table: &FitTable| {
                 let width = table.measure("width", *width)?;
                 let length = table.measure("length", *length)?;
@@ -137,7 +137,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
             fitted.test = format!("bias extension, {specimens} of {sizes}");
         }
         Test::Rate { width, length } => {
-            let [tables, _] = of(Reading::Timed)?;
+            let [tables, _] = tables_of(Reading::Timed)?;
             let mut timed = Vec::with_capacity(tables.len());
             for (name, table) in &tables {
                 let width = table.measure("width", *width)?;
@@ -153,7 +153,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
             fitted.test = format!("bias extension in time, {}", specimens(tables.len()));
         }
         Test::Frame { side, fabric } => {
-            let [tables, _] = of(Reading::Pull)?;
+            let [tables, _] = tables_of(Reading::Pull)?;
             let test = |table: &FitTable| {
                 let side = table.measure("side", *side)?;
                 let fabric = table.stated("fabric", *fabric)?.unwrap_or(side);
@@ -163,7 +163,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
             fitted.test = format!("picture frame of {sizes}, {}", specimens(tables.len()));
         }
         Test::Overhang { mass, angle } => {
-            let tables = of(Reading::Overhang)?;
+            let tables = tables_of(Reading::Overhang)?;
             fitted.weigh(&tables, *mass)?;
             for (n, tables) in tables.iter().enumerate() {
                 let mut rigidities = Vec::new();
@@ -181,7 +181,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
             fitted.test = format!("cantilever, chord at {} deg", short(angle.to_degrees()));
         }
         Test::Hang { mass, length } => {
-            let tables = of(Reading::Points)?;
+            let tables = tables_of(Reading::Points)?;
             fitted.weigh(&tables, *mass)?;
             for (n, tables) in tables.iter().enumerate() {
                 let mut strips = Vec::with_capacity(tables.len());
@@ -201,7 +201,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
             fitted.test = "points of hanging strips, fitted by the exact elastica".into();
         }
         Test::Moments => {
-            let tables = of(Reading::Moment)?;
+            let tables = tables_of(Reading::Moment)?;
             for (n, tables) in tables.iter().enumerate() {
                 if !tables.is_empty() {
                     let specimens: Vec<_> =

@@ -84,10 +84,10 @@ pub fn simulate(
     let scene = for_models(scene.get(), model, also)?;
     let steps = scene.layup.motion.positions.len();
     let result = run(py, progress, move |watch| {
-        let told = |done, stage| {
+        let report = |done, stage| {
             let _ = watch.tell(done, steps, stage);
         };
-        let mut result = draped(&scene, watch, &told)?;
+        let mut result = draped(&scene, watch, &report)?;
         if !without_errors {
             judge_errors(&mut result, &Robustness::of_simulated(&scene), watch);
         }
@@ -127,10 +127,10 @@ fn show_also(
 
 /// Judges a result with errors, until the work shall end.
 fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Watch) {
-    let told = |done, most| {
+    let report = |done, most| {
         let _ = watch.tell(done, most, "draping with errors");
     };
-    judge_by(result, robustness, watch, &told);
+    judge_by(result, robustness, watch, &report);
 }
 
 /// Judges a result with errors, until the work shall end; `done` hears of the cells that are draped.
@@ -283,10 +283,10 @@ fn judged(
     let along = planner::along(scene, &motion);
     let (dir, steps) = (std::env::temp_dir(), along.layup.motion.positions.len());
     let mut result = ResultFile::planned(scene, scene.input.clone(), planned, &dir)?;
-    let told = |done, stage| {
+    let report = |done, stage| {
         let _ = watch.tell(done, steps, stage);
     };
-    show_also(&mut result, &along, watch, &told)?;
+    show_also(&mut result, &along, watch, &report)?;
     if !without_errors {
         judge_errors(&mut result, &Robustness::of_planned(scene, motion.steps()), watch);
     }

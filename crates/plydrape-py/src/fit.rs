@@ -94,14 +94,14 @@ pub fn fit(
     curvature: Option<String>,
     moment: Option<String>,
 ) -> PyResult<Json> {
-    let given = |amount: Option<Amount>, name: &str, measured: Measured, usual: &usual::Usual| {
+    let si = |amount: Option<Amount>, name: &str, measured: Measured, usual: &usual::Usual| {
         amount.map(|amount| amount.si(name, measured, usual)).transpose()
     };
-    let width = given(width, "width", Measured::Length, &usual::COUPON)?;
-    let length = given(length, "length", Measured::Length, &usual::COUPON)?;
-    let side = given(side, "side", Measured::Length, &usual::COUPON)?;
-    let fabric = given(fabric, "fabric", Measured::Length, &usual::COUPON)?;
-    let mass = given(mass, "mass", Measured::ArealMass, &usual::AREAL_MASS)?;
+    let width = si(width, "width", Measured::Length, &usual::COUPON)?;
+    let length = si(length, "length", Measured::Length, &usual::COUPON)?;
+    let side = si(side, "side", Measured::Length, &usual::COUPON)?;
+    let fabric = si(fabric, "fabric", Measured::Length, &usual::COUPON)?;
+    let mass = si(mass, "mass", Measured::ArealMass, &usual::AREAL_MASS)?;
     let angle = angle.si("angle", Measured::Angle, &usual::ANGLE)?;
     let (test, titles) = match test {
         "bias" => (Test::Bias { width, length }, [displacement, force]),

@@ -43,7 +43,7 @@ impl Sample {
         self.0.needed
     }
 
-    /// Whether this many do, or as many without a failure as give 95 % confidence.
+    /// Whether enough of them do, or as many without a failure as give 95 % confidence.
     #[getter]
     fn ok(&self) -> bool {
         self.0.ok

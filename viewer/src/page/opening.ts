@@ -51,7 +51,7 @@ export function asked(data: PageData): {
   const step = given.get("step");
   const index = step === null || !/^\d+$/.test(step) ? null : nearest(data.steps, Number(step));
   const model = given.get("model");
-  const color = given.get("color") ?? given.get("color");
+  const color = given.get("color") ?? given.get("colour");
   const known = [...data.drape.fields, ...(data.also?.fields ?? [])].find(({ key }) => key === color);
   return {
     index,

@@ -119,8 +119,8 @@ impl Newton {
                     last_step = way.fold(0.0, |size: f64, way| size.max(way.abs()));
                 }
                 let next = self.evaluate(rule, problem, state);
-                let of = |residual: &[f64]| work(residual, state.slopes(), &self.start);
-                let work = [of(&self.start_residual), of(&self.residual)];
+                let work_of = |residual: &[f64]| work(residual, state.slopes(), &self.start);
+                let work = [work_of(&self.start_residual), work_of(&self.residual)];
                 better = match step_length {
                     StepLength::LineSearch => {
                         rule.improves(&Trial { merit: [merit, next], work }, tuning)

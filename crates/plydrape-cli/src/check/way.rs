@@ -50,10 +50,10 @@ fn end(scene: &Scene) -> &[[f64; 3]] {
 
 /// The gripper with the longest straight way from its start to its end, and that way (m); `None` where all stay.
 pub(super) fn longest(scene: &Scene) -> Option<(GripperId, f64)> {
-    let way = |(from, to): (&[f64; 3], &[f64; 3])| {
+    let distance = |(from, to): (&[f64; 3], &[f64; 3])| {
         [0, 1, 2].map(|n| to[n] - from[n]).iter().map(|d| d * d).sum::<f64>().sqrt()
     };
-    let ways = start(scene).iter().zip(end(scene)).map(way).enumerate();
+    let ways = start(scene).iter().zip(end(scene)).map(distance).enumerate();
     let (gripper, way) = ways.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (way > 0.0).then(|| (scene.layup.ply.id(gripper), way))
 }

@@ -34,7 +34,7 @@ steps = 12
 evaluations = 30
 ";
 
-/// Eight cells whose grippers are off by up to this much.
+/// Eight cells whose grippers are off by up to `bound`.
 fn errors(samples: usize, bound: &str) -> String {
     format!(
         "\n[errors]\nsamples = {samples}\n\n[errors.gripper]\nposition = {{ bound = \"{bound}\" }}\n"

@@ -303,14 +303,14 @@ mod tests {
     #[test]
     fn large_results_say_what_is_left_out() {
         let mut result = sample::draped(2, 2, 2);
-        let told = |result: &ResultFile, drawn: Option<usize>| {
+        let left_out_lines = |result: &ResultFile, drawn: Option<usize>| {
             let detail = Detail::new(result, result.steps.len());
             let shown = detail.steps.len();
             left_out(result, &detail, shown, drawn.unwrap_or(shown)).len()
         };
-        assert_eq!((told(&result, None), told(&result, Some(1))), (0, 1));
+        assert_eq!((left_out_lines(&result, None), left_out_lines(&result, Some(1))), (0, 1));
         result.scene.ply.grid = Grid { nu: 100, nv: 100 };
         result.steps = vec![result.steps[0].clone(); 200];
-        assert_eq!(told(&result, None), 2);
+        assert_eq!(left_out_lines(&result, None), 2);
     }
 }

@@ -30,10 +30,10 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
 
 /// The limit of the sensitivity, at least `least`: what the verdict says, as far as the height leaves that.
 fn sensitivity(result: &ResultFile, least: f64) -> f64 {
-    let of = |name: Name| result.summary.limits.iter().find(|verdict| verdict.name == name);
-    let left = of(Name::Height).map_or(0.0, |height| height.limit - height.value);
+    let verdict_of = |name: Name| result.summary.limits.iter().find(|verdict| verdict.name == name);
+    let left = verdict_of(Name::Height).map_or(0.0, |height| height.limit - height.value);
     let factor = Name::Sensitivity.measure().unit().factor;
-    let said = of(Name::Sensitivity).map_or(least, |verdict| verdict.limit / factor);
+    let said = verdict_of(Name::Sensitivity).map_or(least, |verdict| verdict.limit / factor);
     said.clamp(least, least.max(left / factor))
 }
 

@@ -26,7 +26,7 @@ pub(super) struct ContactColumns {
     /// Their distances from their places in the ideal drape (mm).
     landing_error_mm: Vec<Option<Vec<Option<f64>>>>,
     // its key before version 0.1.0, read until 0.2.0
-    #[serde(alias = "fiber_angle_deg")]
+    #[serde(alias = "fibre_angle_deg")]
     fiber_angle_deg: Vec<Option<f64>>,
 }
 

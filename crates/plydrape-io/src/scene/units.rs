@@ -388,18 +388,18 @@ fn spelled(text: &str) -> Cow<'_, str> {
 /// A symbol, or two that are written without a space: a force or a weighed mass and the length it acts over, as in `Nm` and
 /// `mgcm`. Of the two the first comes first.
 fn joined(symbol: &str) -> Option<[Option<Unit>; 2]> {
-    let of = |symbol: &str| {
+    let known_unit = |symbol: &str| {
         let found = UNITS.iter().find(|(known, ..)| *known == symbol);
         found.map(|(_, size, dimension)| (*size, *dimension))
     };
-    if let Some(unit) = of(symbol) {
+    if let Some(unit) = known_unit(symbol) {
         return Some([None, Some(unit)]);
     }
     ["mm", "cm", "m"].into_iter().find_map(|length| {
-        let first = of(symbol.strip_suffix(length)?)?;
+        let first = known_unit(symbol.strip_suffix(length)?)?;
         // `gm` is another way to write a gram
         let weighs = first.1 == Dimension::MASS && length == "cm";
-        (first.1 == Dimension::FORCE || weighs).then_some([Some(first), of(length)])
+        (first.1 == Dimension::FORCE || weighs).then_some([Some(first), known_unit(length)])
     })
 }
 

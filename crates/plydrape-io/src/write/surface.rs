@@ -147,7 +147,7 @@ pub fn stations(line: &[Point], count: usize) -> Vec<Point> {
     if line.len() < 2 {
         return line.to_vec();
     }
-    let way = |axes: usize| -> Vec<f64> {
+    let lengths = |axes: usize| -> Vec<f64> {
         let mut sum = 0.0;
         let step = |pair: &[Point]| {
             let square: f64 = (0..axes).map(|c| (pair[1][c] - pair[0][c]).powi(2)).sum();
@@ -156,7 +156,7 @@ pub fn stations(line: &[Point], count: usize) -> Vec<Point> {
         };
         std::iter::once(0.0).chain(line.windows(2).map(step)).collect()
     };
-    let (flat, full) = (way(2), way(3));
+    let (flat, full) = (lengths(2), lengths(3));
     let ends = [flat.last(), full.last()].map(|e| e.copied().unwrap_or(0.0));
     let way = if ends[0] > 1e-3 * ends[1] { flat } else { full };
     let total = way.last().copied().unwrap_or(0.0);

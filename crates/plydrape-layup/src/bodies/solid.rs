@@ -39,7 +39,7 @@ impl fmt::Debug for Solid {
 /// How far two shapes are from each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Apart {
-    /// Distance (m); negative where they penetrate each other, by this much.
+    /// Distance (m); minus the depth where they penetrate each other.
     pub distance: f64,
     /// The middle between their nearest points (m).
     pub place: [f64; 3],

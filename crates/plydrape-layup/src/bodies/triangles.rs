@@ -49,11 +49,11 @@ mod tests {
     /// The volume (m³) that triangles enclose: positive if they are counterclockwise from outside, all of them.
     fn volume(shape: &Shape, sides: u32) -> f64 {
         let (vertices, triangles) = shape.triangles(sides);
-        let of = |t: &[u32; 3]| {
+        let determinant = |t: &[u32; 3]| {
             let [[a, b, c], [d, e, f], [g, h, i]] = t.map(|n| vertices[n as usize]);
             a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
         };
-        triangles.iter().map(of).sum::<f64>() / 6.0
+        triangles.iter().map(determinant).sum::<f64>() / 6.0
     }
 
     /// A box encloses the product of its sides, and a cylinder that of its height and a regular polygon.

@@ -42,7 +42,7 @@ pub enum Near {
 /// The nearest pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// Their distance (m); negative where they penetrate each other, by this much.
+    /// Their distance (m); minus the depth where they penetrate each other.
     pub distance: f64,
     /// A body.
     pub part: Part,
@@ -378,8 +378,9 @@ impl<'a> Search<'a> {
     /// How far any point of a body goes at most between neighboring times (m).
     fn ways(&self, times: &[f64]) -> Vec<f64> {
         let farthest = |times: &[f64]| {
-            let one = |body: &Judged| self.moves.change(body.reach(), None, [times[0], times[1]]);
-            self.judged.iter().map(one).fold(0.0, f64::max)
+            let change_of =
+                |body: &Judged| self.moves.change(body.reach(), None, [times[0], times[1]]);
+            self.judged.iter().map(change_of).fold(0.0, f64::max)
         };
         times.windows(2).map(farthest).collect()
     }

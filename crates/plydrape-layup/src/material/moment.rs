@@ -66,7 +66,7 @@ impl MomentCurve {
         [0.0; 3]
     }
 
-    /// The law of a strip this many times as wide, or of a ply that resists this many times as much.
+    /// The law of a strip that is wider by a factor, or of a ply that resists more by it.
     #[must_use]
     pub fn times(&self, factor: f64) -> MomentCurve {
         let moment = self.moment.iter().map(|moment| factor * moment).collect();

@@ -31,7 +31,7 @@ impl ShearRate {
         self.stiffness * self.time()
     }
 
-    /// The same ply with relaxation times that are all this many times as long: a motion along which that ply is draped is to it what a
+    /// This ply with all relaxation times longer by a factor: a motion along which that ply is draped is to it what a
     /// motion that is this many times as fast is to this one, but for its inertia.
     #[must_use]
     pub fn slower(&self, factor: f64) -> Self {

@@ -426,10 +426,10 @@ mod tests {
         for place in places() {
             let (found, slope, hessian) = layer.at(place);
             assert!((found - height(place)).abs() < 1e-18, "{place:?}");
-            let by = |dx: f64, dy: f64| [place[0] + dx, place[1] + dy];
+            let moved = |dx: f64, dy: f64| [place[0] + dx, place[1] + dy];
             let central = [
-                (height(by(h, 0.0)) - height(by(-h, 0.0))) / (2.0 * h),
-                (height(by(0.0, h)) - height(by(0.0, -h))) / (2.0 * h),
+                (height(moved(h, 0.0)) - height(moved(-h, 0.0))) / (2.0 * h),
+                (height(moved(0.0, h)) - height(moved(0.0, -h))) / (2.0 * h),
             ];
             // heights of 3e-4 m have 5e-20 m of rounding, over 2e-7 m
             let off = (0..2).map(|n| (slope[n] - central[n]).abs()).fold(0.0, f64::max);
@@ -437,8 +437,8 @@ mod tests {
             assert!(slope[0].hypot(slope[1]) <= STEEPEST * (1.0 + 1e-12));
             if found > 0.0 && found < THICK {
                 on_ramps += 1;
-                let [px, mx] = [h, -h].map(|h| layer.at(by(h, 0.0)).1);
-                let [py, my] = [h, -h].map(|h| layer.at(by(0.0, h)).1);
+                let [px, mx] = [h, -h].map(|h| layer.at(moved(h, 0.0)).1);
+                let [py, my] = [h, -h].map(|h| layer.at(moved(0.0, h)).1);
                 let bends = [px[0] - mx[0], py[0] - my[0], py[1] - my[1]].map(|d| d / (2.0 * h));
                 let most = 6.0 * THICK / (width * width);
                 for (found, bend) in hessian.into_iter().zip(bends) {

@@ -143,8 +143,8 @@ fn flat(ring: &[[f64; 2]], placement: &Placement) -> Vec<[f64; 2]> {
         let b = ring[(n + 1) % ring.len()];
         let mut shares = vec![0.0];
         for axis in 0..2 {
-            let of = |x: f64| (x - placement.origin[axis]) / placement.mesh[axis];
-            let (from, to) = (of(a[axis]), of(b[axis]));
+            let net_line = |x: f64| (x - placement.origin[axis]) / placement.mesh[axis];
+            let (from, to) = (net_line(a[axis]), net_line(b[axis]));
             let (low, high) = (from.min(to), from.max(to));
             for line in low.ceil() as i64..=high.floor() as i64 {
                 let share = (line as f64 - from) / (to - from);

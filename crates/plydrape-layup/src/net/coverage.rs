@@ -88,12 +88,12 @@ fn cut_cells(placement: &Placement, outline: &Outline) -> Vec<bool> {
     let mut cut = vec![false; cells[0] * cells[1]];
     for [a, b] in outline.lines() {
         let [first, last]: [[usize; 2]; 2] = {
-            let of = |n: usize, value: f64, rounding: f64| {
+            let cell_index = |n: usize, value: f64, rounding: f64| {
                 let cell = (value - placement.origin[n]) / placement.mesh[n] + rounding;
                 (cell.floor().max(0.0) as usize).min(cells[n] - 1)
             };
-            let low = [0, 1].map(|n| of(n, a[n].min(b[n]), -TUNING.boundary_rounding));
-            [low, [0, 1].map(|n| of(n, a[n].max(b[n]), TUNING.boundary_rounding))]
+            let low = [0, 1].map(|n| cell_index(n, a[n].min(b[n]), -TUNING.boundary_rounding));
+            [low, [0, 1].map(|n| cell_index(n, a[n].max(b[n]), TUNING.boundary_rounding))]
         };
         for j in first[1]..=last[1] {
             for i in first[0]..=last[0] {

@@ -12,7 +12,7 @@ use crate::geometry::vector::{along, cross, dot, norm, sub};
 /// A condition on a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Condition<'a> {
-    /// This much fabric away from a node (m).
+    /// Fabric from a node to this point (m).
     Length(&'a SurfacePoint, f64),
     /// On the straightest line that leaves a node across this unit vector.
     Straight(&'a SurfacePoint, [f64; 3]),

@@ -510,10 +510,10 @@ mod tests {
         let ell = vec![[0.0, 0.0], [0.4, 0.0], [0.4, 0.1], [0.1, 0.2], [0.0, 0.4]];
         let outline = Outline::new(ell, Vec::new()).unwrap();
         let all = Free { seed: true, heading: true };
-        let of = |threads: usize| {
+        let searched = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| Seeds::search(&mold, placement, Some(&outline), all).unwrap())
         };
-        assert_eq!(of(1), of(2));
+        assert_eq!(searched(1), searched(2));
     }
 }

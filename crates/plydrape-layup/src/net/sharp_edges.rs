@@ -96,23 +96,23 @@ impl Cells {
                     [([a, b, d], [[0, 0], [1, 0], [0, 1]]), ([c, d, b], [[1, 1], [0, 1], [1, 0]])]
                 {
                     let [s, t] = weights(triangle, place);
-                    let way = |n: usize| {
+                    let chord = |n: usize| {
                         along(
                             sub(triangle[1], triangle[0]).map(|x| s * x),
                             t,
                             sub(triangle[2], triangle[0]),
                         )[n]
                     };
-                    let near = [0, 1, 2].map(|n| triangle[0][n] + way(n));
+                    let near = [0, 1, 2].map(|n| triangle[0][n] + chord(n));
                     let away = distance(near, place);
                     if away <= most && best.is_none_or(|(closest, _)| away < closest) {
-                        let of = |n: usize| {
+                        let fabric_place = |n: usize| {
                             let [p, q, r] = [p, q, r].map(|corner: [usize; 2]| corner[n] as f64);
                             cell[n] as f64 + p + s * (q - p) + t * (r - p)
                         };
                         let [du, dv] = net.placement.mesh;
                         let [u, v] = net.placement.origin;
-                        best = Some((away, [u + of(0) * du, v + of(1) * dv]));
+                        best = Some((away, [u + fabric_place(0) * du, v + fabric_place(1) * dv]));
                     }
                 }
             }

@@ -161,7 +161,7 @@ impl Ply {
             Some(held) if held.iter().any(|gripper| gripper.id[1] > 0) => next_in_lines(held),
             Some(held) => next_in_list(held),
         };
-        let one = |[a, b]: [usize; 2]| {
+        let neighbors_of = |[a, b]: [usize; 2]| {
             let [p, q] = [a, b].map(|n| self.place(n));
             let way = [q[0] - p[0], q[1] - p[1]];
             let length = way[0].hypot(way[1]);
@@ -173,7 +173,7 @@ impl Ply {
             };
             Neighbors { grippers: [a, b], fiber, border: self.is_border([p, q], count) }
         };
-        pairs.into_iter().map(one).collect()
+        pairs.into_iter().map(neighbors_of).collect()
     }
 
     /// Whether the strip across the line between two grippers has grippers on one of its sides at most.

@@ -422,7 +422,7 @@ fn tributaries(
     let at = |pair: &Pair| places[pair.ends[0]][across];
     let same = TUNING.same_yarn * width;
     let own = &edges[direction];
-    let one = |pair: &Pair| {
+    let tributary = |pair: &Pair| {
         let [from, to] = reach(pair);
         let beside = |other: &&Pair| {
             let [a, b] = reach(other);
@@ -450,7 +450,7 @@ fn tributaries(
         }
         area / ((to - from) * width * families)
     };
-    own.iter().map(one).collect()
+    own.iter().map(tributary).collect()
 }
 
 /// The grippers along each yarn, line by line.

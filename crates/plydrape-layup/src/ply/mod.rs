@@ -76,7 +76,7 @@ pub enum Direction {
 }
 
 impl Ply {
-    /// A rectangle of a material that is held at every node of an array, with cells of this much fabric along u and v (m) and its warp
+    /// A rectangle of a material that is held at every node of an array, with cells of `cell` along u and v (m) and its warp
     /// along u.
     #[must_use]
     pub fn of_array(grid: Grid, cell: [f64; 2], material: Material) -> Self {

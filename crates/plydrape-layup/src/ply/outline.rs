@@ -96,8 +96,8 @@ impl Outline {
     /// The same outline with all of its points moved by a map that keeps senses, as turns and shifts do.
     #[must_use]
     pub fn moved(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
-        let of = |ring: &Ring| ring.iter().map(|p| map(*p)).collect();
-        Outline { boundary: of(&self.boundary), holes: self.holes.iter().map(of).collect() }
+        let mapped = |ring: &Ring| ring.iter().map(|p| map(*p)).collect();
+        Outline { boundary: mapped(&self.boundary), holes: self.holes.iter().map(mapped).collect() }
     }
 
     /// Whether a point (m) is in the ply, and not in a hole.
@@ -273,11 +273,11 @@ fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
         place: usize,
         ends: [[f64; 2]; 2],
     }
-    let of = |(ring, points): (usize, &Ring)| -> Vec<RingSide> {
+    let sides_of = |(ring, points): (usize, &Ring)| -> Vec<RingSide> {
         let number = |(place, ends)| RingSide { ring, place, ends };
         lines(points).enumerate().map(number).collect()
     };
-    let mut all: Vec<RingSide> = rings.iter().enumerate().flat_map(of).collect();
+    let mut all: Vec<RingSide> = rings.iter().enumerate().flat_map(sides_of).collect();
     let span = |line: &RingSide| {
         let [a, b] = line.ends;
         [a[0].min(b[0]), a[0].max(b[0])]

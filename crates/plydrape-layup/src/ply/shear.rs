@@ -36,7 +36,7 @@ pub fn onset<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T, f
     share * share * (-share * 2.0 + 3.0)
 }
 
-/// How the shear angle (rad) changes with the sides a, b and the stretched diagonal, each changing by this much (m);
+/// How the shear angle (rad) changes with the sides a, b and the stretched diagonal, each changing by a given amount (m);
 /// 0 where the cell has folded.
 #[must_use]
 pub fn angle_tangent(sides: [f64; 2], stretched: f64, change: [f64; 3]) -> f64 {

@@ -16,7 +16,7 @@ fn molds() -> Vec<(&'static str, Mold)> {
     molds_of_size(1.0)
 }
 
-/// The same, this many times as large.
+/// The mold, scaled by a factor.
 fn molds_of_size(size: f64) -> Vec<(&'static str, Mold)> {
     let at = |place: [f64; 3]| Pose::new(place.map(|c| size * c), [0.15, -0.1, 0.7]);
     let pose = at([0.1, -0.2, 0.05]);

@@ -178,10 +178,10 @@ impl Errors {
     #[must_use]
     pub fn draw(&self, sample: usize, grippers: usize) -> Draw {
         let stream = Stream::new(self.seed, sample);
-        let one = |term: Term, quantity: Quantity| stream.draw::<1>(term, quantity, 0)[0];
+        let number = |term: Term, quantity: Quantity| stream.draw::<1>(term, quantity, 0)[0];
         let relative = |term: Term, quantity: Quantity| match term {
-            Term::Factor(_) => RelativeError::Logarithm(one(term, quantity)),
-            Term::Deviation(_) | Term::Bound(_) => RelativeError::Share(one(term, quantity)),
+            Term::Factor(_) => RelativeError::Logarithm(number(term, quantity)),
+            Term::Deviation(_) | Term::Bound(_) => RelativeError::Share(number(term, quantity)),
         };
         let gripper = |n: usize| GripperError {
             position: stream.draw(self.gripper.position, Quantity::GripperPosition, n),
@@ -196,13 +196,13 @@ impl Errors {
             grippers: (0..grippers).map(gripper).collect(),
             pick_up: PickUpError {
                 offset: stream.draw(self.pick_up.offset, Quantity::PickUpOffset, 0),
-                yaw: one(self.pick_up.yaw, Quantity::PickUpYaw),
+                yaw: number(self.pick_up.yaw, Quantity::PickUpYaw),
             },
             material: MaterialError {
                 areal_mass: relative(self.material.areal_mass, Quantity::ArealMass),
                 bending: relative(self.material.bending, Quantity::Bending),
                 shear: relative(self.material.shear, Quantity::Shear),
-                length: one(self.material.length, Quantity::Length),
+                length: number(self.material.length, Quantity::Length),
             },
             mold: MoldError {
                 motion: RigidError {

@@ -127,7 +127,7 @@ impl Residuals<'_> {
 /// Signed distances of points from a strip (m), above it positive.
 fn distances(shape: &Shape, points: &[[f64; 2]]) -> DVector<f64> {
     let corners = shape.polyline(PIECES);
-    let one = |[x, z]: &[f64; 2]| {
+    let distance_to_shape = |[x, z]: &[f64; 2]| {
         let mut best = f64::INFINITY;
         for pair in corners.windows(2) {
             let along = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
@@ -142,7 +142,7 @@ fn distances(shape: &Shape, points: &[[f64; 2]]) -> DVector<f64> {
         }
         best
     };
-    DVector::from_iterator(points.len(), points.iter().map(one))
+    DVector::from_iterator(points.len(), points.iter().map(distance_to_shape))
 }
 
 impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {

@@ -167,12 +167,12 @@ impl ShearSpecimen {
     pub fn curve(&self) -> Result<([Vec<f64>; 2], Vec<Remark>), Error> {
         self.test.check()?;
         let reach = || {
-            let way = |fold: fn(f64, f64) -> f64, from: f64| {
+            let extreme = |fold: fn(f64, f64) -> f64, from: f64| {
                 self.points.iter().map(|point| point[0]).fold(from, fold)
             };
             Error::FitReach {
                 what: self.name.clone(),
-                found: [way(f64::min, f64::INFINITY), way(f64::max, f64::NEG_INFINITY)],
+                found: [extreme(f64::min, f64::INFINITY), extreme(f64::max, f64::NEG_INFINITY)],
                 largest: self.test.largest(),
             }
         };

@@ -38,7 +38,7 @@ impl Most {
         self.0
     }
 
-    /// The largest of them in a unit of this much (SI).
+    /// The largest of them, in a unit of size `unit` (SI).
     #[must_use]
     pub fn in_units_of(self, unit: f64) -> Option<Found> {
         self.0.map(|most| Found { value: most.value / unit, ..most })

@@ -380,7 +380,7 @@ impl Name {
     /// The measure that had a name before version 0.1.0; such names are read until version 0.2.0.
     #[must_use]
     pub fn renamed(old: &str) -> Option<Name> {
-        (old == "fiber_angle").then_some(Name::FiberAngle)
+        (old == "fibre_angle").then_some(Name::FiberAngle)
     }
 
     /// The name in tables, as `landing shear`.

@@ -39,7 +39,7 @@ impl Past {
     /// The past of the step that follows a state, which itself followed `before`. `duration` (s) is that of the whole motion.
     #[must_use]
     pub fn after(state: &PlyState, before: Option<Past>, duration: f64) -> Past {
-        let of = |one: fn(&GripperState) -> Point| state.grippers.iter().map(one).collect();
+        let points = |one: fn(&GripperState) -> Point| state.grippers.iter().map(one).collect();
         let mut earlier = VecDeque::new();
         if let Some(before) = before {
             earlier = before.earlier;
@@ -51,8 +51,8 @@ impl Past {
         }
         Past {
             time: state.time,
-            positions: of(|gripper| gripper.position),
-            commanded: of(|gripper| gripper.commanded),
+            positions: points(|gripper| gripper.position),
+            commanded: points(|gripper| gripper.commanded),
             quaternions: state.grippers.iter().map(|gripper| gripper.quaternion).collect(),
             earlier,
         }

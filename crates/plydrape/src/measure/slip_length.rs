@@ -1,5 +1,5 @@
 //! Slide: how far the fabric has slid under a pad since the start, where the load along the ply has passed the slip force. The sheet alone
-//! follows it: grippers of catenaries hold the fabric where they are. A scene that allows this much of it is not judged by the load.
+//! follows it: grippers of catenaries hold the fabric where they are. A scene that allows a slip length is not judged by the load.
 
 use super::{Bound, Description, Found, Measure, Observation, Refusal, Unit};
 use crate::layup::{Layup, Model};

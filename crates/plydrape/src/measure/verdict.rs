@@ -141,9 +141,9 @@ mod tests {
             }
             assert!(most.found().unwrap().value.is_nan());
             for name in [Name::Overstretch, Name::GripperDistance] {
-                let of = |value| Worst { value, at: String::new(), place: None };
+                let worst_of = |value| Worst { value, at: String::new(), place: None };
                 let steps: Vec<Measures> =
-                    values.iter().map(|v| [(name, of(*v))].into_iter().collect()).collect();
+                    values.iter().map(|v| [(name, worst_of(*v))].into_iter().collect()).collect();
                 let worst = crate::measure::worst_numbers(steps.iter());
                 assert!(worst.value(name).is_some_and(f64::is_nan), "{name:?}");
             }

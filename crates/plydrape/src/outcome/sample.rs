@@ -239,25 +239,25 @@ fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
             names.push(verdict.name);
         }
     }
-    let one = |name| {
+    let verdict_of = |name| {
         let of =
             drapes.iter().flat_map(|drape| drape.judged.limits.iter().find(|v| v.name == name));
         let mut found: Vec<&Verdict> = of.collect();
         found.sort_by(|a, b| a.ratio().total_cmp(&b.ratio()));
         found.get(needed.min(found.len()).max(1) - 1).map(|verdict| (*verdict).clone())
     };
-    names.into_iter().filter_map(one).collect()
+    names.into_iter().filter_map(verdict_of).collect()
 }
 
 /// Height (m) at each node that this many drapes keep.
 fn spread(drapes: &[Drape], needed: usize) -> Vec<f64> {
     let nodes = drapes.iter().map(|drape| drape.heights.len()).min().unwrap_or(0);
-    let one = |node: usize| {
+    let height_of = |node: usize| {
         let mut heights: Vec<f64> = drapes.iter().map(|drape| drape.heights[node]).collect();
         heights.sort_by(f64::total_cmp);
         heights[needed.max(1) - 1]
     };
-    (0..nodes).map(one).collect()
+    (0..nodes).map(height_of).collect()
 }
 
 /// A number in four digits, which is enough for a picture and short in a file.

@@ -45,11 +45,11 @@ pub(super) fn judge_sensitivity(
     // pads let go when they did: a robot knows no other time
     let layup = at_these_times(layup, &summary.events);
     let changes = minute_changes(&layup);
-    let one = |n: usize| {
+    let changed_drape = |n: usize| {
         let changed = changes.draw(n, layup.ply.grippers()).apply(&layup);
         judge(&changed, limits, usize::MAX, stop).unwrap_or_else(|_| Judged::nothing())
     };
-    let drapes: Vec<Judged> = (0..changes.samples).into_par_iter().map(one).collect();
+    let drapes: Vec<Judged> = (0..changes.samples).into_par_iter().map(changed_drape).collect();
     if drapes.iter().any(|drape| drape.interrupted) {
         summary.status = Status::Interrupted;
         return;

@@ -131,14 +131,14 @@ fn largest_error(errors: &Errors, scene: &Scene, watch: &Watch) -> Option<i32> {
     let mut worst: Vec<i32> = Vec::new();
     for pair in (0..TRIED).collect::<Vec<_>>().chunks(2) {
         let most = worst.get(spare).copied();
-        let one = |sample: &usize| {
+        let tolerated = |sample: &usize| {
             let keeps = |place: i32| {
                 let drape = draped(&errors.cell(scene, *sample, factor(place)), watch.stop)?;
                 Some(drape.judged.accepted())
             };
             largest(most, keeps)
         };
-        let found: Option<Vec<i32>> = pair.par_iter().map(one).collect();
+        let found: Option<Vec<i32>> = pair.par_iter().map(tolerated).collect();
         worst.extend(found?);
         worst.sort_unstable();
     }

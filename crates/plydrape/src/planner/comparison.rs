@@ -161,7 +161,7 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
         Strategy::families(scene, |shape| fronts.steepest(shape))
             .into_iter()
             .partition(Strategy::is_line);
-    let one = |name: &StrategyName| {
+    let drape_of = |name: &StrategyName| {
         let drape = match name {
             StrategyName::Straight => straight(scene, &state),
             StrategyName::AllAtOnce => best_front(scene, &fronts, &[Strategy::flat()], &state),
@@ -179,6 +179,6 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
         }
         Compared { name: *name, drape }
     };
-    let strategies = StrategyName::ALL.par_iter().map(one).collect();
+    let strategies = StrategyName::ALL.par_iter().map(drape_of).collect();
     Ok(Comparison { strategies, interrupted: state.is_interrupted() })
 }

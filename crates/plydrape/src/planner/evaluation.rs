@@ -94,7 +94,7 @@ pub fn drape(
 }
 
 /// The drape of a layup and those of some cells with errors. `drape` drapes a cell; it gives `None` if it was stopped. A drape that is far
-/// from a plan is alone. This many cells may break a limit as are to spare, and do not count; behind one more only a few others are draped.
+/// from a plan is alone. As many cells as are to spare may break a limit, and do not count; behind one more only a few others are draped.
 ///
 /// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
 pub fn with_errors(

@@ -77,7 +77,7 @@ fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
 /// The tilts of the grippers, which turn evenly from step to step of a motion that is this much slower than these steps say.
 fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
     let bound = scene.limits.most(Name::TiltRate) / TUNING.tilt_rate_margin;
-    let one = |gripper: usize| {
+    let tilts_of = |gripper: usize| {
         let rates = course.times().iter().map(|t| {
             let after = steps.partition_point(|step| step.time * slowed <= *t);
             let pair = after.checked_sub(1).and_then(|before| steps.get(before..=after));
@@ -95,7 +95,7 @@ fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<L
             gripper: Some(gripper),
         }
     };
-    (0..steps.first().map_or(0, |step| step.grippers.len())).map(one).collect()
+    (0..steps.first().map_or(0, |step| step.grippers.len())).map(tilts_of).collect()
 }
 
 /// The frame of a tool, and its axes.

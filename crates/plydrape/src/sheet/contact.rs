@@ -217,8 +217,8 @@ impl<'a> Contact<'a> {
     /// Farthest way (m) from `before` to `now` of a node that came to the mold in between.
     pub fn landing_way(&self, before: &[[f64; 3]], now: &[[f64; 3]]) -> f64 {
         let lands = |point: &&Point| point.anchor.is_none() && point.rubs && point.clear < 0.0;
-        let way = |point: &Point| distance(before[point.node], now[point.node]);
-        self.points.iter().filter(lands).map(way).fold(0.0, f64::max)
+        let moved = |point: &Point| distance(before[point.node], now[point.node]);
+        self.points.iter().filter(lands).map(moved).fold(0.0, f64::max)
     }
 
     /// Whether an anchor stays where it is as long as its node touches.

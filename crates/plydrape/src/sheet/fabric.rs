@@ -500,10 +500,10 @@ mod tests {
                 .iter()
                 .map(|ring| {
                     let next = |n: usize| ring[(n + 1) % ring.len()].place;
-                    let way = |n: usize| {
+                    let side_length = |n: usize| {
                         (next(n)[0] - ring[n].place[0]).hypot(next(n)[1] - ring[n].place[1])
                     };
-                    (0..ring.len()).map(way).sum::<f64>()
+                    (0..ring.len()).map(side_length).sum::<f64>()
                 })
                 .sum();
             let expected = std::f64::consts::TAU * (outer + inner);

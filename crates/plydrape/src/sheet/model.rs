@@ -185,7 +185,7 @@ impl Sheet {
     #[must_use]
     pub fn held(&self) -> Vec<Vec<(usize, [f64; 2])>> {
         let longer = self.fabric.length_factor;
-        let one = |gripper: &Gripper| {
+        let held_nodes = |gripper: &Gripper| {
             // a fabric that is larger is held by a pad that is: it holds the same nodes, and does not stretch them
             let reach = longer * gripper.radius * (1.0 + 1e-9);
             let off = |place: &[f64; 2]| [0, 1].map(|n| longer * (place[n] - gripper.place[n]));
@@ -196,7 +196,7 @@ impl Sheet {
             held.sort_by_key(|(n, _)| (Some(*n) != own, *n));
             held
         };
-        self.grippers.iter().map(one).collect()
+        self.grippers.iter().map(held_nodes).collect()
     }
 }
 

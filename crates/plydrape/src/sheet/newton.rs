@@ -15,7 +15,7 @@ use crate::geometry::vector::{norm, sub};
 pub enum Failure {
     /// Newton's iteration did not come to an end.
     Iterations,
-    /// The first step turns segments by this much (rad), too far to be linear.
+    /// The first step turns segments by an angle (rad) that is too far to be linear.
     Turn(f64),
     /// A node came to the mold from too far away.
     Landing,

@@ -373,8 +373,8 @@ fn plain(value: &str) -> Vec<String> {
     for mark in ["%%u", "%%U", "%%o", "%%O", "%%k", "%%K"] {
         text = text.replace(mark, "");
     }
-    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
-    text.split('\n').map(words).filter(|line| !line.is_empty()).collect()
+    let joined = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.split('\n').map(joined).filter(|line| !line.is_empty()).collect()
 }
 
 /// What an entity is called, a point of it, and the normal of its plane; `None` for what is no curve.

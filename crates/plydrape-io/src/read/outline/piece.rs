@@ -195,10 +195,10 @@ impl Nest {
             labels_of(n).iter().find(only)
         };
         let only_block = |n: usize| {
-            let of = |block: &str| {
+            let pieces_in = |block: &str| {
                 self.pieces.iter().filter(|p| self.lines[**p].placed.is_of(block)).count()
             };
-            self.lines[n].placed.blocks.iter().find(|block| of(block) == 1)
+            self.lines[n].placed.blocks.iter().find(|block| pieces_in(block) == 1)
         };
         let mut out: Vec<String> = Vec::new();
         for &n in shown.iter().take(MOST) {

@@ -18,7 +18,7 @@ pub enum Extent {
     Cells,
     /// Grippers.
     Grippers,
-    /// This many numbers.
+    /// A fixed number.
     Of(usize),
 }
 

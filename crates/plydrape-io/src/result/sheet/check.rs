@@ -46,8 +46,8 @@ pub(super) fn state(
         sound(array, values, sizes)?;
     }
     if sizes.releases != releases {
-        let of = |releases: bool| if releases { sizes.grippers } else { 0 };
-        let (expected, found) = (of(sizes.releases), of(releases));
+        let pads = |releases: bool| if releases { sizes.grippers } else { 0 };
+        let (expected, found) = (pads(sizes.releases), pads(releases));
         return Err(length("pad_holds", found, expected));
     }
     for (n, q) in state.pad_rotation.iter().enumerate() {

@@ -122,11 +122,11 @@ impl<'a> Table<'a> {
     pub fn titles(&self) -> Vec<Title> {
         let text = &self.document.text;
         let fields = fields(self.found.separator, text, &self.found.span);
-        let of = |place: Range<usize>| {
+        let title_of = |place: Range<usize>| {
             let (name, unit) = title::title(&text[place.clone()]);
             Title { name, unit: unit.map(str::to_owned), place }
         };
-        fields.into_iter().map(of).collect()
+        fields.into_iter().map(title_of).collect()
     }
 
     /// The lines of rows that say something.

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
     let neighbors = scene.layup.ply.neighbors();
-    let one = |step: &Vec<Point>| {
+    let worst_ratio = |step: &Vec<Point>| {
         let tilt = tilt(&scene.layup.ply, &neighbors, step, scene.layup.stems(step))
             / limits.most(Name::Tilt);
         let workspace =
@@ -23,16 +23,16 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
             .map_or(0.0, |c| limits.most(Name::GripperDistance) * 1e3 / c.value);
         tilt.max(workspace).max(near)
     };
-    positions.iter().map(one).fold(0.0, f64::max)
+    positions.iter().map(worst_ratio).fold(0.0, f64::max)
 }
 
 /// Largest angle (rad) between the stems (unit vector) and the normal of the lines to neighboring grippers.
 fn tilt(ply: &Ply, neighbors: &[Neighbors], positions: &[Point], stem: Point) -> f64 {
-    let one = |n: usize| {
+    let tilt_of = |n: usize| {
         let [u, v] = tangents(ply, neighbors, positions, n);
         unit(cross(u, v)).map_or(0.0, |normal| angle_between(normal, stem))
     };
-    (0..ply.grippers()).map(one).fold(0.0, f64::max)
+    (0..ply.grippers()).map(tilt_of).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -89,7 +89,7 @@ impl<'a> Preload<'a> {
     #[must_use]
     pub fn commanded(&self, places: &[Point], grown: f64) -> Vec<Point> {
         let cell = self.scene.layup.ply.shorter_side();
-        let one = |(n, place): (usize, &Point)| {
+        let preloaded = |(n, place): (usize, &Point)| {
             let away = distance(*place, self.targets[n]) / cell;
             let free = smooth(away / TUNING.preload.release);
             let (lines, over_hollow) = self.lines(places, n, free);
@@ -101,7 +101,7 @@ impl<'a> Preload<'a> {
             let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
             [0, 1, 2].map(|c| place[c] - self.compliance[c] * (pull[c] + pressed * normal[c]))
         };
-        places.iter().enumerate().map(one).collect()
+        places.iter().enumerate().map(preloaded).collect()
     }
 
     /// Whether the line between the places of two grippers on the mold bridges a hollow.

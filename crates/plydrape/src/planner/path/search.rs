@@ -189,8 +189,8 @@ impl Search<'_, '_> {
         let earlier = checkpoint.and_then(|checkpoint| checkpoint.path(scene));
         let families = || Strategy::families(scene, |shape| shape.slope);
         let strategies = earlier.map_or_else(families, |(strategy, _)| vec![strategy]);
-        let of = |strategy| Some((strategy, fronts.positions(strategy)?));
-        if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
+        let with_positions = |strategy| Some((strategy, fronts.positions(strategy)?));
+        if let Some((strategy, positions)) = strategies.into_iter().find_map(with_positions) {
             let score = f64::INFINITY;
             let (drapes, unranked) = (None, None);
             self.candidates.push(Candidate { strategy, positions, drapes, score, unranked });

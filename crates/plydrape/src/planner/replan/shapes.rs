@@ -150,11 +150,11 @@ impl Shapes {
     pub fn measure(&mut self, scene: &Scene) {
         let Some(mold) = &scene.layup.mold else { return };
         for Series { states, least, .. } in &mut self.series {
-            let of = |pair: &[(usize, Vec<Point>)]| -> Vec<f64> {
+            let shortfalls = |pair: &[(usize, Vec<Point>)]| -> Vec<f64> {
                 let ways = pair[0].1.iter().zip(&pair[1].1);
                 ways.map(|(a, b)| falls_short_of(mold, *a, *b, self.tolerance)).collect()
             };
-            *least = states.par_windows(2).map(of).collect();
+            *least = states.par_windows(2).map(shortfalls).collect();
         }
     }
 
@@ -169,7 +169,7 @@ impl Shapes {
                 if ways.iter().all(|way| way.is_nothing()) {
                     return None;
                 }
-                let one = |n: usize| {
+                let shortfall = |n: usize| {
                     let ends = [a.1[n], b.1[n]];
                     let way = norm(ways[0].way(ends[0])).max(norm(ways[1].way(ends[1])));
                     if least[n] - way > self.tolerance {
@@ -181,7 +181,7 @@ impl Shapes {
                     let planned = nearest(mold, ends[0], ends[1], self.tolerance);
                     planned.is_none().then_some((n, found))
                 };
-                let touching = (0..a.1.len()).into_par_iter().filter_map(one);
+                let touching = (0..a.1.len()).into_par_iter().filter_map(shortfall);
                 let worst = touching
                     .min_by(|x, y| x.1.distance.total_cmp(&y.1.distance).then(x.0.cmp(&y.0)))?;
                 Some((b.0, worst))

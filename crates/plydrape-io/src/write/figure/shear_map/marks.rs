@@ -11,7 +11,7 @@ const WHITE: Ink = Ink([255; 3], 1.0);
 /// The fabric from the seed on, a sixth of the net along u and along v, or against it where u or v ends.
 pub(super) fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
     let (nodes, seed) = (net.placement.nodes, net.placement.seed);
-    let way = |(c, name): (usize, &'static str)| {
+    let arrow = |(c, name): (usize, &'static str)| {
         let wanted = (nodes[c] / 6).max(1);
         // beside the far edge the arrow leads to the seed
         let from = seed[c].min((nodes[c] - 1).saturating_sub(wanted));
@@ -19,7 +19,7 @@ pub(super) fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
         let at = |n: usize| if c == 0 { [n, seed[1]] } else { [seed[0], n] };
         (name, (from..=to).map(at).collect())
     };
-    [(0, "u"), (1, "v")].into_iter().map(way).collect()
+    [(0, "u"), (1, "v")].into_iter().map(arrow).collect()
 }
 
 /// The largest shear (°) and its cell, unless all cells shear alike.

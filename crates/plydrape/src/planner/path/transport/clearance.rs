@@ -18,7 +18,7 @@ pub struct Clearance<'a> {
     /// Points of the ply at the start, from the center of the grippers (m): the grippers, and this many between them and
     /// on the overhang.
     points: Vec<Point>,
-    /// This many of them in a line along u.
+    /// How many of these points are in a line along u.
     line: usize,
     /// Center of the grippers at the start (m).
     start: Point,
