@@ -68,6 +68,9 @@ mod tilt_rate;
 mod tool_residual;
 mod tool_turn_acceleration;
 mod tool_turn_rate;
+mod transport_acceleration;
+mod transport_jerk;
+mod transport_speed;
 mod tuning;
 mod unit;
 mod verdict;
@@ -93,7 +96,7 @@ use unit::DEGREE;
 pub use unit::Unit;
 pub use verdict::Verdict;
 pub(crate) use whole::verdicts_of_steps;
-pub use whole::{Course, WholeMotion};
+pub use whole::{Course, MotionPeaks, WholeMotion};
 pub(crate) use workspace::outside_workspace;
 
 use crate::layup::{Layup, Model};
@@ -351,6 +354,9 @@ measures! {
     speed: Speed,
     acceleration: Acceleration,
     jerk: Jerk,
+    transport_speed: TransportSpeed,
+    transport_acceleration: TransportAcceleration,
+    transport_jerk: TransportJerk,
     tool_turn_rate: ToolTurnRate,
     tool_turn_acceleration: ToolTurnAcceleration,
     axis_speed: AxisSpeed,
