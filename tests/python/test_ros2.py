@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import csv
+import runpy
+import sys
+import types
+import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -47,6 +51,17 @@ OUTPUT_MESSAGES = {
     "control_msgs/msg/InterfaceValue": "string[] interface_names\nfloat64[] values",
 }
 MOUNTS = 'stiffness = { lateral = "2 N/mm", axial = "5 N/mm" }\n'
+
+
+TOOL = """
+[tool]
+axes = [
+    { direction = "x", stroke = ["-9 mm", "9 mm"], speed = "0.1 m/s" },
+    { direction = "z", stroke = ["-40 mm", "60 mm"], speed = "0.2 m/s" },
+]
+flange = { position = [0, "20 mm", "300 mm"], rotation = ["180 deg", 0, "10 deg"] }
+world = { position = ["1.4 m", 0, "0.5 m"] }
+"""
 
 
 def typestore(distribution: Stores = Stores.ROS2_HUMBLE) -> Typestore:
@@ -118,6 +133,13 @@ def mounted(tmp_path_factory: pytest.TempPathFactory) -> Exported:
     home = tmp_path_factory.mktemp("mounted")
     scene = SCENE.replace('kind = "catenaries"', 'kind = "sheet"\n[sheet]\nmesh = "40 mm"')
     result = made("simulate", home, scene.replace("[target]", MOUNTS + "[target]"))
+    return Exported(result, result.export("ros2", "--tf"))
+
+
+@pytest.fixture(scope="module")
+def carried(tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    """A drape from grippers on a frame at a flange, with two axes each."""
+    result = made("simulate", tmp_path_factory.mktemp("carried"), SCENE + TOOL)
     return Exported(result, result.export("ros2", "--tf"))
 
 
@@ -435,3 +457,105 @@ def test_a_strip_without_a_mold_has_neither_surface_nor_mold(
     assert {marker.ns for marker in message.markers} == {"catenaries", "contact", "grippers"}
     [(_, trajectory)] = strip.decoded("/plydrape/trajectory")
     assert [nanoseconds(point.time_from_start) for point in trajectory.points] == [0]
+
+
+def frame(export: Exported, names: tuple[str, str], topic: str = "/tf") -> list[Numbers]:
+    """The transforms (4 x 4) from a frame to another at each message."""
+    found = []
+    for _, message in export.decoded(topic):
+        for each in message.transforms:
+            if (each.header.frame_id, each.child_frame_id) == names:
+                matrix = np.eye(4)
+                numbers = pose(each.transform)
+                matrix[:3, 3] = numbers[:3]
+                matrix[:3, :3] = Rotation.from_quat(numbers[3:]).as_matrix()
+                found.append(matrix)
+    return found
+
+
+@pytest.mark.parametrize("kind", ["planned", "carried"])
+def test_the_description_brings_the_axes_to_the_places_of_the_table(
+    request: pytest.FixtureRequest, kind: str
+) -> None:
+    """Read as URDF: joints in their limits bring each gripper from mold or flange to its place."""
+    export: Exported = request.getfixturevalue(kind)
+    times, poses = table(export)
+    robot = ET.parse(export.folder / "array.urdf").getroot()
+    links = [link.attrib["name"] for link in robot.findall("link")]
+    joints = {joint.attrib["name"]: joint for joint in robot.findall("joint")}
+    names = export.message["joint_names"]
+    assert list(joints) == names and len(links) == len(set(links)) == len(names) + 1
+    values = np.array([point["positions"] for point in export.message["points"]])
+
+    def attribute(joint: ET.Element, part: str, key: str) -> str:
+        element = joint.find(part)
+        assert element is not None
+        return element.attrib[key]
+
+    def numbers(joint: ET.Element, part: str, key: str) -> Numbers:
+        return np.array([float(number) for number in attribute(joint, part, key).split()])
+
+    # all joints slide, so each adds its origin and its stroke in the frame of the root
+    shifts = {links[0]: np.zeros((len(times), 3))}
+    for number, joint in enumerate(joints.values()):
+        assert joint.attrib["type"] == "prismatic"
+        stroke = values[:, number]
+        assert numbers(joint, "limit", "lower") <= stroke.min() + 1e-12
+        assert numbers(joint, "limit", "upper") >= stroke.max() - 1e-12
+        parent, child = (attribute(joint, end, "link") for end in ("parent", "child"))
+        moved = np.outer(stroke, numbers(joint, "axis", "xyz"))
+        shifts[child] = shifts[parent] + numbers(joint, "origin", "xyz") + moved
+    carrier = [np.eye(4)] * len(times)
+    if kind == "carried":
+        [tool] = frame(export, ("ply_flange", "ply_tool"), "/tf_static")
+        carrier = [flange @ tool for flange in frame(export, ("ply_mold", "ply_flange"))]
+    assert links[0] == {"planned": "ply_mold", "carried": "ply_tool"}[kind]
+    for number, (i, j) in enumerate(export.result.ids):
+        last = [name for name in names if name.startswith(f"g{i}_{j}_")][-1]
+        local = np.c_[shifts[f"{last}_slide"], np.ones(len(times))]
+        found = np.einsum("nij,nj->ni", np.array(carrier), local)[:, :3]
+        assert np.abs(found - poses[:, number, :3]).max() < 1e-8
+
+
+@pytest.mark.parametrize("kind", ["planned", "carried"])
+def test_the_launch_file_starts_controllers_of_all_that_is_commanded(
+    request: pytest.FixtureRequest, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What it spawns commands the joints of the trajectory and the groups of the vacuum."""
+    export: Exported = request.getfixturevalue(kind)
+    for name in ["launch", "launch_ros", "launch_ros.actions"]:
+        module = types.ModuleType(name)
+        module.LaunchDescription = list  # type: ignore[attr-defined]
+        module.Node = dict  # type: ignore[attr-defined]
+        monkeypatch.setitem(sys.modules, name, module)
+    launched = runpy.run_path(str(export.folder / "array.launch.py"))
+    publisher, manager, spawner = launched["generate_launch_description"]()
+    text = (export.folder / "array.urdf").read_text()
+    assert publisher["parameters"] == [{"robot_description": text}]
+    assert manager["parameters"] == [
+        {"robot_description": text},
+        str((export.folder / "controllers.yaml").resolve()),
+    ]
+    parameters = {
+        name: part["ros__parameters"]
+        for name, part in yaml.safe_load((export.folder / "controllers.yaml").read_text()).items()
+    }
+    kinds = parameters.pop("controller_manager")
+    assert kinds.pop("update_rate") == 500
+    assert spawner["arguments"] == list(kinds)
+    assert {name: each["type"].split("/")[1] for name, each in kinds.items()} == {
+        "joint_state_broadcaster": "JointStateBroadcaster",
+        "ply_controller": "JointTrajectoryController",
+        "ply_vacuum": "GpioCommandController",
+    }
+    assert parameters["ply_controller"]["joints"] == export.message["joint_names"]
+    [_, command] = export.decoded("/plydrape/vacuum")[0]
+    groups = {name: {"interfaces": ["vacuum"]} for name in command.interface_groups}
+    assert parameters["ply_vacuum"]["gpios"] == list(groups)
+    assert parameters["ply_vacuum"]["command_interfaces"] == groups
+    # what is commanded is there in the description
+    control = ET.fromstring(text).find("ros2_control")
+    assert control is not None
+    described = {(part.tag, part.attrib["name"]) for part in control if part.tag != "hardware"}
+    joints = {("joint", name) for name in export.message["joint_names"]}
+    assert described == joints | {("gpio", name) for name in groups}

@@ -340,6 +340,18 @@ pub enum Error {
         /// Largest coordinate (m).
         most: f64,
     },
+    /// The frame of a tool jumps from one posture to another that follows the grippers alike.
+    #[error(
+        "the frame tips over in step {step}: it turns by {turn_deg:.1}° while no gripper moves farther than {moved_mm:.1} mm; give [tool] axes with longer strokes, or one more axis"
+    )]
+    ToolTips {
+        /// Counts from 1.
+        step: usize,
+        /// Turn of the frame in that step (°).
+        turn_deg: f64,
+        /// Largest movement of a gripper in that step (mm).
+        moved_mm: f64,
+    },
     /// A limit of a motion is out of range.
     #[error("the limit of the {quantity} is {value}: give a number from {least:e} to {most:e}")]
     MotionLimit {

@@ -85,6 +85,24 @@ fn a_motion_from_a_file_is_refused_by_its_speed() {
     }
 }
 
+/// A ply that never touches the mold is in transport all the time: the limits of the transport count, those of the drape do not, and a limit that the transport has not
+/// is that of the whole motion.
+#[test]
+fn the_transport_is_judged_by_its_own_limits() {
+    let home = tempfile::tempdir().unwrap();
+    let rows =
+        [(0.0, [0.0, 0.0, 0.05], 0.0), (0.5, [1.0, 0.0, 0.05], 0.0), (1.0, [0.0, 0.0, 0.05], 0.0)];
+    for (limit, ok) in [(3, true), (1, false)] {
+        let limits = format!("[limits]\nspeed = \"0.1 m/s\"\ntransport_speed = \"{limit} m/s\"\n");
+        let (_, out) = simulate(&scene(home.path(), &limits, "t (s)", &rows), "sheet");
+        let found = ["speed", "transport_speed", "acceleration"].map(|name| {
+            let found = verdict(&out, name);
+            (found["value"].as_f64().unwrap(), found["ok"].as_bool().unwrap())
+        });
+        assert_eq!(found, [(0.0, true), (2.0, ok), (8.0, false)]);
+    }
+}
+
 /// 60° within 0.5 s are 120 °/s. In 5 s they are 12 °/s, and from rest to rest over three steps they need 2·12/2.5 °/s² at least.
 #[test]
 fn a_tool_turns_as_fast_as_its_motion_from_a_file() {

@@ -1,6 +1,7 @@
 //! The motion of a layup as its tool makes it.
 
 use super::Layup;
+use crate::Error;
 use crate::geometry::rotation::quaternion;
 use crate::motion::Motion;
 use crate::tool::{Carried, ToolRecord};
@@ -14,6 +15,14 @@ impl Layup {
         let Carried { positions, record, .. } = tool.carry(&self.motion.positions);
         let motion = Motion { times: self.motion.times.clone(), positions };
         (Cow::Owned(Layup { motion, ..self.clone() }), Some(record))
+    }
+
+    /// Refuses a motion in which the frame of the tool tips over.
+    ///
+    /// # Errors
+    /// [`Error::ToolTips`] with the first step in which it does.
+    pub fn check_carried(&self) -> Result<(), Error> {
+        self.tool.as_ref().map_or(Ok(()), |tool| tool.carry(&self.motion.positions).check(tool))
     }
 
     /// Whether joints let the pads tilt.

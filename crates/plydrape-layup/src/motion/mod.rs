@@ -334,6 +334,16 @@ impl TimedMotion {
         &self.peaks
     }
 
+    /// The largest speed, acceleration and jerk from one time to another (s).
+    #[must_use]
+    pub fn peaks_within(&self, times: [f64; 2]) -> Peaks {
+        let tolerance = TUNING.tolerance;
+        let path = self.path.as_ref();
+        path.map_or_else(Peaks::default, |path| {
+            peaks::peaks_within(path, &self.law, tolerance, times)
+        })
+    }
+
     /// The motion at [`Self::times`], one step for every planned step that moves.
     #[must_use]
     pub fn steps(&self) -> Motion {

@@ -74,11 +74,23 @@ struct Values {
 
 /// The peaks, none smaller than the true one by more than a share `tolerance`.
 pub(super) fn peaks(path: &Path, law: &TimeLaw, tolerance: f64) -> Peaks {
+    peaks_within(path, law, tolerance, [0.0, law.duration])
+}
+
+/// The peaks from one time to another (s), none smaller than the true one by more than a share `tolerance`.
+pub(super) fn peaks_within(
+    path: &Path,
+    law: &TimeLaw,
+    tolerance: f64,
+    [from, to]: [f64; 2],
+) -> Peaks {
     let mut times = law.breaks();
+    times.extend([from, to]);
     times.extend(path.knots.iter().map(|u| law.time(*u)));
     times.sort_by(f64::total_cmp);
     // a knot and a jump of the law at the same place are one, whatever rounding makes of their times
     let rounding = TUNING.law_rounding * law.duration;
+    times.retain(|t| (from - rounding..=to + rounding).contains(t));
     times.dedup_by(|later, earlier| *later - *earlier <= rounding);
     let mut search = Search { path, tolerance, found: [Peak::default(); 3] };
     let pieces = times.windows(2).filter(|pair| pair[1] > pair[0]).map(|pair| {

@@ -30,9 +30,16 @@ impl Motion {
     /// taken over a `window` (s) at least, because over shorter times it is mostly the rounding of the positions.
     #[must_use]
     pub fn least_peaks(&self, window: f64) -> Peaks {
+        self.least_peaks_within(window, [0.0, f64::INFINITY])
+    }
+
+    /// As [`Self::least_peaks`], of what begins from one time on and before another (s).
+    #[must_use]
+    pub fn least_peaks_within(&self, window: f64, [from, to]: [f64; 2]) -> Peaks {
         let all: Vec<usize> = (0..self.times.len()).collect();
-        let [speed, ..] = self.differences(&all);
-        let [_, acceleration, jerk] = self.differences(&self.apart(window));
+        let begins = |time: f64| from <= time && time < to;
+        let [speed, ..] = self.differences(&all, begins);
+        let [_, acceleration, jerk] = self.differences(&self.apart(window), begins);
         Peaks { speed, acceleration, jerk }
     }
 
@@ -67,8 +74,8 @@ impl Motion {
         between(from.1, to.1, share)
     }
 
-    /// The largest of the first three divided differences over some steps, times 1, 2 and 6.
-    fn differences(&self, steps: &[usize]) -> [Peak; 3] {
+    /// The largest of the first three divided differences over some steps, times 1, 2 and 6; of those that begin at some times (s).
+    fn differences(&self, steps: &[usize], begins: impl Fn(f64) -> bool) -> [Peak; 3] {
         let mut found = [Peak::default(); 3];
         let (Some(first), Some(last)) = (steps.first(), steps.last()) else { return found };
         // at rest, a step counts as three at the same time
@@ -87,7 +94,7 @@ impl Motion {
                     };
                     values[k] = [0, 1, 2].map(rate);
                     let value = norm(values[k]);
-                    if value > peak.value {
+                    if value > peak.value && begins(times[k]) {
                         *peak = Peak { value, gripper, time: 0.5 * (times[k] + times[k + order]) };
                     }
                 }

@@ -1,7 +1,10 @@
 //! A whole motion as a tool makes it.
 
+use super::rates::turn_between;
+use super::tuning::TIPS;
 use super::{Axis, Posture, Tool};
-use crate::geometry::vector::{distance, dot, sub};
+use crate::Error;
+use crate::geometry::vector::{distance, dot, norm, sub};
 use rayon::prelude::*;
 
 /// A motion that a tool makes.
@@ -83,6 +86,27 @@ impl ToolRecord {
     }
 }
 
+impl Carried {
+    /// Refuses a motion in which the frame tips over: from one step to the next it turns so far that its grippers, without their strokes, would
+    /// move much farther than they do.
+    ///
+    /// # Errors
+    /// [`Error::ToolTips`] with the first such step.
+    pub fn check(&self, tool: &Tool) -> Result<(), Error> {
+        let size = tool.mounts.iter().map(|m| norm(*m)).fold(0.0, f64::max);
+        for (k, pair) in self.postures.windows(2).enumerate() {
+            let turn = norm(turn_between(&pair[0].frame.axes, &pair[1].frame.axes));
+            let moves = self.positions[k].iter().zip(&self.positions[k + 1]);
+            let moved = moves.map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
+            if turn > TIPS[0] && turn * size > TIPS[1] * moved {
+                let (turn_deg, moved_mm) = (turn.to_degrees(), 1e3 * moved);
+                return Err(Error::ToolTips { step: k + 2, turn_deg, moved_mm });
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Tool {
     /// The motion that the tool makes where one is asked for (m): one list of all grippers a step.
     #[must_use]
@@ -116,8 +140,8 @@ impl Tool {
                 }
             }
             let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let turn = super::rates::turn_between(&unit, &posture.frame.axes);
-            record.turn_deg = record.turn_deg.max(dot(turn, turn).sqrt().to_degrees());
+            let turn = turn_between(&unit, &posture.frame.axes);
+            record.turn_deg = record.turn_deg.max(norm(turn).to_degrees());
         }
         Carried { postures, positions, record }
     }

@@ -10,10 +10,22 @@
 //! by Horn's method (1987), and from there with the axes by Gauss and Newton's, so that a posture depends on the places alone and not
 //! on the way there. Grippers in a row leave the turn about the row open to Horn's method; there, Gauss and Newton's finds the
 //! least turn.
+//!
+//! **An axis that lifts** grippers off the plane of their mounts takes up whatever a tilt of the frame does to them, but for a shortening of
+//! the pattern by the cosine of the tilt. A pattern that is too short would be met by tilting to one side and to the other alike, and the
+//! frame would tip over between them. So the tilt and the height of the frame follow from the strokes z_g of this axis alone,
+//!
+//! `Σ_g z_g (1, m_g) = 0`,
+//!
+//! which is the mean plane of the grippers, and the other three unknowns from the components across it. Where strokes come to their ends, what
+//! they cannot take stands in the place of z_g: then it is that which has no part that the frame could take.
 
-use super::tuning::{CONVERGED, FREE, HALVINGS, OPEN, ROUNDING, STEPS, STROKE_COST};
+use super::rates::turn_between;
+use super::tuning::{
+    CHEAPER, CONVERGED, FREE, HALVINGS, LIFTS, OPEN, ROUNDING, SETTLED, STEPS, STROKE_COST,
+};
 use super::{Axis, Tool};
-use crate::geometry::vector::{along, cross, dot, norm, sub, turned};
+use crate::geometry::vector::{along, cross, distance, dot, norm, sub, turned};
 use crate::mold::Pose;
 use nalgebra::{SMatrix, SVector};
 
@@ -47,9 +59,12 @@ impl Tool {
         // first as if no axis moved: what is left then is within the strokes of most motions
         let frame = rigid(&self.mounts, places).unwrap_or_else(|| {
             let upright = Pose::new(middle(places), [0.0; 3]);
-            self.fitted(upright, &[], places, size)
+            self.fitted(upright, &[], Part::Whole, places, size)
         });
-        let frame = self.fitted(frame, &self.axes, places, size);
+        let frame = match self.lifting() {
+            Some(axis) => self.lifted(frame, axis, places, size),
+            None => self.fitted(frame, &self.axes, Part::Whole, places, size),
+        };
         let strokes = places.iter().zip(&self.mounts).map(|(p, m)| {
             let off = sub(frame.local(*p), *m);
             self.axes.iter().map(|axis| axis.stroke_to(off)).collect()
@@ -57,17 +72,96 @@ impl Tool {
         Posture { strokes: strokes.collect(), frame }
     }
 
-    /// The pose of the frame that leaves least, found from a pose near it.
-    fn fitted(&self, mut frame: Pose, axes: &[Axis], places: &[[f64; 3]], size: f64) -> Pose {
-        let mut cost = self.cost(&frame, axes, places);
+    /// The axis that lifts grippers off the plane, or the row, of their mounts.
+    fn lifting(&self) -> Option<&Axis> {
+        let center = middle(&self.mounts);
+        let offs = || self.mounts.iter().map(|mount| sub(*mount, center));
+        let spread: f64 = offs().map(|off| dot(off, off)).sum();
+        self.axes.iter().find(|axis| {
+            let rise: f64 = offs().map(|off| dot(off, axis.direction).powi(2)).sum();
+            rise <= LIFTS * LIFTS * spread
+        })
+    }
+
+    /// The pose of the frame whose height and tilt have the smallest strokes of an axis that lifts, found from a pose near it.
+    fn lifted(&self, mut frame: Pose, axis: &Axis, places: &[[f64; 3]], size: f64) -> Pose {
+        let across = Part::Across(axis.direction);
+        let stroke = |frame: &Pose, (p, m): (&[f64; 3], &[f64; 3])| {
+            dot(axis.direction, sub(frame.local(*p), *m))
+        };
+        // the mean plane: strokes along its normal have no part that grows along the mounts
+        let (from, to) = (middle(&self.mounts), middle(places));
+        let mut grows = SMatrix::<f64, 3, 3>::zeros();
+        for (p, m) in places.iter().zip(&self.mounts) {
+            let [p, m] = [sub(*p, to), across.of(sub(*m, from))].map(SVector::<f64, 3>::from);
+            grows += p * m.transpose();
+        }
+        if !grows.iter().all(|c| c.is_finite()) {
+            return frame;
+        }
+        let parts = grows.svd(true, false);
+        let mut normal = frame.turn(axis.direction);
+        for (value, tangent) in
+            parts.singular_values.iter().zip(parts.u.iter().flat_map(|u| u.column_iter()))
+        {
+            if *value > OPEN * parts.singular_values.max() {
+                let tangent = [tangent[0], tangent[1], tangent[2]];
+                normal = along(normal, -dot(normal, tangent), tangent);
+            }
+        }
+        let normal = frame.local(along(frame.position, 1.0, normal));
+        let turn = cross(axis.direction, normal);
+        let sine = norm(turn);
+        let angle = sine.atan2(dot(axis.direction, normal));
+        let [x, y, z] = turn.map(|c| if sine > 0.0 { c * angle / sine } else { 0.0 });
+        frame = moved(&frame, &Vector6::from([0.0, 0.0, 0.0, x, y, z]), size);
+        let pairs = || places.iter().zip(&self.mounts);
+        let mean =
+            pairs().map(|pair| stroke(&frame, pair)).sum::<f64>() / places.len().max(1) as f64;
+        frame.position = along(frame.position, mean, frame.turn(axis.direction));
+        frame = self.fitted(frame, &self.axes, across, places, size);
+
+        // where strokes end, what they cannot take comes to count in full, step by step; seen from each mount, as above
+        let mut cost = 1.0;
         for _ in 0..STEPS {
-            let (matrix, slope) = self.linear(&frame, axes, places, size);
+            if pairs().all(|pair| axis.is_free(stroke(&frame, pair))) {
+                break;
+            }
+            let above = pairs()
+                .map(|(p, m)| frame.place(along(*m, stroke(&frame, (p, m)), axis.direction)));
+            let above: Vec<[f64; 3]> = above.collect();
+            let part = Part::Along(axis.direction, cost);
+            let next = self.fitted(frame, std::slice::from_ref(axis), part, &above, size);
+            let next = self.fitted(next, &self.axes, across, places, size);
+            let turned = norm(turn_between(&frame.axes, &next.axes));
+            let change = turned.max(distance(frame.position, next.position) / size);
+            frame = next;
+            if cost == STROKE_COST && change <= SETTLED {
+                break;
+            }
+            cost = STROKE_COST.max(CHEAPER * cost);
+        }
+        frame
+    }
+
+    /// The pose of the frame that leaves least of a part of the components, found from a pose near it.
+    fn fitted(
+        &self,
+        mut frame: Pose,
+        axes: &[Axis],
+        part: Part,
+        places: &[[f64; 3]],
+        size: f64,
+    ) -> Pose {
+        let mut cost = self.cost(&frame, axes, part, places);
+        for _ in 0..STEPS {
+            let (matrix, slope) = self.linear(&frame, axes, part, places, size);
             let Some(step) = solved(&matrix, &slope) else { break };
             let mut share = 1.0;
             let mut found = None;
             for _ in 0..HALVINGS {
                 let tried = moved(&frame, &(share * step), size);
-                let now = self.cost(&tried, axes, places);
+                let now = self.cost(&tried, axes, part, places);
                 if now <= cost * (1.0 + ROUNDING) {
                     found = Some((tried, now));
                     break;
@@ -84,7 +178,7 @@ impl Tool {
     }
 
     /// What a pose of the frame leaves, squared (m²).
-    fn cost(&self, frame: &Pose, axes: &[Axis], places: &[[f64; 3]]) -> f64 {
+    fn cost(&self, frame: &Pose, axes: &[Axis], part: Part, places: &[[f64; 3]]) -> f64 {
         let one = |(p, m): (&[f64; 3], &[f64; 3])| {
             let off = sub(frame.local(*p), *m);
             let mut left = off;
@@ -94,7 +188,8 @@ impl Tool {
                 left = along(left, -stroke, axis.direction);
                 strokes += stroke * stroke;
             }
-            dot(left, left) + STROKE_COST * STROKE_COST * strokes
+            let left = part.of(left);
+            dot(left, left) + part.stroke_cost() * part.stroke_cost() * strokes
         };
         places.iter().zip(&self.mounts).map(one).sum()
     }
@@ -104,6 +199,7 @@ impl Tool {
         &self,
         frame: &Pose,
         axes: &[Axis],
+        part: Part,
         places: &[[f64; 3]],
         size: f64,
     ) -> (Matrix6, Vector6) {
@@ -117,7 +213,7 @@ impl Tool {
             let off = sub(local, *m);
             // a direction n of what is left: dn·y = −n·dt + n·(q × dw) = −n·dt + (n × q)·dw
             let row = |n: [f64; 3]| {
-                let turn = cross(n, local);
+                let [n, turn] = part.unknowns(n, cross(n, local));
                 Vector6::from([0, 1, 2, 3, 4, 5].map(|k: usize| match k {
                     0..3 => -size * n[k],
                     _ => turn[k - 3],
@@ -125,7 +221,8 @@ impl Tool {
             };
             let mut left = off;
             // what a free axis takes is left by no direction along it
-            let mut directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let mut directions =
+                [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|d| part.of(d));
             for axis in axes {
                 let stroke = axis.stroke_to(off);
                 left = along(left, -stroke, axis.direction);
@@ -134,16 +231,54 @@ impl Tool {
                         let share = dot(*direction, axis.direction);
                         *direction = along(*direction, -share, axis.direction);
                     }
-                    add(STROKE_COST * stroke, STROKE_COST * row(axis.direction));
+                    add(part.stroke_cost() * stroke, part.stroke_cost() * row(axis.direction));
                 }
             }
             for (n, direction) in directions.iter().enumerate() {
                 if *direction != [0.0; 3] {
-                    add(left[n], row(*direction));
+                    add(part.of(left)[n], row(*direction));
                 }
             }
         }
         (matrix, slope)
+    }
+}
+
+/// Which components of the places a pose of the frame is found from, and which unknowns of it.
+#[derive(Debug, Clone, Copy)]
+enum Part {
+    /// All of them.
+    Whole,
+    /// Those along an axis (unit vector), which say nothing of a shift across it or a turn about it; with what a stroke costs.
+    Along([f64; 3], f64),
+    /// Those across an axis, from which a shift across it and a turn about it are found.
+    Across([f64; 3]),
+}
+
+impl Part {
+    /// This part of a vector in the frame.
+    fn of(self, v: [f64; 3]) -> [f64; 3] {
+        match self {
+            Part::Whole => v,
+            Part::Along(axis, _) => axis.map(|c| c * dot(v, axis)),
+            Part::Across(axis) => along(v, -dot(v, axis), axis),
+        }
+    }
+
+    /// What a stroke costs beside a residual of the same length.
+    fn stroke_cost(self) -> f64 {
+        match self {
+            Part::Along(_, cost) => cost,
+            Part::Whole | Part::Across(_) => STROKE_COST,
+        }
+    }
+
+    /// A shift and a turn without the unknowns that are not found from this part.
+    fn unknowns(self, shift: [f64; 3], turn: [f64; 3]) -> [[f64; 3]; 2] {
+        match self {
+            Part::Across(axis) => [self.of(shift), axis.map(|c| c * dot(turn, axis))],
+            Part::Whole | Part::Along(..) => [shift, turn],
+        }
     }
 }
 
@@ -264,8 +399,8 @@ mod tests {
                 let tool = Tool::new(&start, axes);
                 let size = tool.mounts.iter().map(|m| norm(*m)).fold(0.0, f64::max);
                 let upright = Pose::new(middle(&asked), [0.0; 3]);
-                let frame = tool.fitted(upright, &[], &asked, size);
-                let frame = tool.fitted(frame, &tool.axes, &asked, size);
+                let frame = tool.fitted(upright, &[], Part::Whole, &asked, size);
+                let frame = tool.fitted(frame, &tool.axes, Part::Whole, &asked, size);
                 let found = tool.posture(&asked).frame;
                 let near = |a: [f64; 3], b: [f64; 3]| norm(sub(a, b)) < 1e-9;
                 prop_assert!(near(found.position, frame.position), "{found:?} {frame:?}");

@@ -1,7 +1,7 @@
 //! A tool against rigid motions, closed forms, and small changes of its posture.
 
 use super::rates::turn_between;
-use super::{Axis, Posture, Tool};
+use super::{Axis, Carried, Posture, Tool};
 use crate::geometry::vector::{distance, norm, turned};
 use crate::mold::Pose;
 use crate::motion::{Bounds, TimedMotion};
@@ -93,16 +93,42 @@ proptest! {
         prop_assert!(off < 1e-12, "{off}");
     }
 
-    /// What a tool has made, it makes again: to the square of a stroke's cost, 1e-8 of a stroke.
+    /// What a tool has made with no stroke at its end, it makes again: to the square of a stroke's cost, 1e-8 of a stroke across.
     #[test]
     fn a_motion_of_the_tool_is_followed_exactly(
-        w in turn(), strokes in prop::collection::vec(-0.04..0.04, 12)
+        w in turn(), off in prop::collection::vec([-0.01..0.01, -0.01..0.01, -0.04..0.04], 12)
     ) {
-        let tool = Tool::new(&start(4, 3), vec![axis(Z, 0.05)]);
-        let frame = Pose { axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z].map(|d| turned(w, d)), position: [0.1; 3] };
-        let made = tool.places(&Posture { frame, strokes: strokes.iter().map(|s: &f64| vec![*s]).collect() });
-        let again = tool.places(&tool.posture(&made));
-        prop_assert!(farthest(&again, &made) < 1e-8, "{}", farthest(&again, &made));
+        let start = start(4, 3);
+        let asked: Vec<[f64; 3]> =
+            start.iter().zip(&off).map(|(p, off)| turned(w, [0, 1, 2].map(|c| p[c] + off[c]))).collect();
+        for (axes, most) in [(vec![axis(Z, 0.2)], 1e-12), (vec![axis(Z, 0.2), axis([1.0, 0.0, 0.0], 0.1)], 1e-8)] {
+            let tool = Tool::new(&start, axes);
+            let made = tool.places(&tool.posture(&asked));
+            let again = tool.places(&tool.posture(&made));
+            prop_assert!(farthest(&again, &made) < most, "{}", farthest(&again, &made));
+        }
+    }
+
+    /// Where every stroke is free, the frame lies in the mean plane of what is asked: strokes of an axis that lifts have no part that a tilt
+    /// or a lift of the frame would take up, whatever other axes there are.
+    #[test]
+    fn the_frame_lies_in_the_mean_plane(
+        w in turn(), off in prop::collection::vec([-0.01..0.01, -0.01..0.01, -0.04..0.04], 12)
+    ) {
+        let start = start(4, 3);
+        let asked: Vec<[f64; 3]> =
+            start.iter().zip(&off).map(|(p, off)| turned(w, [0, 1, 2].map(|c| p[c] + off[c]))).collect();
+        let across = axis([1.0, 0.0, 0.0], 0.2);
+        for axes in [vec![axis(Z, 0.2)], vec![axis(Z, 0.2), across.clone()]] {
+            let tool = Tool::new(&start, axes);
+            let posture = tool.posture(&asked);
+            for lever in [|_: [f64; 3]| 1.0, |m: [f64; 3]| m[0], |m: [f64; 3]| m[1]] {
+                let sum: f64 = tool.mounts.iter().zip(&posture.strokes).map(|(m, s)| {
+                    s[0] * lever(*m)
+                }).sum();
+                prop_assert!(sum.abs() < 1e-10, "{sum}");
+            }
+        }
     }
 
     /// No posture near the one that is found leaves less, with strokes at their limits or not.
@@ -111,15 +137,15 @@ proptest! {
         off in prop::collection::vec([-0.03..0.03, -0.03..0.03, -0.08..0.08], 12), nudges in prop::collection::vec(turn(), 8)
     ) {
         let start = start(4, 3);
-        let tool = Tool::new(&start, vec![axis(Z, 0.02)]);
+        let tool = Tool::new(&start, vec![axis([1.0, 0.0, 0.0], 0.02)]);
         let asked: Vec<[f64; 3]> = start.iter().zip(&off).map(|(p, off)| [0, 1, 2].map(|c| p[c] + off[c])).collect();
         let left = |frame: &Pose| {
             // the best strokes of a pose, found here by themselves
             asked.iter().zip(&tool.mounts).map(|(p, m)| {
                 let y = frame.local(*p);
                 let y = [0, 1, 2].map(|c| y[c] - m[c]);
-                let beyond = (y[2].abs() - 0.02).max(0.0);
-                y[0].powi(2) + y[1].powi(2) + beyond.powi(2)
+                let beyond = (y[0].abs() - 0.02).max(0.0);
+                y[1].powi(2) + y[2].powi(2) + beyond.powi(2)
             }).sum::<f64>()
         };
         let posture = tool.posture(&asked);
@@ -136,6 +162,72 @@ proptest! {
             }
         }
     }
+}
+
+/// A pattern that is too short would be met by a frame that tilts to one side, and by one that tilts to the other, alike. The frame of an axis that lifts
+/// does neither: it stays level while the pattern becomes shorter and longer, and leaves what no stroke takes up.
+#[test]
+fn a_frame_stays_level_where_the_pattern_is_too_short() {
+    // a plane and a row of grippers; seen from its middle, each place is this share too short along x and y
+    for (start, rows) in [(start(3, 2), 0.05), (start(3, 1), 0.0)] {
+        let tool = Tool::new(&start, vec![axis(Z, 0.05)]);
+        for short in [0.02, 0.016, 1e-3, 1e-9, 0.0, -1e-9, -0.01] {
+            for [x, y] in [[1.0, 1.0], [1.0, 0.0]] {
+                // one gripper a nanometer higher would say to which side
+                let asked = start.iter().zip(&tool.mounts).enumerate().map(|(n, (p, m))| {
+                    let higher = if n == 0 { 1e-9 } else { 0.0 };
+                    [p[0] - short * x * m[0], p[1] - short * y * m[1], p[2] + higher]
+                });
+                let record = tool.carry(&[start.clone(), asked.collect()]).record;
+                assert!(record.turn_deg < 1e-6, "{short}: {record:?}");
+                let due = 1e3 * (short * x * 0.1).hypot(short * y * rows);
+                assert!((record.residual_mm - due).abs() < 1e-5, "{due} {record:?}");
+            }
+        }
+    }
+}
+
+/// One corner of a square is asked 6 mm higher: a plane through 1.5 mm leaves 1.5 mm up and down, which strokes from both sides take, or strokes to one side
+/// and a lower frame; shorter ones leave their share. A tilt of 2.4° leaves 0.06 mm across.
+#[test]
+fn the_frame_is_where_the_ends_of_the_strokes_serve_best() {
+    let start = start(2, 2);
+    let mut asked = start.clone();
+    asked[3][2] += 0.006;
+    let record = |stroke| {
+        let tool = Tool::new(&start, vec![Axis { stroke, ..axis(Z, 0.0) }]);
+        tool.carry(std::slice::from_ref(&asked)).record
+    };
+    let tilt = 0.03_f64.hypot(0.03).atan().to_degrees();
+    let ends =
+        [([-0.002, 0.002], 0.0), ([0.0, 0.004], 0.0), ([-8e-4, 8e-4], 0.7), ([0.0, 0.0016], 0.7)];
+    for (stroke, due) in ends {
+        let found = record(stroke);
+        assert!((found.turn_deg - tilt).abs() < 0.02, "{tilt} {found:?}");
+        assert!((due..due + 0.13).contains(&found.residual_mm), "{due} {found:?}");
+    }
+}
+
+/// A frame that tilts from one side to the other while its strokes hold the grippers where they are is refused with the step; one that turns with
+/// its grippers is not.
+#[test]
+fn a_frame_that_tips_over_is_refused_with_its_step() {
+    let start = start(3, 2);
+    let tool = Tool::new(&start, vec![axis(Z, 0.05)]);
+    let tilted = |angle: f64| {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z].map(|d| turned([0.0, angle, 0.0], d));
+        let strokes = tool.mounts.iter().map(|m| vec![m[0] * angle.tan()]).collect();
+        Posture { frame: Pose { position: tool.origin, axes }, strokes }
+    };
+    let carried = |postures: Vec<Posture>| {
+        let positions = postures.iter().map(|p| tool.places(p)).collect();
+        Carried { positions, postures, record: tool.carry(std::slice::from_ref(&start)).record }
+    };
+    let fault =
+        carried([0.0, 0.03, 0.06, 0.09, -0.09].map(tilted).into()).check(&tool).unwrap_err();
+    assert!(fault.to_string().contains("tips over in step 5: it turns by 10.3°"), "{fault}");
+    let rigid = |angle: f64| Posture { strokes: vec![vec![0.0]; 6], ..tilted(angle) };
+    carried([0.0, 0.2, -0.2].map(rigid).into()).check(&tool).unwrap();
 }
 
 /// Axes along z alone cannot bring two grippers 10 mm nearer to each other: each is 5 mm off, and the tool says so.

@@ -25,3 +25,18 @@ pub const OPEN: f64 = 1e-6;
 
 /// Share of a cost that is rounding: near the least cost a step cannot be told to be worse.
 pub const ROUNDING: f64 = 1e-12;
+
+/// Mean slope of the mounts along an axis up to which it lifts grippers off their plane: a pattern that is shorter by the half of its square could
+/// still be met by tilts to both sides.
+pub const LIFTS: f64 = 0.1;
+
+/// A frame tips over where it turns by more than this angle (rad) from one step to the next, and would thereby move its farthest gripper by more than
+/// this times what any gripper moves: a rigid body that turns moves as far as it turns, and strokes take up some of it.
+pub const TIPS: [f64; 2] = [0.035, 1.5];
+
+/// A change of the frame this small (rad, and of the array's size) ends the search where strokes of an axis that lifts are at their ends.
+pub const SETTLED: f64 = 1e-9;
+
+/// How much of its cost a stroke keeps from one of these steps to the next: so few strokes come to their ends in one of them that the next finds
+/// which.
+pub const CHEAPER: f64 = 0.5;

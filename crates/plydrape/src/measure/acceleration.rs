@@ -24,6 +24,6 @@ impl Measure for Acceleration {
     }
 
     fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
-        Some(whole.gripper_peak(whole.peaks.acceleration))
+        Some(whole.gripper_peak(whole.peaks.drape.acceleration))
     }
 }

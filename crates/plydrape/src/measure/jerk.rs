@@ -27,6 +27,6 @@ impl Measure for Jerk {
     }
 
     fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
-        Some(whole.gripper_peak(whole.peaks.jerk))
+        Some(whole.gripper_peak(whole.peaks.drape.jerk))
     }
 }

@@ -72,6 +72,20 @@ impl Limits {
         }
     }
 
+    /// The bounds that no gripper exceeds in the transport of a planned motion, if they are others.
+    #[must_use]
+    pub fn transport_bounds(&self) -> Option<Bounds> {
+        let own = [Name::TransportSpeed, Name::TransportAcceleration, Name::TransportJerk]
+            .map(|name| self.get(name));
+        let [speed, acceleration, jerk] = own;
+        let usual = self.motion_bounds();
+        own.iter().any(Option::is_some).then(|| Bounds {
+            speed: speed.unwrap_or(usual.speed),
+            acceleration: acceleration.unwrap_or(usual.acceleration),
+            jerk: jerk.unwrap_or(usual.jerk),
+        })
+    }
+
     /// Sets the bound of a measure (SI), or removes it. A slack angle bounds the slack ratio with it, which is the same slack.
     pub fn set(&mut self, name: Name, bound: Option<f64>) {
         if let (Name::SlackAngle, Some(angle)) = (name, bound) {

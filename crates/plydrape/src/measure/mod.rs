@@ -69,6 +69,9 @@ mod tilt_rate;
 mod tool_residual;
 mod tool_turn_acceleration;
 mod tool_turn_rate;
+mod transport_acceleration;
+mod transport_jerk;
+mod transport_speed;
 mod tuning;
 mod unit;
 mod verdict;
@@ -94,7 +97,7 @@ use unit::DEGREE;
 pub use unit::Unit;
 pub use verdict::Verdict;
 pub(crate) use whole::verdicts_of_steps;
-pub use whole::{Course, WholeMotion};
+pub use whole::{Course, MotionPeaks, WholeMotion};
 pub(crate) use workspace::outside_workspace;
 
 use crate::layup::{Layup, Model};
@@ -353,6 +356,9 @@ measures! {
     speed: Speed,
     acceleration: Acceleration,
     jerk: Jerk,
+    transport_speed: TransportSpeed,
+    transport_acceleration: TransportAcceleration,
+    transport_jerk: TransportJerk,
     tool_turn_rate: ToolTurnRate,
     tool_turn_acceleration: ToolTurnAcceleration,
     axis_speed: AxisSpeed,

@@ -23,6 +23,6 @@ impl Measure for Speed {
     }
 
     fn evaluate_motion(&self, whole: &WholeMotion) -> Option<(Found, Option<f64>)> {
-        Some(whole.gripper_peak(whole.peaks.speed))
+        Some(whole.gripper_peak(whole.peaks.drape.speed))
     }
 }

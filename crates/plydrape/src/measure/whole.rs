@@ -19,11 +19,49 @@ pub struct WholeMotion<'a> {
     /// Orientations of the grippers along it; `None` before a model has draped along it.
     pub attitudes: Option<&'a Attitudes>,
     /// The largest speed, acceleration and jerk.
-    pub peaks: &'a Peaks,
+    pub peaks: MotionPeaks,
     /// How fast the tool turns and its axes move; `None` without a tool.
     pub tool: Option<&'a ToolPeaks>,
     /// Samples a second of a smooth motion as it is written (Hz).
     pub rate: f64,
+}
+
+/// The largest rates of the parts of a motion that have limits of their own.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct MotionPeaks {
+    /// Of the transport.
+    pub transport: Peaks,
+    /// Of all that the limits of the transport do not bound.
+    pub drape: Peaks,
+}
+
+impl MotionPeaks {
+    /// The peaks of a motion in time whose transport ends at one of its steps.
+    #[must_use]
+    pub fn of(motion: &TimedMotion, last_free: usize, limits: &Limits) -> Self {
+        let until = motion.times()[last_free];
+        Self::with(limits, *motion.peaks(), || {
+            [[0.0, until], [until, motion.duration()]].map(|times| motion.peaks_within(times))
+        })
+    }
+
+    /// The peaks of the whole, and of the transport and what follows where the scene limits the transport.
+    fn with(limits: &Limits, all: Peaks, parts: impl Fn() -> [Peaks; 2]) -> Self {
+        if limits.transport_bounds().is_none() {
+            return MotionPeaks { transport: Peaks::default(), drape: all };
+        }
+        let [transport, after] = parts();
+        let is_own = |name| limits.get(name).is_some();
+        let drape = Peaks {
+            speed: if is_own(Name::TransportSpeed) { after.speed } else { all.speed },
+            acceleration: match is_own(Name::TransportAcceleration) {
+                true => after.acceleration,
+                false => all.acceleration,
+            },
+            jerk: if is_own(Name::TransportJerk) { after.jerk } else { all.jerk },
+        };
+        MotionPeaks { transport, drape }
+    }
 }
 
 /// How a motion goes in time.
@@ -51,9 +89,9 @@ impl Course<'_> {
     }
 }
 
-/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged.
+/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged. The transport ends at one of the steps.
 #[must_use]
-pub(crate) fn verdicts_of_steps(layup: &Layup, limits: &Limits) -> Vec<Verdict> {
+pub(crate) fn verdicts_of_steps(layup: &Layup, limits: &Limits, last_free: usize) -> Vec<Verdict> {
     let (carried, _) = layup.carried();
     let motion = &carried.motion;
     let window = rate_window(motion.times.last().copied().unwrap_or(0.0));
@@ -63,7 +101,11 @@ pub(crate) fn verdicts_of_steps(layup: &Layup, limits: &Limits) -> Vec<Verdict> 
         limits,
         motion: Course::Steps(motion),
         attitudes: None,
-        peaks: &motion.least_peaks(window),
+        peaks: MotionPeaks::with(limits, motion.least_peaks(window), || {
+            let until = motion.times.get(last_free).copied().unwrap_or(0.0);
+            [[0.0, until], [until, f64::INFINITY]]
+                .map(|times| motion.least_peaks_within(window, times))
+        }),
         tool: tool.as_ref(),
         rate: 0.0,
     };
@@ -125,7 +167,7 @@ mod tests {
             limits: &limits,
             motion: Course::Smooth(motion),
             attitudes: None,
-            peaks: motion.peaks(),
+            peaks: MotionPeaks::of(motion, 0, &limits),
             tool: None,
             rate: 100.0,
         };

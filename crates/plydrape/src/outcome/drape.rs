@@ -106,7 +106,8 @@ pub struct DrapeWatch<'a> {
 /// cells.
 ///
 /// # Errors
-/// The errors of [`super::check_model`] if the scene lacks what the model needs.
+/// The errors of [`super::check_model`] if the scene lacks what the model needs, and [`plydrape_layup::Error::ToolTips`] if the frame of its tool
+/// tips over.
 pub fn drape(scene: &Scene, model: Model, watch: &mut DrapeWatch) -> Result<Drape, Error> {
     let mut drape = drape_places(scene, model, watch)?;
     drape.summary.judge_motion(&scene.layup, &scene.limits);
@@ -120,6 +121,7 @@ pub(crate) fn drape_places(
     watch: &mut DrapeWatch,
 ) -> Result<Drape, Error> {
     check_catenaries(&scene.layup, model)?;
+    scene.layup.check_carried()?;
     let (carried, tool) = scene.layup.carried();
     let mut recorder = Recorder::new(&carried, &scene.limits);
     let (mut summary, steps, sheet, solving) = match model {

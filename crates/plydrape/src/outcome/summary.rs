@@ -151,6 +151,16 @@ impl Summary {
         catenaries.or(self.sheet.as_ref().and_then(|report| report.first_contact_step))
     }
 
+    /// The last of so many steps, by its index, at which nothing that happens depends on the mold: two before the first contact, or the last step of a motion that
+    /// ends in the air.
+    #[must_use]
+    pub fn last_free(&self, steps: usize) -> usize {
+        self.first_contact_step()
+            .unwrap_or(steps + 1)
+            .saturating_sub(2)
+            .min(steps.saturating_sub(1))
+    }
+
     /// Keeps what the motion takes of the tool of a scene, in place of what was kept before, and judges its residual if the
     /// scene limits that.
     pub fn follow_tool(&mut self, scene: &Scene, record: ToolRecord) {
@@ -179,7 +189,8 @@ impl Summary {
 
     /// Judges the motion of a layup in time by its steps, as it was given.
     pub fn judge_motion(&mut self, layup: &Layup, limits: &Limits) {
-        self.judge_also(measure::verdicts_of_steps(layup, limits));
+        let last_free = self.last_free(layup.motion.times.len());
+        self.judge_also(measure::verdicts_of_steps(layup, limits, last_free));
         self.judge_rest(layup, limits);
     }
 

@@ -47,7 +47,7 @@ impl RecordedMotion {
     /// The motion at any time.
     ///
     /// # Errors
-    /// Those of [`TimedMotion::recorded`].
+    /// The errors of [`TimedMotion::recorded`].
     pub fn motion(&self) -> Result<TimedMotion, LayupError> {
         TimedMotion::recorded(&self.path, &self.spacing, &self.law)
     }
@@ -74,7 +74,7 @@ impl Cycle {
     /// The whole motion, of which the steps are those of the drape.
     ///
     /// # Errors
-    /// Those of [`TimedMotion::recorded`] and [`TimedMotion::then`].
+    /// The errors of [`TimedMotion::recorded`] and [`TimedMotion::then`].
     pub fn whole(&self, drape: &TimedMotion) -> Result<TimedMotion, LayupError> {
         let (approach, departure) = (self.approach.motion()?, self.departure.motion()?);
         drape.then(self.press, &departure)?.after(&approach, self.grip)

@@ -14,7 +14,7 @@ use crate::Error;
 use crate::errors::Errors;
 use crate::geometry::Point;
 use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
-use crate::measure::{Course, Name, Verdict, WholeMotion};
+use crate::measure::{Course, MotionPeaks, Name, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
 use crate::outcome::{self, Drape, Effort, Forecast, Judged, RateTolerance, Watch};
@@ -169,7 +169,7 @@ impl Decision {
             limits: &scene.limits,
             motion: Course::Smooth(motion),
             attitudes: Some(&decided.attitudes),
-            peaks: motion.peaks(),
+            peaks: MotionPeaks::of(motion, summary.last_free(motion.times().len()), &scene.limits),
             tool: peaks.as_ref(),
             rate,
         };

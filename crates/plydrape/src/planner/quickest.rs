@@ -33,11 +33,16 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
     let carried = tool_stretch(scene, motion);
     let slowed = turned.max(carried).max(1.0);
     let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
-    let Some(course) = Course::new(&motion) else {
+    let Some(mut course) = Course::new(&motion) else {
         return Quickest { motion, limited_by: Vec::new() };
     };
 
     let bounds = scene.limits.motion_bounds();
+    let transport = scene.limits.transport_bounds();
+    let until = motion.times()[drape.summary.last_free(motion.times().len())];
+    if let (Some(transport), true) = (transport, until > 0.0) {
+        course = course.with_early(until, transport);
+    }
     let mut limited: Vec<Limited> = Vec::new();
     for (gripper, moving) in course.grippers(&bounds).into_iter().enumerate() {
         let names = [Name::Speed, Name::Acceleration, Name::Jerk];
@@ -90,6 +95,7 @@ fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<L
             moving: Moving {
                 rates: rates.collect(),
                 bounds: [bound, f64::INFINITY, f64::INFINITY],
+                early: None,
             },
             names: [Name::TiltRate; 3],
             gripper: Some(gripper),
@@ -120,6 +126,7 @@ fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> 
         moving: Moving {
             rates: frame.collect(),
             bounds: [tool.turn_rate, tool.turn_acceleration, f64::INFINITY],
+            early: None,
         },
         names: [Name::ToolTurnRate, Name::ToolTurnAcceleration, Name::ToolTurnAcceleration],
         gripper: None,
@@ -134,6 +141,7 @@ fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> 
                 moving: Moving {
                     rates: rates.collect(),
                     bounds: [axis.speed, f64::INFINITY, f64::INFINITY],
+                    early: None,
                 },
                 names: [Name::AxisSpeed; 3],
                 gripper: Some(gripper),
@@ -151,12 +159,20 @@ fn by_name(
     longer: f64,
 ) -> Vec<LimitedBy> {
     let mut parts: Vec<((Name, Option<usize>), f64)> = Vec::new();
-    for Limiting { time, moving, order, share } in limiting {
+    for Limiting { time, moving, order, share, early } in limiting {
         if *share <= 0.0 {
             continue;
         }
         let Limited { names, gripper, .. } = &limited[*moving];
-        let key = (names[*order], *gripper);
+        // the transport has a limit of its own where the scene gives one
+        let own = match names[*order] {
+            Name::Speed => Name::TransportSpeed,
+            Name::Acceleration => Name::TransportAcceleration,
+            Name::Jerk => Name::TransportJerk,
+            other => other,
+        };
+        let is_own = *early && scene.limits.get(own).is_some();
+        let key = (if is_own { own } else { names[*order] }, *gripper);
         match parts.iter_mut().find(|(other, _)| *other == key) {
             Some((_, sum)) => *sum += longer * time,
             None => parts.push((key, longer * time)),

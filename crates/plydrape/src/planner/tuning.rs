@@ -36,8 +36,7 @@ pub struct PlannerTuning {
     pub most_equilibria: usize,
     /// Score of a drape that was broken off, per share of the steps that are missing: worse than that of any other.
     pub missing_weight: f64,
-    /// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the
-    /// limit of the tilt rate is to hold for finer samples of the motion too.
+    /// How much faster than its limit a tilt may be between the times at which the time law is looked at, for which the law stays below it.
     pub tilt_rate_margin: f64,
     /// How much slower a motion is made than its tool would allow, because its samples fall elsewhere then.
     pub tool_margin: f64,
@@ -59,6 +58,6 @@ pub const TUNING: PlannerTuning = PlannerTuning {
     far: 3.0,
     most_equilibria: 12,
     missing_weight: 1e3,
-    tilt_rate_margin: 1.5,
+    tilt_rate_margin: 1.001,
     tool_margin: 1.001,
 };

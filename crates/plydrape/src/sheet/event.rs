@@ -51,11 +51,16 @@ pub fn last_release(events: &[Event]) -> Option<f64> {
     events.iter().rfind(|event| event.kind == EventKind::Release).map(|event| event.time)
 }
 
-/// Whether a gripper's pad holds the ply at a time (s); one that lets go at that time does not.
+/// Whether a gripper's pad holds the ply at a time (s): from its grip on, and until it lets go.
 #[must_use]
 pub fn holds(events: &[Event], gripper: GripperId, time: f64) -> bool {
     let gone = |event: &Event| {
-        event.kind == EventKind::Release && event.time <= time && event.grippers.contains(&gripper)
+        let is_off = match event.kind {
+            EventKind::Grip => time < event.time,
+            EventKind::Press => false,
+            EventKind::Release => event.time <= time,
+        };
+        is_off && event.grippers.contains(&gripper)
     };
     !events.iter().any(gone)
 }

@@ -6,6 +6,7 @@
 //! - `vacuum.yaml`: what the vacuum does, one `control_msgs/msg/DynamicInterfaceGroupValues` behind the other;
 //! - `loads.yaml`: the expected loads on the grippers at the same times, and the preload of their
 //!   mounts, as one `trajectory_msgs/msg/JointTrajectory`;
+//! - `array.urdf`, `controllers.yaml` and `array.launch.py`: the array for `ros2_control`;
 //! - `trajectory.mcap`: a bag that `ros2 bag play` and viewers open, with the topics
 //!
 //! | topic | message | when |
@@ -26,6 +27,7 @@
 
 mod bag;
 mod cdr;
+mod description;
 mod loads;
 mod markers;
 mod message;
@@ -83,6 +85,7 @@ pub const PLY: &str = "/plydrape/ply";
 pub fn files(result: &ResultFile, tf: bool) -> Result<Files, Error> {
     let program = Program::of(result)?;
     let (mut bag, mut files) = motion(&program, tf)?;
+    files.extend(description::files(result, &program));
 
     if let Some(known) = &Loads::of(result) {
         let loads = loads::loads(&program, known)?;
@@ -208,7 +211,18 @@ mod tests {
         let result = sample::draped(3, 2, 4);
         let first = files(&result, false).unwrap();
         let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["trajectory.yaml", "vacuum.yaml", "loads.yaml", "trajectory.mcap"]);
+        assert_eq!(
+            names,
+            [
+                "trajectory.yaml",
+                "vacuum.yaml",
+                "array.urdf",
+                "controllers.yaml",
+                "array.launch.py",
+                "loads.yaml",
+                "trajectory.mcap"
+            ]
+        );
         assert!(first == files(&result, false).unwrap());
     }
 

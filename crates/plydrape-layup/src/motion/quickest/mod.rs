@@ -19,7 +19,7 @@ mod program;
 mod tests;
 
 use super::path::Vector;
-use super::peaks::peaks;
+use super::peaks::{peaks, peaks_within};
 use super::time_law::TimeLaw;
 use super::tuning::TUNING;
 use super::{Bounds, TimedMotion};
@@ -34,6 +34,20 @@ pub struct Moving {
     pub rates: Vec<[[f64; 3]; 3]>,
     /// Largest norm of each; infinite where there is no limit.
     pub bounds: [f64; 3],
+    /// At how many of the first times the bounds are others, and these.
+    pub early: Option<(usize, [f64; 3])>,
+}
+
+impl Moving {
+    /// Derivatives to the time as shares of their bounds, at one of the times and at a pace.
+    fn shares(&self, jet: &Jet, n: usize) -> [f64; 3] {
+        jet.shares(&self.rates[n], &self.bounds(n))
+    }
+
+    /// The bounds at one of the times.
+    fn bounds(&self, n: usize) -> [f64; 3] {
+        self.early.filter(|(count, _)| n < *count).map_or(self.bounds, |(_, bounds)| bounds)
+    }
 }
 
 /// Which bound is nearest to its limit, at a time of the quickest motion.
@@ -47,6 +61,8 @@ pub struct Limiting {
     pub order: usize,
     /// Share of the limit.
     pub share: f64,
+    /// Whether it is one of [`Moving::early`].
+    pub early: bool,
 }
 
 /// The motion that is to be made quicker, and the times at which its bounds are looked at.
@@ -56,6 +72,8 @@ pub struct Course<'a> {
     pace: Pace,
     /// Three in each part of the pace.
     times: Vec<f64>,
+    /// The time of the motion as it is until which other bounds hold (s), and these.
+    early: Option<(f64, Bounds)>,
 }
 
 impl<'a> Course<'a> {
@@ -71,7 +89,13 @@ impl<'a> Course<'a> {
         let times = pace.parts().flat_map(|(begin, end)| {
             [inside, 0.5, 1.0 - inside].map(|share| begin + share * (end - begin))
         });
-        Some(Course { motion, times: times.collect(), pace })
+        Some(Course { motion, times: times.collect(), pace, early: None })
+    }
+
+    /// The course with other bounds of the grippers until one of the times of the motion's steps (s).
+    #[must_use]
+    pub fn with_early(self, until: f64, bounds: Bounds) -> Self {
+        Course { early: Some((until, bounds)), ..self }
     }
 
     /// Times of the motion as it is (s), ascending: where the rates of what moves are asked for.
@@ -83,17 +107,22 @@ impl<'a> Course<'a> {
     /// The grippers, each under the bounds.
     #[must_use]
     pub fn grippers(&self, bounds: &Bounds) -> Vec<Moving> {
-        let bounds = [bounds.speed, bounds.acceleration, bounds.jerk];
+        let norms = |bounds: &Bounds| [bounds.speed, bounds.acceleration, bounds.jerk];
+        let early = self
+            .early
+            .as_ref()
+            .map(|(until, bounds)| (self.times.partition_point(|t| t < until), norms(bounds)));
+        let bounds = norms(bounds);
         let one = |g: usize| {
             let rates = self.times.iter().map(|t| [0, 1, 2].map(|n| self.motion.rate_of(g, *t, n)));
-            Moving { rates: rates.collect(), bounds }
+            Moving { rates: rates.collect(), bounds, early }
         };
         (0..self.motion.grippers()).map(one).collect()
     }
 
     /// The quickest motion found along the same path, and what limits it; the motion as it is where none is quicker.
     ///
-    /// Grippers keep `bounds` at every time; what else moves does at the times of the course.
+    /// Grippers keep `bounds`, and those of [`Self::with_early`], at every time; what else moves does at the times of the course.
     #[must_use]
     pub fn quickest(&self, bounds: &Bounds, moving: &[Moving]) -> (TimedMotion, Vec<Limiting>) {
         let pace = self.fastest_pace(moving);
@@ -153,8 +182,16 @@ impl<'a> Course<'a> {
     fn within(&self, law: TimeLaw, bounds: &Bounds) -> Option<(TimedMotion, f64)> {
         let path = self.motion.path.as_ref()?;
         let tolerance = TUNING.tolerance;
-        let stretch = peaks(path, &law, tolerance).stretch(bounds) * (1.0 + tolerance);
-        let longer = stretch.max(1.0);
+        let stretch = match &self.early {
+            None => peaks(path, &law, tolerance).stretch(bounds),
+            Some((until, early)) => {
+                let until = law.time(self.motion.law.at(*until)[0]);
+                let part = |times| peaks_within(path, &law, tolerance, times);
+                let first = part([0.0, until]).stretch(early);
+                part([until, law.duration]).stretch(bounds).max(first)
+            }
+        };
+        let longer = (stretch * (1.0 + tolerance)).max(1.0);
         Some((TimedMotion::timed(path.clone(), law.stretched(longer)), longer))
     }
 
@@ -163,13 +200,14 @@ impl<'a> Course<'a> {
         let jets = self.times.iter().map(|t| pace.at(*t));
         let lasts = pace.parts().enumerate().flat_map(|(part, _)| [pace.time_of(part) / 3.0; 3]);
         let nearest = |(n, (jet, lasts)): (usize, (Jet, f64))| {
-            let mut most = Limiting { time: lasts * longer, moving: 0, order: 0, share: 0.0 };
+            let time = lasts * longer;
+            let mut most = Limiting { time, moving: 0, order: 0, share: 0.0, early: false };
             for (k, one) in moving.iter().enumerate() {
-                for (order, share) in jet.shares(&one.rates[n], &one.bounds).into_iter().enumerate()
-                {
+                for (order, share) in one.shares(&jet, n).into_iter().enumerate() {
                     let share = share / longer.powi(order as i32 + 1);
                     if share > most.share {
-                        most = Limiting { moving: k, order, share, ..most };
+                        let early = one.early.is_some_and(|(count, _)| n < count);
+                        most = Limiting { moving: k, order, share, early, ..most };
                     }
                 }
             }

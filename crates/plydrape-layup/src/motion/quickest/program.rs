@@ -28,13 +28,12 @@ impl<'a> Program<'a> {
     pub fn meet(&mut self, pace: &Pace) {
         for (n, t) in self.times.iter().enumerate() {
             let jet = pace.at(*t);
-            let shares: Vec<[f64; 3]> =
-                self.moving.iter().map(|one| jet.shares(&one.rates[n], &one.bounds)).collect();
+            let shares: Vec<[f64; 3]> = self.moving.iter().map(|one| one.shares(&jet, n)).collect();
             for order in [1, 2] {
                 let most = shares.iter().map(|share| share[order]).fold(0.0, f64::max);
                 let near = (TUNING.pace_near * most).min(1.0);
                 for (k, share) in shares.iter().enumerate() {
-                    let bounded = self.moving[k].bounds[order].is_finite();
+                    let bounded = self.moving[k].bounds(n)[order].is_finite();
                     if bounded && share[order] >= near && !self.met[n].contains(&(k, order)) {
                         self.met[n].push((k, order));
                     }
@@ -63,7 +62,7 @@ impl<'a> Program<'a> {
         for (n, t) in self.times.iter().enumerate() {
             let part = pace.part(*t);
             let share = |one: &Moving| {
-                let [speed, ..] = ONE.shares(&one.rates[n], &one.bounds);
+                let [speed, ..] = one.shares(&ONE, n);
                 speed * speed
             };
             let most = self.moving.iter().map(share).fold(0.0, f64::max);
@@ -93,7 +92,7 @@ impl<'a> Program<'a> {
             for (k, order) in &self.met[n] {
                 let one = &self.moving[*k];
                 let [first, second, third] = one.rates[n];
-                let bound = one.bounds[*order];
+                let bound = one.bounds(n)[*order];
                 let weights = |axis: usize| match order {
                     1 => [0, 1, 2].map(|m| second[axis] * value[m] + 0.5 * first[axis] * slope[m]),
                     _ => [0, 1, 2].map(|m| {

@@ -128,6 +128,33 @@ fn a_bound_of_a_part_slows_that_part() {
     assert!((all / takes - 1.0).abs() < 1e-6, "{all} {takes}");
 }
 
+/// Other bounds until some step hold until there and not behind: each part takes what it takes with its own bounds, but for the way on which the motion
+/// slows down from one to the other.
+#[test]
+fn the_first_part_of_a_motion_may_be_faster() {
+    let fast = Bounds { speed: 1.0, acceleration: 4.0, jerk: 80.0 };
+    let motion = TimedMotion::new(&along(|x| [x, 0.0, 0.0], 50), &BOUNDS).unwrap();
+    let until = motion.times()[30];
+    let course = Course::new(&motion).unwrap().with_early(until, fast);
+    let (found, _) = course.quickest(&BOUNDS, &course.grippers(&BOUNDS));
+    let within = |[t0, t1]: [f64; 2], bounds: &Bounds| {
+        let peaks = found.peaks_within([t0, t1]);
+        let limits = [bounds.speed, bounds.acceleration, bounds.jerk];
+        let shares = [peaks.speed, peaks.acceleration, peaks.jerk];
+        (0..3).map(|n| shares[n].value / limits[n]).fold(0.0, f64::max)
+    };
+    let between = found.same_place(&motion, until);
+    for (times, bounds) in [([0.0, between], &fast), ([between, found.duration()], &BOUNDS)] {
+        let most = within(times, bounds);
+        assert!((0.99..1.0 + 1e-9).contains(&most), "{most} {times:?}");
+    }
+    // as fast as either for the whole way, and the time to slow down from 1 to 0.25 m/s on 0.6 m
+    let [all, none] = [&fast, &BOUNDS]
+        .map(|bounds| TimedMotion::new(motion.positions(), bounds).unwrap().duration());
+    let due = 0.6 * all + 0.4 * none;
+    assert!((0.9..1.25).contains(&(found.duration() / due)), "{} {due}", found.duration());
+}
+
 /// The quickest of the quickest is no quicker by more than half a percent: the rounds have come to their end.
 #[test]
 fn the_quickest_motion_has_none_quicker() {

@@ -159,6 +159,7 @@ impl<'a> Replanner<'a> {
             return Err(Error::ReplanUnfinished { steps: steps.len(), planned: count });
         }
         let first = summary.first_contact_step();
+        let last_free = summary.last_free(count);
         let (mut steps, mut summary) = (steps.to_vec(), summary.clone());
         record::times(&mut steps, &motion);
         if let Some(cycle) = &record.cycle {
@@ -166,8 +167,6 @@ impl<'a> Replanner<'a> {
                 event.time = cycle.before_delay(event);
             }
         }
-        // where nothing ever touches, the end is kept
-        let last_free = first.map_or(count - 1, |first| first.saturating_sub(2));
         let mut shapes = Shapes::new(scene, &steps, sheet, last_free);
         if shapes.is_empty() {
             return Err(Error::ReplanNoShapes);
@@ -257,7 +256,9 @@ impl<'a> Replanner<'a> {
 
         // the path through the moved steps, and its time
         let path = correction::corrected(&self.motion, &self.path, &moved, self.last_free);
-        let bounds = scene.limits.motion_bounds();
+        // the offset changes the transport alone
+        let bounds = scene.limits.transport_bounds();
+        let bounds = bounds.unwrap_or_else(|| scene.limits.motion_bounds());
         let mut motion = self.motion.moved(&path, &bounds).map_err(Error::ReplanMotion)?;
         correction::rigid(scene, &self.motion, &motion, self.last_free)?;
         if let Some(touch) = self.shapes.touches(scene, &moved) {

@@ -7,7 +7,9 @@
 use super::KnownPlan;
 use crate::clearance::Nearest;
 use crate::geometry::vector::distance;
-use crate::measure::{Course, Name, Observation, Past, Scope, Verdict, WholeMotion, Worst};
+use crate::measure::{
+    Course, MotionPeaks, Name, Observation, Past, Scope, Verdict, WholeMotion, Worst,
+};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{Step, Summary};
 use crate::pick_up::Moved;
@@ -142,7 +144,7 @@ impl Outcome<'_> {
             motion: Course::Smooth(self.motion),
             // the nearest bodies were looked for above, without the landing, which stays
             attitudes: None,
-            peaks: self.motion.peaks(),
+            peaks: MotionPeaks::of(self.motion, self.last_free, &scene.limits),
             tool: self.tool.as_ref(),
             rate: self.motion.fitting_rate(scene.plan.rate),
         };
