@@ -25,7 +25,8 @@ import numpy as np
 import score
 
 ROOT = score.HERE.parents[1]
-USUAL = '[cell]\npreset = "usual"\n\n[ply]'
+USUAL_PRESET = 'preset = "usual"'
+USUAL = f"[cell]\n{USUAL_PRESET}\n\n[ply]"
 
 SCENES: dict[str, tuple[str, str, dict[str, str]]] = {
     "flat_paper": ("01_flat_sheared_mold", "Flat mold, sheared by 20 deg, the paper's ply", {}),
@@ -99,7 +100,8 @@ def publish(name: str, plan: Path) -> None:
     write(folder / "motion.csv", rows[0][:5], motion)
 
     with tempfile.TemporaryDirectory() as home:
-        figures = score.drape(name, folder / "motion.csv", Path(home))
+        usual = USUAL_PRESET in problem(name)
+        figures = score.drape(name, folder / "motion.csv", Path(home), with_errors=usual)
         states = np.load(Path(home) / "out" / "sheet.npz")
         result = json.loads((Path(home) / "out" / "result.json").read_text())
         publish_states(folder, states, figures, result)

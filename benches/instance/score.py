@@ -27,7 +27,8 @@ START = 1e-4
 """How far from ours a motion may start (m)."""
 
 SHOWN = {
-    "accepted": "accepted",
+    "accepted": "accepted, without errors",
+    "cells": "cells with errors that are accepted",
     "height_mm": "largest height at the end (mm)",
     "height_share": "share of the area over the limit of the height",
     "height_rms_mm": "height, root of the mean square (mm)",
@@ -84,11 +85,13 @@ def drape(name: str, motion: Path, folder: Path, with_errors: bool = False) -> d
     found = {**summary["worst"], **{key: summary[key] for key in SHOWN if key in summary}}
     final = ("height_mm", "out_of_plane_deg", "position_mm", "fibre_angle_deg")
     found |= {key: summary["final"][key] for key in final}
+    complete = summary["status"] == "converged"
+    found["accepted"] = complete and all(row["ok"] for row in summary["limits"])
+    cells = (summary.get("sample") or {}).get("cells") if with_errors else None
+    found["cells"] = cells and [sum(cell["accepted"] for cell in cells), len(cells)]
     figures: dict[str, Any] = {key: rounded(found.get(key)) for key in SHOWN}
     keys = ("name", "value", "limit", "unit", "ok")
     figures["limits"] = [{key: rounded(row[key]) for key in keys} for row in summary["limits"]]
-    if with_errors:
-        figures["cells"] = summary.get("sample")
     return figures
 
 
@@ -113,6 +116,8 @@ def text(value: Any) -> str:
     """A figure with three digits."""
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, list):
+        return "{} of {}".format(*value)
     return "–" if value is None else f"{value:.3g}"
 
 
@@ -145,8 +150,6 @@ def main() -> None:
     for row in figures["limits"]:
         if not row["ok"]:
             print(f"not kept: {row['name']} {row['value']} {row['unit']}, limit {row['limit']}")
-    if figures.get("cells"):
-        print(f"cells with errors: {json.dumps(figures['cells'])}")
 
 
 if __name__ == "__main__":

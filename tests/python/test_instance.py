@@ -26,9 +26,8 @@ def score(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 def test_the_published_files_are_those_of_their_checksums() -> None:
     """Every file of every scene has a line, and nothing is published without one."""
-    sums = dict(
-        reversed(line.split("  ")) for line in (INSTANCE / "SHA256SUMS").read_text().splitlines()
-    )
+    lines = (INSTANCE / "SHA256SUMS").read_text().splitlines()
+    sums = {name: digest for digest, _, name in (line.partition("  ") for line in lines)}
     folders = [path.parent for path in INSTANCE.glob("*/scene.toml")]
     files = {str(path.relative_to(INSTANCE)) for folder in folders for path in folder.iterdir()}
     assert len(folders) == 6 and files == set(sums)
