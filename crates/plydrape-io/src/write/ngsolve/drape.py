@@ -203,6 +203,9 @@ if mold:
     field = RegularGridInterpolator(grid, np.reshape(mold["distance"], mold["shape"]))
     box = np.array([(line[0], line[-1]) for line in grid]).T
 press = ply["mass"] * ply["gravity"] / contact["depth"] * areas
+for held, *_, spring in cups:
+    # a cup on its mount presses far harder than the ply weighs
+    press[held] += 50.0 * spring[2] / len(held)
 
 
 def distance(x: np.ndarray) -> np.ndarray:
