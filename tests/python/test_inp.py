@@ -287,3 +287,35 @@ def test_a_sheet_rests_on_the_mold(tmp_path: Path) -> None:
     # the mass of a line, on a strip of one cell
     weight = AREAL_MASS * (0.100 / 0.060) * GRAVITY * 0.060**2
     assert found["GRIPPERS RF total"][0][2] < 0.9 * weight
+
+
+def test_a_cut_ply_hangs_from_its_grippers(tmp_path: Path) -> None:
+    """CalculiX hangs a ply with a corner off and a hole: reactions add up to its own weight.
+
+    The elements cover the ply to half an element at its boundary. Of each element that a gripper
+    holds by a corner, -1/12 of the weight acts on the held node and is no reaction.
+    """
+    scene = HANGING.replace("{{", "{").replace("}}", "}").replace("98 mm", "49 mm")
+    cut = """outline = [[0, 0], ["80 mm", 0], ["80 mm", "55 mm"], ["55 mm", "80 mm"], [0, "80 mm"]]
+holes = [{ middle = ["35 mm", "35 mm"], diameter = "25 mm" }]
+grippers = [2, 2]
+cell = ["50 mm", "50 mm"]
+array = { middle = ["35 mm", "35 mm"], margin = "5 mm" }"""
+    scene = scene.replace('grippers = [{nu}, {nv}]\ncell = ["100 mm", "100 mm"]', cut)
+    (tmp_path / "scene.toml").write_text(scene)
+    ply = drape(tmp_path / "scene.toml", tmp_path)
+    places, elements = ply.deck.nodes(), ply.deck.elements("S8R")
+    corners = np.array([[places[node] for node in nodes[:4]] for nodes in elements])
+    diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    areas = np.linalg.norm(np.cross(*diagonals), axis=1) / 2
+    due = 0.08**2 - 0.025**2 / 2 - np.pi * 0.0125**2
+    assert areas.sum() == pytest.approx(due, rel=0.05)
+
+    found = ccx(ply.deck.text, tmp_path)
+    _, density, thickness = ply.deck.section()
+    held = set(ply.deck.node_set("GRIPPERS"))
+    touching = np.array([len(held.intersection(nodes[:4])) for nodes in elements])
+    weights = density * thickness * GRAVITY * areas
+    force = found["GRIPPERS RF total"][0]
+    assert len(held) == 4
+    assert force[2] - (touching * weights).sum() / 12 == pytest.approx(weights.sum(), rel=1e-4)

@@ -54,6 +54,24 @@ impl Material {
             scatter: Scatter::default(),
         }
     }
+
+    /// The material with its shear force, and that of its resin, times a factor.
+    #[must_use]
+    pub fn with_shear(&self, factor: f64) -> Self {
+        let times = |values: &[f64]| values.iter().map(|x| factor * x).collect();
+        let curve = |curve: &ShearCurve| match curve {
+            ShearCurve::Table { angle, force } => {
+                ShearCurve::Table { angle: angle.clone(), force: times(force) }
+            }
+            ShearCurve::Polynomial { coefficients } => {
+                ShearCurve::Polynomial { coefficients: times(coefficients) }
+            }
+        };
+        let shear_curve = self.shear_curve.as_ref().map(curve);
+        let stiffer = |rate: ShearRate| ShearRate { stiffness: factor * rate.stiffness, ..rate };
+        let shear_rate = self.shear_rate.clone().map(stiffer);
+        Material { shear_curve, shear_rate, ..self.clone() }
+    }
 }
 
 #[cfg(feature = "serde")]

@@ -8,6 +8,7 @@ mod drawing;
 mod limits;
 mod mold;
 mod rules;
+mod shear;
 mod sheet;
 mod warnings;
 mod way;
@@ -56,6 +57,10 @@ pub struct Arguments {
     #[arg(short, long, value_name = "DIR", requires = "html")]
     output: Option<PathBuf>,
 
+    /// Drape the motion of the scene twice, the second time with FACTOR times the shear force of the material, and say what changes.
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    shear_scale: Option<String>,
+
     /// Print one JSON object on standard output instead of the lines, with the warnings in it.
     #[arg(long)]
     json: bool,
@@ -91,17 +96,23 @@ fn nouns(lines: &[SummaryLine]) -> Vec<Noun<'_>> {
 
 /// Reads the scene; prints a summary unless `quiet`, and warnings.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let factor = arguments.shear_scale.as_deref().map(shear::factor).transpose()?;
     if plydrape_io::scene::is_book(&arguments.scene) {
-        if arguments.html {
-            return Err(Failure::Refused {
-                message: "--html shows one scene, and this file is a plybook".into(),
-                help: "give the scene of one ply, or leave --html out".into(),
-            });
+        for (option, given) in [("--html", arguments.html), ("--shear-scale", factor.is_some())] {
+            if given {
+                return Err(Failure::Refused {
+                    message: format!("{option} is for one scene, and this file is a plybook"),
+                    help: format!("give the scene of one ply, or leave {option} out"),
+                });
+            }
         }
         return book::check(&arguments.scene, arguments.json, quiet);
     }
     let scene = plydrape_io::scene::read(&arguments.scene)?;
-    let (lines, warnings) = (summary(&scene), warnings::warnings(&scene));
+    let (mut lines, warnings) = (summary(&scene), warnings::warnings(&scene));
+    if let Some(factor) = factor {
+        lines.extend(shear::shear(&scene, factor)?);
+    }
     let files = match arguments.html {
         true => whole(|| page(&scene, arguments, &lines, &warnings))?,
         false => Vec::new(),

@@ -514,3 +514,62 @@ fn json_says_what_the_lines_say() {
     let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(object["plies"].as_array().unwrap().len(), 5);
 }
+
+/// A cell that is sheared by 20 deg on the mold, by the sheet.
+const SHEARED: &str = "\
+[ply]
+grippers = [2, 2]
+cell = [\"100 mm\", \"100 mm\"]
+material = \"krogh2018\"
+
+[mold]
+kind = \"plane\"
+
+[grippers]
+spacing = [\"98 mm\", \"98 mm\"]
+height = \"60 mm\"
+
+[target]
+shear = \"20 deg\"
+
+[motion]
+kind = \"straight\"
+steps = 10
+";
+
+/// 5 N/m per rad are 1.745 N/m at 20 deg, and three times as much 5.236; the drape then pulls harder. Once changes nothing, and without
+/// the option nothing is draped.
+#[test]
+fn a_factor_of_the_shear_force_says_what_it_changes() {
+    let output = check(SHEARED, &["--shear-scale", "3"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = one_line(&output.stdout);
+    for part in [
+        "shear 3 times that of the material: 5.24 N/m where the ideal drape is sheared by 20 deg, in place of 1.75",
+        "the motion of the scene, draped with both: ",
+        " in place of ",
+    ] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
+    let same = one_line(&check(SHEARED, &["--shear-scale", "1"]).stdout);
+    assert!(same.contains("nothing changes by a hundredth of its limit"), "{same}");
+    assert!(!one_line(&check(SHEARED, &[]).stdout).contains("times that of the material"));
+}
+
+/// What is no factor, a material without a shear force, and a plybook are refused with a remedy.
+#[test]
+fn a_factor_that_cannot_scale_is_refused() {
+    for factor in ["0", "-2", "nan", "inf", "three", "1e9", ""] {
+        let output = check(SHEARED, &["--shear-scale", factor]);
+        let said = one_line(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{factor}: {said}");
+        let fault = format!("--shear-scale \"{factor}\" is not a positive number");
+        assert!(said.contains(&fault) && said.contains("as in --shear-scale 3"), "{said}");
+    }
+    let free = SCENE.replace("LL", "mm");
+    let said = one_line(&check(&free, &["--shear-scale", "2"]).stderr);
+    assert!(said.contains("needs a shear force") && said.contains("`shear_curve`"), "{said}");
+    let book = example("15_plybook").with_file_name("plies.toml");
+    let output = command().args(["check", "--shear-scale", "2"]).arg(&book).output().unwrap();
+    assert!(one_line(&output.stderr).contains("--shear-scale is for one scene"));
+}

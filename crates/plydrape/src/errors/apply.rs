@@ -16,7 +16,7 @@
 use super::draw::{Draw, MaterialError, PickUpError, RelativeError, RigidError};
 use crate::geometry::vector::{along, between, sub, turned};
 use crate::layup::Layup;
-use crate::material::{Material, Section, ShearCurve, ShearRate};
+use crate::material::{Material, Section};
 use crate::mold::{Mold, Raised};
 use crate::motion::Motion;
 use crate::ply::{Ply, tangents};
@@ -158,19 +158,7 @@ impl MaterialError {
                 weft_rigidity: bending * weft_rigidity,
             },
         };
-        let times = |values: &[f64]| values.iter().map(|x| shear * x).collect();
-        let curve = |curve: &ShearCurve| match curve {
-            ShearCurve::Table { angle, force } => {
-                ShearCurve::Table { angle: angle.clone(), force: times(force) }
-            }
-            ShearCurve::Polynomial { coefficients } => {
-                ShearCurve::Polynomial { coefficients: times(coefficients) }
-            }
-        };
-        let shear_curve = material.shear_curve.as_ref().map(curve);
         let moment = material.moment.clone().map(|curve| curve.map(|curve| curve.times(bending)));
-        let stiffer = |rate: ShearRate| ShearRate { stiffness: shear * rate.stiffness, ..rate };
-        let shear_rate = material.shear_rate.clone().map(stiffer);
-        Material { section, moment, shear_curve, shear_rate, ..material.clone() }
+        Material { section, moment, ..material.with_shear(shear) }
     }
 }

@@ -31,13 +31,18 @@ pub(super) fn write(
     );
 
     heading(deck, "What the deck carries");
-    let [n, m] = mesh.count;
     paragraph(
         deck,
         &format!(
-            "Ply: {n} x {m} shells S8R of {:.4} x {:.4} m, flat at the start, at the rigid place that best fits the grippers of step 1. Axis 1 of the material is the warp, along {} of the grid.",
+            "Ply: {} shells S8R of {:.4} x {:.4} m at most, {}flat at the start, at the rigid place that best fits the grippers of step 1. Axis 1 of the material is the warp, along {} of the fabric.",
+            mesh.count(),
             mesh.side[0],
             mesh.side[1],
+            if scene.ply.cut.is_some() {
+                "those of which half or more is ply, and those at a gripper; "
+            } else {
+                "between the grippers; "
+            },
             if scene.ply.warp == Direction::U { "u" } else { "v" },
         ),
     );
@@ -106,8 +111,11 @@ pub(super) fn write(
     }
     paragraph(
         deck,
-        "The grippers' size, mass and tilt limit: a gripper is a point (of a strip, a line).",
+        "The grippers' size, mass and tilt limit, their mounts, and pads that let go: a gripper is a point (of a strip, a line).",
     );
+    if scene.ply.cut.is_none() && scene.settings.sheet.overhang > 0.0 {
+        paragraph(deck, "The fabric beyond the grippers of the array.");
+    }
     if scene.tool.as_ref().is_some_and(|tool| tool.fixed_pads.is_some()) {
         paragraph(deck, "Pads without joints, which hold the ply in the direction of the tool.");
     }

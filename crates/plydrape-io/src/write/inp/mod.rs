@@ -3,7 +3,7 @@
 //! [`text`] makes it from a result file alone, whose grippers are those of the model that decides. It is a second opinion: the shells know
 //! nothing of what that model found of the ply. The parts:
 //!
-//! - `mesh`: the flat ply, quadratic shells S8R with nodes at the grippers;
+//! - `mesh`: the flat ply, with its corners and holes, in quadratic shells S8R with nodes at the grippers;
 //! - `section`: one homogeneous layer with the ply's areal mass, bending rigidities and membrane stiffness;
 //! - `pose`: where the flat ply starts; `motion`: from there through all steps of the result;
 //! - `contact`: the mold as a rigid surface;
@@ -29,7 +29,8 @@ use crate::result::ResultFile;
 use crate::write::pose::Pose;
 use contact::RigidMold;
 use mesh::Mesh;
-use motion::{HANG, Tracks, fabric};
+use motion::{HANG, Tracks};
+use plydrape::ply::Grid;
 use section::{ShellSection, axes};
 use text::{Deck, number};
 
@@ -41,24 +42,18 @@ use text::{Deck, number};
 pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     result.check_finite()?;
     let scene = &result.scene;
-    if scene.ply.cut.is_some() {
-        let message = "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline";
-        return Err(Error::not_possible(
-            message,
-            "take `ngsolve`, which drapes it with its holes and corners, or `vtk` for its sheet",
-        ));
-    }
     let first = result.steps.first().ok_or_else(|| {
         let message = "the result has no steps, so there is no motion to write";
         Error::not_possible(message, "simulate the scene again")
     })?;
+    let grippers = first.grippers.iter().enumerate();
     let (flat, places): (Vec<_>, Vec<_>) =
-        first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();
+        grippers.map(|(n, gripper)| (scene.ply.place(n), gripper.position)).unzip();
     let pose = Pose::fit(&flat, &places).ok_or_else(|| {
         let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
-    let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
+    let mesh = Mesh::new(&scene.ply);
     let section = ShellSection::new(scene, membrane);
     let tracks = Tracks::new(result, &pose);
     let weight = section.areal_mass * scene.settings.gravity;
@@ -71,10 +66,10 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     nodes(&mesh, &pose, mold.as_ref(), &mut deck);
     elements(&mesh, &mut deck);
     tracks.node_sets(&mesh, &mut deck);
-    middles(result, &mesh, &mut deck);
+    let printed = middles(result, &mesh, &mut deck);
     material(&section, scene.ply.warp, &pose, &mut deck);
     if let Some(mold) = &mold {
-        mold.elements(mesh.nodes(), mesh.count[0] * mesh.count[1], &mut deck);
+        mold.elements(mesh.nodes(), mesh.count(), &mut deck);
         mold.pair(&mut deck);
     }
     tracks.amplitudes(&mut deck);
@@ -84,10 +79,10 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     deck.line("*DLOAD, AMPLITUDE=GRAVITY");
     deck.line(&gravity);
     tracks.boundary(&mut deck);
-    output(&mut deck);
+    output(&printed, &mut deck);
     if let Some(time) = tracks.lay_time() {
         step("LAY", time, 1e-2, &mut deck);
-        output(&mut deck);
+        output(&printed, &mut deck);
     }
     Ok(deck.text)
 }
@@ -113,16 +108,23 @@ fn elements(mesh: &Mesh, deck: &mut Deck) {
     }
 }
 
-/// The nodes in the middle of the edges along u and along v, each set in the order of the model's edges.
-fn middles(result: &ResultFile, mesh: &Mesh, deck: &mut Deck) {
-    let grid = result.scene.ply.grid;
+/// The nodes in the middle between neighboring grippers of an array along u and along v, and the sets whose displacements are printed.
+fn middles(result: &ResultFile, mesh: &Mesh, deck: &mut Deck) -> Vec<&'static str> {
+    let ply = &result.scene.ply;
+    let mut printed = vec!["GRIPPERS"];
     for (along, name) in ["MIDDLE_U", "MIDDLE_V"].into_iter().enumerate() {
-        let ids = (0..grid.nv).flat_map(|j| (0..grid.nu).map(move |i| [i, j]));
-        let nodes: Vec<usize> = ids.filter_map(|id| mesh.middle(id, along)).collect();
+        let ends = (0..ply.grippers()).filter_map(|n| {
+            let mut next = ply.id(n);
+            next[along] += 1;
+            Some([n, ply.index(next).filter(|_| ply.grid != Grid::NONE)?].map(|n| ply.place(n)))
+        });
+        let nodes: Vec<usize> = ends.filter_map(|ends| mesh.middle(ends)).collect();
         if !nodes.is_empty() {
             deck.node_set(name, &nodes);
+            printed.extend((along == 0).then_some(name));
         }
     }
+    printed
 }
 
 /// Fiber directions, moduli, density and thickness.
@@ -154,8 +156,8 @@ fn step(name: &str, time: f64, first: f64, deck: &mut Deck) {
 }
 
 /// What is printed, and the end of the step.
-fn output(deck: &mut Deck) {
-    for set in ["GRIPPERS", "MIDDLE_U"] {
+fn output(printed: &[&str], deck: &mut Deck) {
+    for set in printed {
         deck.line(&format!("*NODE PRINT, NSET={set}"));
         deck.line("U");
     }

@@ -23,6 +23,8 @@ pub(super) const LOAD: f64 = 0.1;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
     pub id: GripperId,
+    /// Its fabric point (m).
+    pub place: [f64; 2],
     /// Displacement from the flat ply (m) at every time of [`Tracks::times`].
     pub moves: Vec<[f64; 3]>,
 }
@@ -39,11 +41,15 @@ pub(super) struct Tracks {
 impl Tracks {
     /// From the flat ply through all steps of a result; a step at the time of the one before it takes its place.
     pub fn new(result: &ResultFile, pose: &Pose) -> Tracks {
-        let cell = result.scene.ply.cell;
         let mut times = vec![0.0, LOAD];
         let mut tracks: Vec<Track> = (result.steps.first().into_iter())
             .flat_map(|step| &step.grippers)
-            .map(|gripper| Track { id: gripper.id, moves: vec![[0.0; 3]; 2] })
+            .enumerate()
+            .map(|(n, gripper)| Track {
+                id: gripper.id,
+                place: result.scene.ply.place(n),
+                moves: vec![[0.0; 3]; 2],
+            })
             .collect();
         let start = result.steps.first().map_or(0.0, |step| step.time);
         for step in &result.steps {
@@ -53,7 +59,7 @@ impl Tracks {
                 times.push(time);
             }
             for (track, gripper) in tracks.iter_mut().zip(&step.grippers) {
-                let flat = pose.place(fabric(track.id, cell));
+                let flat = pose.place(track.place);
                 if again {
                     track.moves.pop();
                 }
@@ -72,7 +78,7 @@ impl Tracks {
     pub fn node_sets(&self, mesh: &Mesh, deck: &mut Deck) {
         let mut all = Vec::new();
         for track in &self.tracks {
-            let nodes = mesh.gripper(track.id);
+            let nodes = mesh.gripper(track.place);
             deck.node_set(&gripper_name(track.id), &nodes);
             all.extend(nodes);
         }
@@ -121,11 +127,6 @@ impl Track {
     }
 }
 
-/// A gripper's fabric point (m).
-pub(super) fn fabric([i, j]: GripperId, [a, b]: [f64; 2]) -> [f64; 2] {
-    [i as f64 * a, j as f64 * b]
-}
-
 fn table(id: GripperId, c: usize) -> String {
     format!("{}_{}", gripper_name(id), ["x", "y", "z"][c])
 }
@@ -136,9 +137,9 @@ mod tests {
     use crate::sample;
 
     fn pose(result: &ResultFile) -> Pose {
-        let cell = result.scene.ply.cell;
+        let grippers = result.steps[0].grippers.iter().enumerate();
         let (flat, places): (Vec<_>, Vec<_>) =
-            (result.steps[0].grippers.iter()).map(|g| (fabric(g.id, cell), g.position)).unzip();
+            grippers.map(|(n, gripper)| (result.scene.ply.place(n), gripper.position)).unzip();
         Pose::fit(&flat, &places).unwrap()
     }
 
@@ -151,7 +152,7 @@ mod tests {
         assert_eq!(tracks.times.len(), 9);
         for (k, track) in tracks.tracks.iter().enumerate() {
             assert_eq!(track.moves[..2], [[0.0; 3]; 2]);
-            let flat = pose.place(fabric(track.id, result.scene.ply.cell));
+            let flat = pose.place(track.place);
             for (step, moved) in result.steps.iter().zip(&track.moves[2..]) {
                 let due = step.grippers[k].position;
                 assert!((0..3).all(|c| (flat[c] + moved[c] - due[c]).abs() < 1e-15));

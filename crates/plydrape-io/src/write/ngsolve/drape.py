@@ -32,33 +32,12 @@ import json
 import time
 from pathlib import Path
 
+import ngsolve as ng
 import numpy as np
 import scipy.sparse as sp
 from netgen.meshing import Element1D, Element2D, FaceDescriptor, MeshPoint, Pnt
 from netgen.meshing import Mesh as Netgen
-from ngsolve import (
-    ET,
-    H1,
-    VOL,
-    BilinearForm,
-    BSpline,
-    CoefficientFunction,
-    Cross,
-    ElementId,
-    GridFunction,
-    HDivDiv,
-    InnerProduct,
-    IntegrationRule,
-    Mesh,
-    Norm,
-    Normalize,
-    SymbolicBFI,
-    SymbolicEnergy,
-    asin,
-    grad,
-    specialcf,
-    sqrt,
-)  # fmt: skip
+from ngsolve import BilinearForm, CoefficientFunction, GridFunction, InnerProduct, Norm, grad
 from scipy.interpolate import RegularGridInterpolator
 from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation, Slerp
@@ -80,20 +59,18 @@ corner, quads = np.array(ply["nodes"]), np.array(ply["quads"])
 netgen = Netgen(dim=2)
 netgen.Add(FaceDescriptor(surfnr=1, domin=1, bc=1))
 vertex = [netgen.Add(MeshPoint(Pnt(u, v, 0.0))) for u, v in corner]
-sides: dict[tuple[int, ...], int] = {}
 for quad in quads:
     netgen.Add(Element2D(1, [vertex[k] for k in quad]))
-    for side in zip(quad, np.roll(quad, -1), strict=True):
-        sides[tuple(sorted(side))] = sides.get(tuple(sorted(side)), 0) + 1
-for (a, b), beside in sides.items():
+pairs = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+for (a, b), beside in zip(*np.unique(pairs, axis=0, return_counts=True), strict=True):
     if beside == 1:
         netgen.Add(Element1D([vertex[a], vertex[b]], index=1))
 netgen.SetBCName(0, "boundary")
-mesh = Mesh(netgen)
+mesh = ng.Mesh(netgen)
 
 # Unknowns: displacements from the flat ply, and moments that vanish across a free boundary.
-scalar, linear = H1(mesh, order=2), H1(mesh, order=1)
-space = scalar * scalar * scalar * HDivDiv(mesh, order=1, dirichlet="boundary")
+scalar, linear = ng.H1(mesh, order=2), ng.H1(mesh, order=1)
+space = scalar * scalar * scalar * ng.HDivDiv(mesh, order=1, dirichlet="boundary")
 *u, moment = space.TrialFunction()
 *du, test = space.TestFunction()
 flat = [CoefficientFunction((1.0, 0.0, 0.0)), CoefficientFunction((0.0, 1.0, 0.0))]
@@ -104,56 +81,58 @@ def fibers(x: list) -> list:
     return [flat[k] + CoefficientFunction(tuple(grad(part)[k] for part in x)) for k in (0, 1)]
 
 
-def gauss(along_u: int, along_v: int) -> IntegrationRule:
+def gauss(along_u: int, along_v: int) -> ng.IntegrationRule:
     """Gauss's points of a quad."""
     (x, wx), (y, wy) = map(np.polynomial.legendre.leggauss, (along_u, along_v))
     places = [((1 + a) / 2, (1 + b) / 2) for a in x for b in y]
-    return IntegrationRule(places, [a * b / 4 for a in wx for b in wy])
+    return ng.IntegrationRule(places, [a * b / 4 for a in wx for b in wy])
 
 
 # Energy of stretch and shear.
 a1, a2 = fibers(u)
-gamma = InnerProduct(a1, a2) if args.green else asin(InnerProduct(a1, a2) / Norm(a1) / Norm(a2))
+gamma = InnerProduct(a1, a2) if args.green else ng.asin(InnerProduct(a1, a2) / Norm(a1) / Norm(a2))
 angles, forces = ply["shear"]
-work = BSpline(2, [angles[0], *angles], forces).Integrate()
+work = ng.BSpline(2, [angles[0], *angles], forces).Integrate()
 membrane = BilinearForm(space, symmetric=True)
 for energy, rule in [
     (0.5 * ply["tension"] * (Norm(a1) - 1.0) ** 2, gauss(2, 3)),
     (0.5 * ply["tension"] * (Norm(a2) - 1.0) ** 2, gauss(3, 2)),
-    (work(sqrt(gamma * gamma + 1e-12)), gauss(2, 2)),
+    (work(ng.sqrt(gamma * gamma + 1e-12)), gauss(2, 2)),
 ]:
-    term = SymbolicEnergy(energy.Compile())
-    term.SetIntegrationRule(ET.QUAD, rule)
+    term = ng.SymbolicEnergy(energy.Compile())
+    term.SetIntegrationRule(ng.ET.QUAD, rule)
     membrane += term
 
 # Bending: moments times the second derivatives along the normal, with the jumps of slope at the
 # sides of elements, less the moments' own energy. The normal is that of the time step before, as a
 # continuous field; the published form has that of the unknown displacement.
 normal = GridFunction(linear * linear * linear)
-out = specialcf.normal(2)
+out = ng.specialcf.normal(2)
 twist = args.twist * np.sqrt(ply["rigidity"][0] * ply["rigidity"][1])
 
 
 def curved(x: list, m: CoefficientFunction) -> CoefficientFunction:
     """Moments times curvatures within an element."""
-    hesse = [part.Operator("hesse") for part in x]
-    return sum((normal.components[k] * InnerProduct(m, hesse[k]) for k in (1, 2)),
-               normal.components[0] * InnerProduct(m, hesse[0]))  # fmt: skip
+    return along_normal([InnerProduct(m, part.Operator("hesse")) for part in x])
 
 
 def kinked(x: list, m: CoefficientFunction) -> CoefficientFunction:
     """Moments times the slope across the side of an element, without that of the flat ply."""
-    slope = sum((normal.components[k] * (grad(x[k]) * out) for k in (1, 2)),
-                normal.components[0] * (grad(x[0]) * out))  # fmt: skip
-    return -slope * InnerProduct(out, m * out)
+    return -along_normal([grad(part) * out for part in x]) * InnerProduct(out, m * out)
+
+
+def along_normal(x: list) -> CoefficientFunction:
+    """The part of a vector along the normal."""
+    a, b, c = (n * part for n, part in zip(normal.components, x, strict=True))
+    return a + b + c
 
 
 stiff = ply["rigidity"]
 own = moment[0, 0] * test[0, 0] / stiff[0] + moment[1, 1] * test[1, 1] / stiff[1]
 own += 2.0 * moment[0, 1] * test[0, 1] / twist
 bending = BilinearForm(space, symmetric=False)
-bending += SymbolicBFI(curved(u, test) + curved(du, moment) - own, intrule=gauss(3, 3))
-bending += SymbolicBFI(kinked(u, test) + kinked(du, moment), element_boundary=True)
+bending += ng.SymbolicBFI(curved(u, test) + curved(du, moment) - own, intrule=gauss(3, 3))
+bending += ng.SymbolicBFI(kinked(u, test) + kinked(du, moment), element_boundary=True)
 
 # Nodes of the quads: corners, middles of sides, middles. A node has the share of Simpson's rule.
 local = [(a, b) for b in (0.0, 0.5, 1.0) for a in (0.0, 0.5, 1.0)]
@@ -177,7 +156,7 @@ def shapes(points: np.ndarray) -> sp.csr_matrix:
     for row, (a, b) in enumerate(points):
         if mesh.Contains(a, b):
             found = mesh(a, b)
-            element = ElementId(VOL, found.nr)
+            element = ng.ElementId(ng.VOL, found.nr)
             dofs = list(scalar.GetDofNrs(element))
             rows += [row] * len(dofs)
             columns += dofs
@@ -188,10 +167,8 @@ def shapes(points: np.ndarray) -> sp.csr_matrix:
 at_nodes, at_points = shapes(place), shapes(np.array(ply["points"]))
 known = np.diff(at_points.indptr) > 0
 free = np.flatnonzero([bool(bit) for bit in space.FreeDofs()])
-to_nodes = sp.hstack(
-    [sp.block_diag([at_nodes] * 3), sp.csr_matrix((3 * nodes, space.ndof - 3 * size))]
-)
-to_nodes = to_nodes.tocsc()
+others = sp.csr_matrix((3 * nodes, space.ndof - 3 * size))
+to_nodes = sp.hstack([sp.block_diag([at_nodes] * 3), others]).tocsc()
 moving = to_nodes[:, free].tocsr()
 rest = np.concatenate([place.T.ravel(), np.zeros(nodes)])
 rows_of = lambda x: x.reshape(3, -1).T  # noqa: E731  nodes (n, 3) of x, y and z one after the other
@@ -208,36 +185,27 @@ upright = Rotation.from_matrix(np.column_stack([*axes, np.cross(*axes)]))
 cups = []
 for gripper in grippers:
     middle = np.array(gripper["place"])
-    within = np.linalg.norm(place - middle, axis=1) <= gripper["radius"] + 1e-6 * np.sqrt(
-        areas.sum()
-    )
-    arms = np.column_stack([place[within] - middle, np.zeros(within.sum())])
+    reach = gripper["radius"] + 1e-6 * np.sqrt(areas.sum())
+    held = np.flatnonzero(np.linalg.norm(place - middle, axis=1) <= reach)
+    arms = np.column_stack([place[held] - middle, np.zeros(len(held))])
     path = np.array(gripper["positions"])
     path = np.vstack([origin + middle @ axes, path[:1], path])
     turns = Rotation.from_quat(gripper["quaternions"])
-    turns = Rotation.concatenate([upright, turns[:1], turns])
+    turns = Slerp(times, Rotation.concatenate([upright, turns[:1], turns]))
     until = np.inf if gripper["release"] is None else args.hang + pace * gripper["release"]
-    cups.append(
-        (
-            np.flatnonzero(within),
-            arms,
-            path,
-            Slerp(times, turns),
-            until,
-            np.array(gripper["stiffness"]),
-        )
-    )
+    cups.append((held, arms, path, turns, until, np.array(gripper["stiffness"])))
 
 # The mold.
 mold, contact = ply["mold"], ply["contact"]
 if mold:
-    grid = [
-        lo + mold["pitch"] * np.arange(count)
-        for lo, count in zip(mold["low"], mold["shape"], strict=True)
-    ]
+    sides = zip(mold["low"], mold["shape"], strict=True)
+    grid = [low + mold["pitch"] * np.arange(count) for low, count in sides]
     field = RegularGridInterpolator(grid, np.reshape(mold["distance"], mold["shape"]))
     box = np.array([(line[0], line[-1]) for line in grid]).T
 press = ply["mass"] * ply["gravity"] / contact["depth"] * areas
+for held, *_, spring in cups:
+    # a cup on its mount presses far harder than the ply weighs
+    press[held] += 50.0 * spring[2] / len(held)
 
 
 def distance(x: np.ndarray) -> np.ndarray:
@@ -248,19 +216,14 @@ def distance(x: np.ndarray) -> np.ndarray:
 def normals(x: np.ndarray) -> np.ndarray:
     """Unit normals of the mold at places (n, 3)."""
     by = 0.1 * mold["pitch"]
-    slope = np.stack(
-        [distance(x + by * axis) - distance(x - by * axis) for axis in np.eye(3)], axis=1
-    )
+    slope = np.stack([distance(x + by * e) - distance(x - by * e) for e in np.eye(3)], axis=1)
     return slope / np.linalg.norm(slope, axis=1, keepdims=True)
 
 
 def springs(x: np.ndarray, now: float) -> tuple[np.ndarray, sp.csr_matrix, np.ndarray]:
     """Forces of cups and mold on nodes (n, 3), their stiffness, and the loads on the cups."""
-    force, stiffness, loads = (
-        np.zeros((nodes, 3)),
-        np.zeros((nodes, 3, 3)),
-        np.zeros((len(cups), 3)),
-    )
+    force, stiffness = np.zeros((nodes, 3)), np.zeros((nodes, 3, 3))
+    loads = np.zeros((len(cups), 3))
     for k, (held, arms, path, turn, until, spring) in enumerate(cups):
         if now <= until:
             goal = [np.interp(now, times, path[:, axis]) for axis in range(3)]
@@ -280,11 +243,8 @@ def springs(x: np.ndarray, now: float) -> tuple[np.ndarray, sp.csr_matrix, np.nd
         stiffness[near] += (k * (depth > 0.0)[:, None])[..., None] * across
         stiffness[near] += (k * np.isfinite(anchor[near, :1]))[..., None] * (np.eye(3) - across)
     i, j = np.divmod(np.arange(9), 3)
-    rows, columns = (np.arange(nodes)[:, None] + nodes * axis for axis in (i, j))
-    matrix = sp.csr_matrix(
-        (stiffness.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * nodes,) * 2
-    )
-    return force.T.ravel(), matrix, loads
+    at = [(np.arange(nodes)[:, None] + nodes * axis).ravel() for axis in (i, j)]
+    return force.T.ravel(), sp.csr_matrix((stiffness.ravel(), at), (3 * nodes,) * 2), loads
 
 
 def hold(x: np.ndarray) -> None:
@@ -307,17 +267,13 @@ q, residual = state.vec.FV().NumPy(), state.vec.CreateVector()
 solve_nodes = splu(at_nodes.tocsc())
 for axis in range(3):
     start = origin + place @ axes
-    q[axis * size : (axis + 1) * size] = solve_nodes.solve(
-        start[:, axis] - rest.reshape(3, -1)[axis]
-    )
+    moved = start[:, axis] - rest.reshape(3, -1)[axis]
+    q[axis * size : (axis + 1) * size] = solve_nodes.solve(moved)
 
 
 def csr(form: BilinearForm) -> sp.csr_matrix:
     """The matrix of a form."""
-    values, columns, pointer = form.mat.CSR()
-    return sp.csr_matrix(
-        (np.array(values), np.array(columns), np.array(pointer)), shape=(space.ndof,) * 2
-    )
+    return sp.csr_matrix(tuple(map(np.array, form.mat.CSR())), (space.ndof,) * 2)
 
 
 anchor = np.full((nodes, 3), np.nan)
@@ -330,7 +286,7 @@ while len(states) < len(moments):
     h = due - now if due - now < 1.5 * step else step
     f1, f2 = fibers(state.components[:3])
     for k, part in enumerate(normal.components):
-        part.Set(Normalize(Cross(f1, f2))[k])
+        part.Set(ng.Normalize(ng.Cross(f1, f2))[k])
     bending.Assemble()
     bent = csr(bending)
     before, last = q.copy(), np.inf
