@@ -1,6 +1,6 @@
 //! What the shear force of a material does, as text: the motion of the scene, draped with it and with a multiple of it.
 
-use super::Line;
+use super::SummaryLine;
 use super::limits::packed;
 use crate::argument::refused;
 use crate::failure::Failure;
@@ -27,7 +27,7 @@ pub(super) fn factor(text: &str) -> Result<f64, Failure> {
 }
 
 /// The shear force where the ideal drape is sheared most, and each measure that the factor changes.
-pub(super) fn shear(scene: &SceneFile, factor: f64) -> Result<Vec<Line>, Failure> {
+pub(super) fn shear(scene: &SceneFile, factor: f64) -> Result<Vec<SummaryLine>, Failure> {
     let layup = &scene.layup;
     let Some(curve) = &layup.ply.material.shear_curve else {
         return Err(Failure::Refused {
