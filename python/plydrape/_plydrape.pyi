@@ -440,7 +440,7 @@ class Material:
     @property
     def name(self, /) -> str:
         """
-        Its name for reports.
+        Name for reports.
         """
     @property
     def scatter(self, /) -> dict[str, float | dict[str, float]]:
@@ -583,7 +583,7 @@ class Measure:
     @property
     def key(self, /) -> str:
         """
-        Its key in `Result.measures` and in each step of a result, the unit at its end where it has one.
+        Key in `Result.measures` and in each step of a result, the unit at its end where it has one.
         """
     @property
     def label(self, /) -> str:
@@ -673,7 +673,7 @@ class Mold:
     @property
     def kind(self, /) -> str:
         """
-        Its kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
+        Kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
         of a scene laid waves on it.
         """
     def mesh(self, /) -> tuple[NDArray[float64], NDArray[uint32]] | None:
@@ -733,7 +733,7 @@ class Mold:
         most: SupportsIndex = 20000,
     ) -> pyvista.PolyData:
         """
-        Its surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
+        Surface as a mesh of PyVista, over a rectangle of the plan. Needs PyVista.
 
         Parameters
         ----------
@@ -882,7 +882,7 @@ class Outcome:
     @property
     def forces_jacobian(self, /) -> NDArray[float64]:
         """
-        Its derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
+        Derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
         """
     @property
     def overstretch(self, /) -> NDArray[float64]:
@@ -893,7 +893,7 @@ class Outcome:
     @property
     def overstretch_jacobian(self, /) -> NDArray[float64]:
         """
-        Its derivatives to the grippers' positions, shape (catenaries, grippers, 3).
+        Derivatives to the grippers' positions, shape (catenaries, grippers, 3).
         """
     @property
     def result(self, /) -> Result:
@@ -908,7 +908,7 @@ class Outcome:
     @property
     def shear_jacobian(self, /) -> NDArray[float64]:
         """
-        Its derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
+        Derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
         """
     @property
     def tilts(self, /) -> NDArray[float64]:
@@ -918,7 +918,7 @@ class Outcome:
     @property
     def tilts_jacobian(self, /) -> NDArray[float64]:
         """
-        Its derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
+        Derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
         """
 
 @final
@@ -1425,7 +1425,7 @@ class Result:
     @property
     def mold(self, /) -> Mold | None:
         """
-        Its mold, if any.
+        Mold, if any.
         """
     def mold_surface(
         self, /, *, most: SupportsIndex = 20000
@@ -1867,7 +1867,7 @@ class Result:
         """
         Everything over the steps as one labeled data set. Needs xarray.
 
-        Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array) and `xyz`, and where
+        The dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array) and `xyz`, and where
         catenaries were draped `catenary`, `cell_u` and `cell_v`; every variable has its `units` and `long_name`. Names and units are
         those of the properties.
 
@@ -2347,7 +2347,7 @@ class Scene:
     @property
     def title(self, /) -> str:
         """
-        Its name for reports.
+        Name for reports.
         """
     def to_dict(self, /) -> dict[str, typing.Any]:
         """
@@ -2592,7 +2592,7 @@ class Sheet:
         """
         All states as one labeled data set. Needs xarray.
 
-        Its dimensions are `state`, `node`, `segment`, `cell`, `gripper` and `xyz`; every variable has its `units` and `long_name`.
+        The dimensions are `state`, `node`, `segment`, `cell`, `gripper` and `xyz`; every variable has its `units` and `long_name`.
         Names and units are those of the properties.
 
         Returns
