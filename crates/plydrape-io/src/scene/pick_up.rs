@@ -2,10 +2,11 @@
 
 use super::file::{MotionKind, PickUpTable, SceneKeys};
 use super::located::Located;
-use super::quantity::{Length, Quantity, Time, rounded};
+use super::quantity::{Length, Quantity, Time};
 use super::source::Document;
 use super::usual;
 use crate::Error;
+use crate::text::table::significant;
 use plydrape::layup::{Layup, Model, PickUp};
 use plydrape::motion::Motion;
 
@@ -63,8 +64,9 @@ pub(super) fn pick_up(
             return Err(document.error(
                 span.clone(),
                 format!(
-                    "the motion's file begins up to {} mm above the table, with a ply in the air",
-                    shown(low - height)
+                    "the motion's file begins at z = {} mm, and the ply lies at {} mm",
+                    shown(low),
+                    shown(height)
                 ),
                 "let it begin with the pads on the flat ply, or leave out [pick_up]",
             ));
@@ -75,8 +77,12 @@ pub(super) fn pick_up(
     if low - height < LEAST_LIFT * layup.ply.shorter_side() {
         return Err(document.error(
             span.clone(),
-            format!("the grippers would hang the ply {} mm above the table, too low for it to hang free", shown(low - height)),
-            "raise `height` in [grippers], or lower the table",
+            format!(
+                "the grippers hang the ply from z = {} mm, too low over its table at {} mm for it to hang free",
+                shown(low),
+                shown(height)
+            ),
+            "raise `height` in [grippers], or lower the table of [pick_up]",
         ));
     }
     let lift = pick_up.lift(&layup.ply, &start);
@@ -145,5 +151,5 @@ fn lifted(motion: &Motion, lift: Vec<Vec<[f64; 3]>>) -> Motion {
 
 /// A length in millimeters for a message.
 fn shown(length: f64) -> String {
-    rounded(1e3 * length).to_string()
+    significant(1e3 * length)
 }

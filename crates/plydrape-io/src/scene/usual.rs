@@ -297,7 +297,7 @@ mod tests {
     /// unit, and what is proposed is not refused for its unit.
     #[test]
     fn a_number_in_another_unit_is_asked_about() {
-        let cases: [(&str, &str, &str); 42] = [
+        let cases: [(&str, &str, &str); 44] = [
             ("ply", "cell = [100, 100]", "100 mm"),
             ("ply", "overhang = 20", "20 mm"),
             ("ply", "thickness = 0.3", "0.3 mm"),
@@ -344,11 +344,14 @@ mod tests {
             ("sheet", "mesh = 5", "5 mm"),
             ("contact", "tolerance = 0.2", "0.2 mm"),
             ("release", "dwell = 500", "500 ms"),
+            ("pick_up", "clearance = 50", "50 mm"),
+            ("pick_up", "grip = 500", "500 ms"),
         ];
         let mut missed = Vec::new();
         for (table, line, meant) in cases {
             let kind = match table {
                 "motion" => "kind = \"straight\"\n",
+                "pick_up" => "height = \"0 mm\"\n",
                 "[bodies]" => "name = \"cup\"\non = \"pad\"\n",
                 _ => "",
             };
