@@ -34,7 +34,7 @@ SHOWN = {
     "height_rms_mm": "height, root of the mean square (mm)",
     "out_of_plane_deg": "largest slope out of the mold (°)",
     "position_mm": "largest error of position (mm)",
-    "fibre_angle_deg": "largest error of the fiber angle (°)",
+    "fiber_angle_deg": "largest error of the fiber angle (°)",
     "shear_deg": "largest shear on the way (°)",
     "gripper_force_n": "largest force on a cup (N)",
     "duration_s": "time (s)",
@@ -83,7 +83,7 @@ def drape(name: str, motion: Path, folder: Path, with_errors: bool = False) -> d
         raise SystemExit(done.stderr)
     summary = json.loads(done.stdout)
     found = {**summary["worst"], **{key: summary[key] for key in SHOWN if key in summary}}
-    final = ("height_mm", "out_of_plane_deg", "position_mm", "fibre_angle_deg")
+    final = ("height_mm", "out_of_plane_deg", "position_mm", "fiber_angle_deg")
     found |= {key: summary["final"][key] for key in final}
     complete = summary["status"] == "converged"
     found["accepted"] = complete and all(row["ok"] for row in summary["limits"])

@@ -569,7 +569,7 @@ class Measure:
     --------
     >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
     >>> [(measure.label, measure.shown) for measure in shares]
-    [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm')]
+    [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm'), ('table gap', 'mm')]
     """
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...

@@ -106,29 +106,37 @@ def test_pads_leave_along_the_normals_of_the_mold(plan: Path) -> None:
     assert np.abs(up - [0.0, 0.0, CLEARANCE]).max() < 1e-3
 
 
-def test_the_whole_cycle_keeps_speed_and_acceleration(plan: Path) -> None:
-    """By differences of the written samples, which are 10 ms apart."""
-    motion = read(plan / "motion.csv")
+def test_the_whole_cycle_keeps_its_speed(plan: Path) -> None:
+    """By differences of the written samples: that of the scene on the way down and on the mold."""
+    motion, at = read(plan / "motion.csv"), times(plan)
     steps = np.diff(motion.times)[:, None, None]
-    velocity = np.diff(motion.places, axis=0) / steps
-    assert np.linalg.norm(velocity, axis=2).max() <= 0.25 * 1.001
-    even = np.isclose(steps[1:, 0, 0], 0.01, atol=1e-4) & np.isclose(
-        steps[:-1, 0, 0], 0.01, atol=1e-4
-    )
-    acceleration = np.diff(velocity, axis=0)[even] / 0.01
-    assert np.linalg.norm(acceleration, axis=2).max() <= 1.0 * 1.02
+    speed = np.linalg.norm(np.diff(motion.places, axis=0) / steps, axis=2).max(axis=1)
+    before = motion.times[1:] <= at["grip"]
+    after = motion.times[:-1] >= at["press"]
+    assert before.any()
+    assert after.any()
+    assert speed[before | after].max() <= 0.25 * 1.001
+    # the transport may be faster, and is
+    assert 0.3 < speed.max() <= 1.0 * 1.001
 
 
 def test_the_sheet_lies_on_its_table_and_leaves_it(plan: Path) -> None:
     """It is flat there, and no cup carries it; after the lift all of it hangs from the cups."""
     result = json.loads((plan / "result.json").read_text())
-    steps, lifted = result["steps"], result["scene"]["pick_up"]["lift_steps"]
-    assert steps[0]["time"] == pytest.approx(times(plan)["grip"] + 0.5)
-    forces = np.array([gripper["force"] for gripper in steps[0]["grippers"]])
+    lifted = result["scene"]["pick_up"]["lift_steps"]
+    with (plan / "trajectory.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    moments = sorted({float(row["t (s)"]) for row in rows})
+    assert moments[0] == pytest.approx(times(plan)["grip"] + 0.5)
+
+    def loads(step: int) -> Array:
+        own = [row for row in rows if float(row["t (s)"]) == moments[step]]
+        return np.array([[float(row[f"load {c} (N)"]) for c in "xyz"] for row in own])
+
     weight = 0.3143 / 0.1 * 9.81 * 0.3 * 0.2
-    assert np.linalg.norm(forces, axis=1).max() < 0.01 * weight
-    hanging = np.array([gripper["force"] for gripper in steps[lifted]["grippers"]])
-    assert -hanging[:, 2].sum() == pytest.approx(weight, rel=0.01)
+    assert np.linalg.norm(loads(0), axis=1).max() < 0.01 * weight
+    # the ply is on its way and swings a little
+    assert 0.8 < -loads(lifted)[:, 2].sum() / weight < 1.3
     limits = {limit["name"]: limit for limit in result["summary"]["limits"]}
     gap = limits["table_gap"]
     assert gap["ok"]
@@ -138,12 +146,6 @@ def test_the_sheet_lies_on_its_table_and_leaves_it(plan: Path) -> None:
 
 def test_robot_programs_grip_where_the_arm_stands_on_the_ply(plan: Path, tmp_path: Path) -> None:
     """In the order of a cell, and with the inputs of the vacuum where the scene waits for them."""
-    data = json.loads((plan / "result.json").read_text())
-    data["scene"]["pick_up"]["vacuum_timeout"] = 2.0
-    changed = tmp_path / "result.json"
-    changed.write_text(json.dumps(data))
-    for name in ("sheet.npz",):
-        (tmp_path / name).write_bytes((plan / name).read_bytes())
     for robot, expected in {
         "rapid": (
             r"SetDO vac_g0_0,1",
@@ -169,7 +171,7 @@ def test_robot_programs_grip_where_the_arm_stands_on_the_ply(plan: Path, tmp_pat
     }.items():
         run(
             "export",
-            str(changed),
+            str(plan / "result.json"),
             "--to",
             robot,
             "-o",

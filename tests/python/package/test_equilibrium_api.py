@@ -205,7 +205,7 @@ def test_a_span_agrees_with_the_command_line_and_the_limp_limit() -> None:
             run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-5, slopes=slopes
         )
         assert held.slopes[0] == pytest.approx(0.1, abs=1e-12)
-    with pytest.raises(ValueError, match="run is 0; a positive number"):
+    with pytest.raises(ValueError, match="run is 0; expected a positive number"):
         plydrape.Span(run=0.0, length=0.1, weight=3.0, flexural_rigidity=0.0)
 
 

@@ -223,13 +223,13 @@ def test_wrong_arguments_say_what_is_wanted() -> None:
     scene = plydrape.Scene.read(EXAMPLE)
     result = plydrape.simulate(scene, model="catenaries")
     solver = plydrape.Solver.of(scene)
-    with pytest.raises(ValueError, match=r"shape \(2, 7, 3\); \(steps, 8, 3\)"):
+    with pytest.raises(ValueError, match=r"shape \(2, 7, 3\); expected \(steps, 8, 3\)"):
         scene.with_motion([0, 1], np.zeros((2, 7, 3)))
     with pytest.raises(ValueError, match="time of step 2"):
         scene.with_motion([0, 0], scene.positions[:2])
     with pytest.raises(ValueError, match="NaN"):
         solver.solve(np.full((8, 3), np.nan))
-    with pytest.raises(ValueError, match=r"shape \(7, 3\); \(8, 3\)"):
+    with pytest.raises(ValueError, match=r"shape \(7, 3\); expected \(8, 3\)"):
         solver.solve(np.zeros((7, 3)))
     with pytest.raises(IndexError, match="no step 31"):
         result.lines(31)

@@ -219,9 +219,9 @@ def test_a_scene_without_a_sheet_is_refused_before_anything_runs() -> None:
         with pytest.raises(plydrape.SceneError, match="tension") as refused:
             call()
         assert refused.value.help
-    with pytest.raises(ValueError, match='model is "cloth"; "sheet" or "catenaries"'):
+    with pytest.raises(ValueError, match='model is "cloth"; expected "sheet" or "catenaries"'):
         plydrape.simulate(scene, model="cloth")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match='also is "cloth"; "sheet" or "catenaries"'):
+    with pytest.raises(ValueError, match='also is "cloth"; expected "sheet" or "catenaries"'):
         plydrape.simulate(scene, also="cloth")  # type: ignore[arg-type]
     with pytest.raises(plydrape.SceneError, match="beside the one that decides is that one"):
         plydrape.simulate(scene, also="catenaries")
