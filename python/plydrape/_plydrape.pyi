@@ -2046,6 +2046,8 @@ class Scene:
         What holds the ply and how far it may be off, where `grippers` and `errors` do not say so.
     errors : dict, optional
         How far a real cell may be from the scene.
+    pick_up : dict, optional
+        How the ply is picked up from a table.
     release : dict, optional
         When the pads let go of the ply.
     tool : dict, optional
@@ -2091,6 +2093,7 @@ class Scene:
         plan: dict[str, typing.Any] | None = None,
         cell: dict[str, typing.Any] | None = None,
         errors: dict[str, typing.Any] | None = None,
+        pick_up: dict[str, typing.Any] | None = None,
         release: dict[str, typing.Any] | None = None,
         tool: dict[str, typing.Any] | None = None,
         bodies: typing.Sequence[dict[str, typing.Any]] | None = None,

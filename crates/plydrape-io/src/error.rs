@@ -284,6 +284,7 @@ impl From<Cause> for Error {
     fn from(cause: Cause) -> Self {
         let help = match cause {
             Cause::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
+            Cause::CatenariesPickUp => "drape it by the sheet alone, or leave out [pick_up]",
             Cause::CatenariesMounts { .. } => {
                 "take the sheet (kind = \"sheet\" in [model]) and its planner (method = \"path\" in [plan]) alone, or leave out `stiffness` in [grippers]"
             }

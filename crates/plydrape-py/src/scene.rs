@@ -53,6 +53,8 @@ use toml::map::Map;
 ///     What holds the ply and how far it may be off, where `grippers` and `errors` do not say so.
 /// errors : dict, optional
 ///     How far a real cell may be from the scene.
+/// pick_up : dict, optional
+///     How the ply is picked up from a table.
 /// release : dict, optional
 ///     When the pads let go of the ply.
 /// tool : dict, optional
@@ -116,7 +118,8 @@ impl Scene {
         motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
         sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
         limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
-        cell: "dict[str, typing.Any] | None" = None, errors: "dict[str, typing.Any] | None" = None, release: "dict[str, typing.Any] | None" = None,
+        cell: "dict[str, typing.Any] | None" = None, errors: "dict[str, typing.Any] | None" = None, pick_up: "dict[str, typing.Any] | None" = None,
+        release: "dict[str, typing.Any] | None" = None,
         tool: "dict[str, typing.Any] | None" = None,
         bodies: "typing.Sequence[dict[str, typing.Any]] | None" = None,
         obstacles: "typing.Sequence[dict[str, typing.Any]] | None" = None,
@@ -137,6 +140,7 @@ impl Scene {
         plan: Table<'_, '_>,
         cell: Table<'_, '_>,
         errors: Table<'_, '_>,
+        pick_up: Table<'_, '_>,
         release: Table<'_, '_>,
         tool: Table<'_, '_>,
         bodies: Option<&Bound<'_, PyAny>>,
@@ -179,6 +183,7 @@ impl Scene {
             ("plan", plan),
             ("cell", cell),
             ("errors", errors),
+            ("pick_up", pick_up),
             ("release", release),
             ("tool", tool),
         ];
@@ -558,6 +563,10 @@ impl Scene {
             scene.title = title;
         }
         scene.layup.motion = motion;
+        // where the lift ends is known of the scene's own motion alone
+        if let Some(pick_up) = &mut scene.layup.pick_up {
+            pick_up.lift_steps = 0;
+        }
         Ok(Scene(Arc::new(scene), Origin { motion: true, ..self.1.clone() }))
     }
 

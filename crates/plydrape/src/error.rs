@@ -186,6 +186,9 @@ pub enum Error {
     /// No catenaries hang in the ply.
     #[error("no catenaries hang between the grippers of this ply; the sheet can drape it")]
     NoCatenaries,
+    /// The ply is lifted from a table, which catenaries do not know.
+    #[error("catenaries know no table from which a ply could be lifted")]
+    CatenariesPickUp,
     /// Grippers are on mounts that give, which catenaries do not follow.
     #[error(
         "catenaries hold their grippers rigidly, and the mounts of these grippers give: {}",

@@ -170,6 +170,29 @@ def test_keyword_arguments_are_a_scene_file() -> None:
     assert one.to_dict()["steps"] == other.to_dict()["steps"]
 
 
+def test_a_ply_is_picked_up_from_keywords_too() -> None:
+    """The pads stand on the table, as far apart as the fabric; another motion has its own lift."""
+    scene = plydrape.Scene(
+        ply={"grippers": [3, 2], "cell": [0.1, 0.1], "material": "krogh2018"},
+        mold={"kind": "plane", "point": [0, 0, "-200 mm"]},
+        grippers={"spacing": ["98 mm", "98 mm"], "height": "60 mm"},
+        motion={"kind": "hold"},
+        sheet={"mesh": "25 mm"},
+        pick_up={"height": "10 mm"},
+    )
+    first, last = scene.positions[0].reshape(-1, 3), scene.positions[-1].reshape(-1, 3)
+    assert first[:, 2] == pytest.approx(0.01)
+    assert np.linalg.norm(first[1] - first[0]) == pytest.approx(0.1)
+    assert last[:, 2] == pytest.approx(0.06)
+    gap = plydrape.simulate(scene).limits["table_gap"]
+    assert gap.kept
+    assert gap.step == len(scene.times)
+    moved = scene.with_motion(scene.times, scene.positions)
+    assert "table_gap" not in plydrape.simulate(moved).limits
+    with pytest.raises(ValueError, match="know no table"):
+        plydrape.simulate(scene, also="catenaries")
+
+
 def test_a_mold_of_triangles_is_the_mold_of_its_file(tmp_path: Path) -> None:
     """A scene on triangles from Python against the same triangles read from a file."""
     folder = ROOT / "examples" / "08_stl_mold"

@@ -107,7 +107,7 @@ pub(super) fn scene(
     }
     models.check_built(&layup)?;
     if let Some(table) = &file.pick_up {
-        pick_up(table, file, &mut layup, document)?;
+        pick_up(table, file, &mut layup, models.has_also(), document)?;
     }
     let title = title(file.title.as_ref(), document, base)?;
     let thickness = file.ply.value.thickness.as_ref();

@@ -6,7 +6,6 @@ use super::quantity::{Length, Quantity, Time};
 use super::source::Document;
 use super::usual;
 use crate::Error;
-use crate::text::table::significant;
 use plydrape::layup::{Layup, Model, PickUp};
 use plydrape::motion::Motion;
 
@@ -19,19 +18,20 @@ const RETREAT: f64 = 0.02;
 /// Height of a start over the table (of the shorter side of a cell) below which nothing could hang free.
 const LEAST_LIFT: f64 = 0.05;
 
-/// Checks the table `[pick_up]` of a scene, and lets the motion of its layup begin on the table.
+/// Checks the table `[pick_up]` of a scene, which may `also` be draped by the other model, and lets the motion of its layup begin on the table.
 pub(super) fn pick_up(
     table: &Located<PickUpTable>,
     file: &SceneKeys,
     layup: &mut Layup,
+    also: bool,
     document: &Document,
 ) -> Result<(), Error> {
     let Located { value: keys, span } = table;
-    if layup.settings.model == Model::Catenaries {
+    if layup.settings.model == Model::Catenaries || also {
         return Err(document.error(
             span.clone(),
             "catenaries know no table from which a ply could be lifted",
-            "drape it with the sheet, as kind = \"sheet\" in [model] does, or leave out [pick_up]",
+            "drape it with the sheet alone, as kind = \"sheet\" in [model] does without `also`, or leave out [pick_up]",
         ));
     }
     let (height, obstacle) = on(keys, span, layup, document)?;
@@ -149,7 +149,7 @@ fn lifted(motion: &Motion, lift: Vec<Vec<[f64; 3]>>) -> Motion {
     Motion { times, positions }
 }
 
-/// A length in millimeters for a message.
+/// A length in millimeters for a message, to the micrometer.
 fn shown(length: f64) -> String {
-    significant(1e3 * length)
+    ((1e6 * length).round() / 1e3).to_string()
 }

@@ -23,8 +23,9 @@ impl Measure for TableGap {
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {
         let pick_up = seen.layup.pick_up.filter(|pick_up| pick_up.lift_steps > 0)?;
-        // the step after those of the lift
-        if seen.state.step != pick_up.lift_steps + 1 {
+        // the step after those of the lift, with a ply that nobody has let go of yet
+        let is_lifted = seen.state.step == pick_up.lift_steps + 1;
+        if !is_lifted || !seen.state.grippers.iter().all(|gripper| gripper.holds) {
             return None;
         }
         let points = seen.state.points.iter();

@@ -40,7 +40,7 @@ pub struct Cycle {
 }
 
 impl RecordedMotion {
-    fn of(path: Vec<Vec<[f64; 3]>>, motion: &TimedMotion) -> Self {
+    fn new(path: Vec<Vec<[f64; 3]>>, motion: &TimedMotion) -> Self {
         RecordedMotion { path, spacing: motion.spacing(), law: motion.law() }
     }
 
@@ -119,5 +119,5 @@ fn recorded(
     let stretch = tool_stretch(scene, &motion);
     let motion = if stretch > 1.0 { motion.slowed(stretch) } else { motion };
     let path = TimedMotion::moving(&path);
-    Ok(RecordedMotion::of(path, &motion))
+    Ok(RecordedMotion::new(path, &motion))
 }
