@@ -34,10 +34,17 @@ pub fn example(name: &str) -> Scene {
     plydrape_io::scene::read(&path).unwrap_or_else(|error| panic!("{error}")).scene
 }
 
-/// The result of a scene along its own motion, by the catenaries whichever model the scene chooses.
+/// The result of a scene along its own motion, by the catenaries whichever model the scene chooses: from where a ply that is picked up
+/// hangs in the air, since they know no table.
 pub fn drape(scene: &Scene) -> ResultFile {
     let mut scene = scene.clone();
     scene.layup.settings.model = Model::Catenaries;
+    if let Some(pick_up) = scene.layup.pick_up.take() {
+        let motion = &mut scene.layup.motion;
+        let last = motion.positions.len().saturating_sub(1);
+        motion.positions.drain(..pick_up.lift_steps.min(last));
+        motion.times.truncate(motion.positions.len());
+    }
     drape_until(&scene, usize::MAX)
 }
 
