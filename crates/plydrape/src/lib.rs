@@ -51,7 +51,7 @@
 //!
 //! | stage | what it is |
 //! |---|---|
-//! | [`geometry`], [`mold`], [`material`], [`ply`], [`net`], [`motion`], [`bodies`], [`tool`], [`layup`], [`clearance`], [`state`] | the crate [`plydrape_layup`]: one ply and how it is laid, which every model of the ply drapes |
+//! | [`geometry`], [`mold`], [`material`], [`ply`], [`net`], [`motion`], [`bodies`], [`arm`], [`tool`], [`layup`], [`clearance`], [`placement`], [`state`] | the crate [`plydrape_layup`]: one ply and how it is laid, which every model of the ply drapes |
 //! | [`catenary`], [`elastica`], [`equilibrium`], [`draping`] | the crate [`plydrape_catenary`]: the paper's model, from one span to the motion step by step with contact |
 //! | [`fit`] | material laws from measured tables |
 //! | [`sheet`] | the whole ply as cloth: stretch, shear, bending, contact, friction, pads on mounts |
@@ -91,7 +91,8 @@ pub use plydrape_catenary::{
     Error as CatenaryError, Solver, catenary, draping, elastica, equilibrium,
 };
 pub use plydrape_layup::{
-    Error as LayupError, Layup, Material, Mold, Motion, Ply, Settings, Target, bodies, clearance,
-    geometry, layup, material, mold, motion, net, ply, state, stopwatch, tool,
+    Error as LayupError, Layup, Material, Mold, Motion, Ply, Settings, Target, arm, bodies,
+    clearance, geometry, layup, material, mold, motion, net, placement, ply, state, stopwatch,
+    tool,
 };
 pub use scene::{PlanSettings, Scene};

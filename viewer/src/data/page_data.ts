@@ -88,7 +88,7 @@ export interface Solid extends MoldData {
 /** What the grippers carry, what stands in the cell, and the tool of a robot. */
 export interface CellData {
   /** In the coordinates of what they move with. */
-  bodies: (Solid & { on: "pad" | "stem" | "flange" })[];
+  bodies: (Solid & { on: "pad" | "stem" | "flange" | { link: number } })[];
   obstacles: Solid[];
   /** Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange; null without a tool. */
   mounts: number[] | null;
@@ -185,7 +185,7 @@ export interface DrapeData {
   measures: Measure[];
   fields: Field[];
   grippers: GrippersData;
-  /** The pads, the stems, and of a tool the flange: a place in micrometers and a quaternion in millionths. */
+  /** The pads, the stems, of a tool the flange, and of an arm its links: a place in micrometers and a quaternion in millionths. */
   origins: Block | null;
   catenaries: CatenariesData | null;
   sheet: SheetData | null;

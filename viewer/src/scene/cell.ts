@@ -74,7 +74,9 @@ export class Cell {
       stem: every.map((n) => grippers + n),
       flange: mounts === null ? [] : [2 * grippers],
     };
-    const parts = bodies.map((body) => part(body, origins[body.on]));
+    const places = (on: (typeof bodies)[number]["on"]) =>
+      typeof on === "string" ? origins[on] : [2 * grippers + 1 + on.link];
+    const parts = bodies.map((body) => part(body, places(body.on)));
     this.moving = parts.length === 0 ? null : new Solids(parts, OPACITY.moving, push);
     const fixed = obstacles.map((obstacle) => part(obstacle, [0]));
     this.standing = fixed.length === 0 ? null : new Solids(fixed, OPACITY.standing, push);

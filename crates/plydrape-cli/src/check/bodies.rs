@@ -13,6 +13,7 @@ pub(super) fn bodies(scene: &Scene) -> Vec<SummaryLine> {
             Mount::Pad => "each pad",
             Mount::Stem => "each stem",
             Mount::Flange => "the flange",
+            Mount::Link(_) => "the arm",
         };
         format!("{} on {on}: {}", shown::escaped(&body.name), shape(&body.shape))
     });

@@ -128,9 +128,16 @@ pub(super) fn tool(scene: &Scene) -> Vec<SummaryLine> {
         format!("({x}, {y}, {z}) mm, its {} along ({a}, {b}, {c})", ["x", "y", "z"][axis])
     };
     let turns = format!("turns by {rate} deg/s, {acceleration} deg/s²{residual}");
-    vec![
+    let mut lines = vec![
         ("tool", format!("one frame, {axes}{joints}; {turns}")),
         ("", format!("flange in the frame at {}", place(&tool.flange, 2))),
         ("", format!("scene in the robot's world at {}", place(&tool.world, 0))),
-    ]
+    ];
+    if let Some(arm) = &tool.arm {
+        let reach = millimeters(arm.reach());
+        let text =
+            format!("{}, its chain from the shoulder to the flange {reach} mm long", arm.name);
+        lines.push(("robot", text));
+    }
+    lines
 }

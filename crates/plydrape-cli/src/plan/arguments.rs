@@ -2,8 +2,12 @@
 
 use crate::failure::Failure;
 use crate::model::ModelName;
+use crate::numbers::{degrees, millimeters};
+use crate::outcome::warn;
 use crate::results::Results;
 use clap::{ValueEnum, value_parser};
+use plydrape::geometry::Pose;
+use plydrape::measure::Name;
 use plydrape::scene::PlanMethod;
 use plydrape_io::Diagnostic;
 use plydrape_io::scene::SceneFile;
@@ -83,6 +87,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "compare")]
     pub(super) anyway: bool,
 
+    /// Look first for the place of the scene in the robot's world where its arm follows best, and plan there; `world` of [tool] does not count.
+    #[arg(long)]
+    pub(super) place: bool,
+
     /// Go on from the folder of an earlier run: of one that was cut off, to the plan that it would have found.
     #[arg(long = "continue", value_name = "DIR")]
     pub(super) earlier: Option<PathBuf>,
@@ -107,11 +115,35 @@ impl From<Method> for PlanMethod {
 }
 
 impl Arguments {
+    /// Where a scene should stand for its robot, which is said; or why there is no such place, and what to do.
+    fn placed(&self, scene: &SceneFile) -> Result<Pose, (&'static str, &'static str)> {
+        if scene.layup.tool.as_ref().is_none_or(|tool| tool.arm.is_none()) {
+            return Err((
+                "has no [robot]: --place asks where its arm follows the motion",
+                "say in [robot] which arm carries the tool, as in arm = \"ur20\"",
+            ));
+        }
+        let clearance = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+        let found = scene.layup.placement(clearance).ok_or((
+            "has no place where its arm follows from the start to the target within its limits",
+            "choose an arm with a longer reach, let the ply be picked up nearer to its mold, or ask less of the arm in [robot]",
+        ))?;
+        let [x, y, z] = found.world.position.map(millimeters);
+        warn(&[format!(
+            "placed where the arm follows from {} configurations; for the scene: world = {{ position = [\"{x} mm\", \"{y} mm\", \"{z} mm\"], \
+             rotation = [0, 0, \"{} deg\"] }}",
+            found.keeping,
+            degrees(found.yaw)
+        )]);
+        Ok(found.world)
+    }
+
     /// Whether something is asked for that only a scene of one ply has.
     pub(super) fn of_one_ply(&self) -> Option<&'static str> {
-        match (self.compare, self.also) {
-            (true, _) => Some("--compare"),
-            (_, Some(_)) => Some("--also"),
+        match (self.compare, self.also, self.place) {
+            (true, ..) => Some("--compare"),
+            (_, Some(_), _) => Some("--also"),
+            (_, _, true) => Some("--place"),
             _ => None,
         }
     }
@@ -142,6 +174,12 @@ impl Arguments {
         }
         if let Some(refusal) = scene.plan_refusal.take() {
             return Err(Failure::from(*refusal));
+        }
+        if self.place {
+            let world = self.placed(scene).map_err(|(message, help)| refused(message, help))?;
+            if let Some(tool) = &mut scene.layup.tool {
+                tool.world = world;
+            }
         }
         if let Some(method) = self.method {
             scene.plan.method = method.into();

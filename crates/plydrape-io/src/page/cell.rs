@@ -9,6 +9,7 @@ use plydrape::geometry::Pose;
 use plydrape::outcome::Step;
 use plydrape::ply::gripper_name;
 use plydrape::sheet::EventKind;
+use plydrape::tool::Posture;
 use serde::Serialize;
 
 /// Sides of a cylinder as it is drawn.
@@ -75,19 +76,21 @@ pub(super) fn cell(scene: &SceneEcho) -> Option<Cell<'_>> {
     })
 }
 
-/// Where in some steps everything is that moves: the pads, the stems, and of a tool its flange, each as a place in micrometers and a
+/// Where in some steps everything is that moves: the pads, the stems, of a tool its flange, and of its arm the links, each as a place in micrometers and a
 /// quaternion in millionths; `None` where nothing is drawn there.
-pub(super) fn origins(scene: &SceneEcho, steps: &[&Step], form: Form) -> Option<Block> {
+pub(super) fn origins(result: &ResultFile, steps: &[&Step], form: Form) -> Option<Block> {
+    let scene = &result.scene;
     let tool = scene.tool.as_ref();
     if scene.bodies.is_nothing() && tool.is_none() {
         return None;
     }
+    let held = |step: &&Step| step.grippers.iter().map(|g| g.commanded).collect::<Vec<_>>();
+    let postures: Option<Vec<Posture>> =
+        tool.map(|tool| steps.iter().map(|step| tool.posture(&held(step))).collect());
+    let links = arm_links(result, steps, postures.as_deref().unwrap_or_default());
     let mut origins: Vec<i32> = Vec::new();
-    for step in steps {
-        let frame = tool.map(|tool| {
-            let held: Vec<[f64; 3]> = step.grippers.iter().map(|g| g.commanded).collect();
-            tool.posture(&held).frame
-        });
+    for (n, step) in steps.iter().enumerate() {
+        let frame = postures.as_ref().map(|postures| postures[n].frame);
         let mut add = |place: [f64; 3], quaternion: [f64; 4]| {
             origins.extend(micrometers(&place));
             origins.extend(quaternion.map(|c| (c * TURN).round() as i32));
@@ -102,9 +105,24 @@ pub(super) fn origins(scene: &SceneEcho, steps: &[&Step], form: Form) -> Option<
         if let (Some(frame), Some(tool)) = (frame, tool) {
             let flange = frame.compose(&tool.flange);
             add(flange.position, flange.quaternion());
+            for link in links.get(n).into_iter().flatten() {
+                add(link.position, link.quaternion());
+            }
         }
     }
     Some(form.block(steps.len(), 7, origins))
+}
+
+/// Where the links of the arm are in each step, in the configuration of the whole motion; nothing where the arm is not known.
+fn arm_links(result: &ResultFile, steps: &[&Step], postures: &[Posture]) -> Vec<Vec<Pose>> {
+    let Some(tool) = &result.scene.tool else { return Vec::new() };
+    let tool = match result.summary.tool.as_ref().and_then(|record| record.arm) {
+        Some(record) => tool.beginning_as(&record),
+        None => tool.clone(),
+    };
+    let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
+    let course = tool.arm_along(&times, postures, &[]);
+    course.iter().flat_map(|course| &course.angles).map(|angles| tool.links(angles)).collect()
 }
 
 fn carried(body: &Body) -> Carried<'_> {

@@ -90,7 +90,7 @@ impl<'a> Source<'a> {
             measures: courses(&steps, numbers.len(), judged),
             fields,
             grippers: Grippers::new(&steps, &released, decides.then_some(judged), form),
-            origins: cell::origins(&result.scene, &steps, form),
+            origins: cell::origins(result, &steps, form),
             catenaries,
             sheet,
         })

@@ -3,3 +3,4 @@
 pub mod formula;
 pub mod mesh;
 pub mod outline;
+pub mod urdf;

@@ -13,8 +13,13 @@ use plydrape::geometry::Pose;
 use std::ops::Range;
 use std::path::Path;
 
-/// Checks the tables `[[bodies]]` and `[[obstacles]]`; files that they name are relative to `base`.
-pub(super) fn bodies(file: &SceneKeys, document: &Document, base: &Path) -> Result<Bodies, Error> {
+/// Checks the tables `[[bodies]]` and `[[obstacles]]`, beside the links of an arm; files that they name are relative to `base`.
+pub(super) fn bodies(
+    file: &SceneKeys,
+    links: Vec<Body>,
+    document: &Document,
+    base: &Path,
+) -> Result<Bodies, Error> {
     let reader = Reader { document, base, carried: file.tool.is_some() };
     let mut names: Vec<&Located<String>> = Vec::new();
     let mut bodies = Vec::with_capacity(file.bodies.len());
@@ -36,6 +41,7 @@ pub(super) fn bodies(file: &SceneKeys, document: &Document, base: &Path) -> Resu
             ));
         }
     }
+    bodies.extend(links);
     Ok(Bodies::new(bodies, obstacles))
 }
 

@@ -6,7 +6,7 @@ use super::cut::CupArray;
 use super::diagnostic::hint;
 use super::drawing::WarpChoice;
 use super::errors::errors;
-use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, SceneKeys};
+use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, RobotTable, SceneKeys};
 use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
 use super::model::Models;
@@ -17,7 +17,7 @@ use super::release::release;
 use super::settings::{self, settings};
 use super::source::Document;
 use super::trajectory::trajectory;
-use super::{SceneFile, cut, material, mold, named, rate, start, target, tool, usual};
+use super::{SceneFile, cut, material, mold, named, rate, robot, start, target, tool, usual};
 use crate::Error;
 use crate::read::outline::Drawn;
 use crate::store::shown;
@@ -27,6 +27,7 @@ use plydrape::mold::{MeshReport, Mold};
 use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
 use plydrape::scene::{Cell, Scene};
+use plydrape::tool::Tool;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -77,7 +78,15 @@ pub(super) fn scene(
     places.fits(file.grippers_span(), motion.positions.len())?;
     let sheets = models.check_sheets(&ply, &settings, motion.positions.len())?;
     let plan = plan(&file.plan, ply.grippers(), document)?;
-    let bodies = bodies(file, document, base)?;
+    let (arm, links) = match &file.robot {
+        Some(table) if file.tool.is_none() => return Err(no_tool(table, document)),
+        Some(table) => {
+            let (arm, links) = robot::robot(table, document, base)?;
+            (Some(arm), links)
+        }
+        None => (None, Vec::new()),
+    };
+    let bodies = bodies(file, links, document, base)?;
     let errors = match (&file.errors, cell.errors) {
         (None, None) => None,
         (table, of_cell) => {
@@ -103,7 +112,7 @@ pub(super) fn scene(
         Layup { ply, mold, motion, target, settings, bodies, tool: None, release, pick_up: None };
     let limits = limits(&file.limits, &layup, document)?;
     if let (Some(table), Some(start)) = (&file.tool, layup.motion.positions.first()) {
-        layup.tool = Some(tool::tool(table, &layup, start, &limits, document)?);
+        layup.tool = Some(Tool { arm, ..tool::tool(table, &layup, start, &limits, document)? });
     }
     models.check_built(&layup)?;
     if let Some(table) = &file.pick_up {
@@ -133,6 +142,15 @@ pub(super) fn scene(
         notices: file.limits.notices(),
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
+}
+
+/// Refuses an arm that carries nothing.
+fn no_tool(table: &Located<RobotTable>, document: &Document) -> Error {
+    document.error(
+        table.span.clone(),
+        "an arm carries the frame of a tool, and each gripper of this scene moves by itself",
+        "say in [tool] how the frame carries the grippers",
+    )
 }
 
 /// As [`scene`], on a mold that a program has made and that is read as one of a file is.

@@ -44,6 +44,7 @@ mod rate;
 mod read;
 mod rectangle;
 mod release;
+mod robot;
 mod schema;
 mod settings;
 mod sheet;

@@ -108,6 +108,12 @@ usual! {
     RATE: "a rate of", "Hz", [1.0, 1e3], "machines take 1 Hz to 1000 Hz", &["kHz"];
     /// From a slow frame to the wrist of a robot.
     TURN_ACCELERATION: "an acceleration of", "rad/s^2", [1e-3, 20.0], "frames turn with 0.001 rad/s^2 to 20 rad/s^2", &["deg/s^2"];
+    /// Joints of arms turn once round to either side at most.
+    JOINT: "an angle of", "rad", [0.0, 7.0], "joints turn by up to 7 rad, 400 deg", &["deg"];
+    /// Joints of arms, from the foot of a large one to the wrist of a small one.
+    JOINT_RATE: "a rate of", "rad/s", [0.1, 15.0], "joints turn with 0.1 rad/s to 15 rad/s", &["deg/s"];
+    /// As they come to their speed within some tenths of a second.
+    JOINT_ACCELERATION: "an acceleration of", "rad/s^2", [0.1, 100.0], "joints turn with 0.1 rad/s^2 to 100 rad/s^2", &["deg/s^2"];
     /// Lines of ply, from a veil to a thick fabric of carbon.
     AXIAL: "an axial stiffness of", "N", [1e4, 1e8], "lines of ply have 1e4 N to 1e8 N", &["kN", "MN"];
     /// From a dry fabric to a sticky prepreg.

@@ -86,7 +86,15 @@ pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
     let of_tool = |verdict: &Verdict| {
         matches!(
             verdict.name,
-            Name::ToolResidual | Name::ToolTurnRate | Name::ToolTurnAcceleration | Name::AxisSpeed
+            Name::ToolResidual
+                | Name::ToolTurnRate
+                | Name::ToolTurnAcceleration
+                | Name::AxisSpeed
+                | Name::ArmMiss
+                | Name::JointSpeed
+                | Name::JointAcceleration
+                | Name::JointMargin
+                | Name::ArmSingularity
         )
     };
     limits

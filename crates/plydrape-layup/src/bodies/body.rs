@@ -108,6 +108,8 @@ pub enum Mount {
     Stem,
     /// The robot's flange, of which there is one.
     Flange,
+    /// A link of the robot's arm: 0 is its foot, and each other one is what that joint carries.
+    Link(usize),
 }
 
 /// A body that moves.
@@ -117,7 +119,7 @@ pub enum Mount {
 pub struct Body {
     /// Name for reports.
     pub name: String,
-    /// What it moves with; there is one on every gripper, or one on the flange.
+    /// What it moves with; there is one on every gripper, or one on the flange or a link.
     pub on: Mount,
     /// Shape in the coordinates of that.
     pub shape: Shape,
@@ -166,6 +168,13 @@ impl Bodies {
     #[must_use]
     pub fn new(bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Self {
         Bodies { bodies: bodies.into(), obstacles: obstacles.into(), made: Made::default() }
+    }
+
+    /// Those on the arm alone, and all obstacles.
+    #[must_use]
+    pub fn of_arm(&self) -> Bodies {
+        let links = self.bodies.iter().filter(|body| matches!(body.on, Mount::Link(_)));
+        Bodies::new(links.cloned().collect(), self.obstacles.to_vec())
     }
 
     /// Whether there is nothing that moves, so that nothing is judged.

@@ -14,6 +14,8 @@ pub(super) enum Origin {
     Stem(usize),
     /// The flange.
     Flange,
+    /// A link of the arm.
+    Link(usize),
 }
 
 /// A motion of everything that bodies are mounted on.
@@ -37,6 +39,11 @@ pub(crate) trait Moves {
 
     /// Whether there is a flange.
     fn has_flange(&self) -> bool;
+
+    /// How many links of an arm there are.
+    fn links(&self) -> usize {
+        0
+    }
 }
 
 /// What a body is mounted on, and the distance of its farthest point from there (m).
@@ -47,6 +54,7 @@ pub(crate) struct Straight {
     pads: Vec<Leg>,
     stems: Vec<Leg>,
     flange: Option<Leg>,
+    links: Vec<Leg>,
 }
 
 /// A straight way.
@@ -109,6 +117,7 @@ impl Straight {
             pads: legs(&from.pads, &to.pads),
             stems: legs(&from.stems, &to.stems),
             flange: flange.map(|(a, b)| Leg::new([a, b])),
+            links: legs(&from.links, &to.links),
         }
     }
 
@@ -118,6 +127,7 @@ impl Straight {
             Origin::Stem(n) => &self.stems[n],
             // a body of the flange is judged only where there is one
             Origin::Flange => self.flange.as_ref().unwrap_or(&self.stems[0]),
+            Origin::Link(n) => &self.links[n],
         }
     }
 }
@@ -162,6 +172,10 @@ impl Moves for Straight {
     fn has_flange(&self) -> bool {
         self.flange.is_some()
     }
+
+    fn links(&self) -> usize {
+        self.links.len()
+    }
 }
 
 /// Straight from step to step, the first at time 0, the next at time 1, and so on.
@@ -204,6 +218,10 @@ impl Moves for Legs {
     fn has_flange(&self) -> bool {
         self.0[0].has_flange()
     }
+
+    fn links(&self) -> usize {
+        self.0[0].links.len()
+    }
 }
 
 /// A planned motion in time, with stems upright.
@@ -218,7 +236,7 @@ impl Planned<'_> {
     fn gripper(of: Origin) -> usize {
         match of {
             Origin::Pad(n) | Origin::Stem(n) => n,
-            Origin::Flange => 0,
+            Origin::Flange | Origin::Link(_) => 0,
         }
     }
 }
@@ -228,7 +246,7 @@ impl Moves for Planned<'_> {
         let position = self.motion.gripper_at(Self::gripper(of), time);
         match of {
             Origin::Pad(n) => Pose::of_quaternion(position, self.attitudes.gripper_at(n, time)),
-            Origin::Stem(_) | Origin::Flange => Pose::upright(position),
+            Origin::Stem(_) | Origin::Flange | Origin::Link(_) => Pose::upright(position),
         }
     }
 
@@ -239,7 +257,7 @@ impl Moves for Planned<'_> {
     fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
         match of {
             Origin::Pad(n) => self.attitudes.turn(n, times),
-            Origin::Stem(_) | Origin::Flange => 0.0,
+            Origin::Stem(_) | Origin::Flange | Origin::Link(_) => 0.0,
         }
     }
 

@@ -9,14 +9,16 @@ use super::moves::{Legs, Moves, Origin, Planned, Reach, Straight};
 use super::over_mold::OverMold;
 use super::poses::Poses;
 use super::tuning::TUNING;
+use crate::arm::Angles;
 use crate::bodies::{Apart, Obstacle, Solid, Surface, between_segments};
 use crate::bodies::{Mount, Solids};
 use crate::geometry::Point;
 use crate::geometry::vector::norm;
 use crate::layup::Layup;
 use crate::mold::{Pose, distance};
-use crate::motion::{Attitudes, TimedMotion};
+use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::ply::{Ply, gripper_name};
+use crate::tool::Posture;
 use rayon::prelude::*;
 
 /// A body of one gripper, or of the flange.
@@ -172,18 +174,61 @@ impl Nearest {
             let positions = motion.at(*t);
             Poses::of(layup, &positions, &attitudes.at(*t), &positions)
         };
-        let poses: Vec<Poses> = times.par_iter().map(poses).collect();
-        let legs: Vec<Straight> =
-            poses.par_windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
-        if legs.is_empty() {
-            return at(layup, limit, poses.first()?);
+        let mut poses: Vec<Poses> = times.par_iter().map(poses).collect();
+        // the arm begins where the motion does, also where a part of it is asked for
+        if let Some(tool) = layup.tool.as_ref().filter(|tool| tool.arm.is_some()) {
+            let mut all = [&motion.samples(rate).ok()?[..], &times].concat();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            let postures: Vec<Posture> =
+                all.par_iter().map(|t| tool.posture(&motion.at(*t))).collect();
+            let course = tool.arm_along(&all, &postures, &[])?;
+            for (poses, time) in poses.iter_mut().zip(&times) {
+                let n = all.partition_point(|t| t < time);
+                poses.links = tool.links(&course.angles[n]);
+            }
         }
-        let counts: Vec<f64> = (0..times.len()).map(|n| n as f64).collect();
-        let nearest = along(layup, limit, &Legs(legs), &counts, below)?;
-        let n = (nearest.time as usize).min(times.len() - 2);
-        let time = times[n] + (nearest.time - n as f64) * (times[n + 1] - times[n]);
-        Some(Nearest { time, ..nearest })
+        straight(layup, limit, &times, &poses, below)
     }
+
+    /// The nearest pair of the arm of a tool and what stands in the cell, straight from step to step of a motion; `None` where the arm or its bodies are
+    /// not known.
+    #[must_use]
+    pub fn of_arm(layup: &Layup, limit: f64, motion: &Motion) -> Option<Nearest> {
+        let tool = layup.tool.as_ref()?;
+        let postures: Vec<Posture> =
+            motion.positions.par_iter().map(|places| tool.posture(places)).collect();
+        let course = tool.arm_along(&motion.times, &postures, &[])?;
+        let links = |angles: &Angles| Poses {
+            pads: Vec::new(),
+            stems: Vec::new(),
+            flange: None,
+            links: tool.links(angles),
+        };
+        let poses: Vec<Poses> = course.angles.iter().map(links).collect();
+        let layup = Layup { bodies: layup.bodies.of_arm(), ..layup.clone() };
+        straight(&layup, limit, &motion.times, &poses, f64::INFINITY)
+    }
+}
+
+/// The nearest pair straight from pose to pose at ascending times (s), if it is nearer than `below` (m).
+fn straight(
+    layup: &Layup,
+    limit: f64,
+    times: &[f64],
+    poses: &[Poses],
+    below: f64,
+) -> Option<Nearest> {
+    let legs: Vec<Straight> =
+        poses.par_windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
+    if legs.is_empty() {
+        return at(layup, limit, poses.first()?);
+    }
+    let counts: Vec<f64> = (0..times.len()).map(|n| n as f64).collect();
+    let nearest = along(layup, limit, &Legs(legs), &counts, below)?;
+    let n = (nearest.time as usize).min(times.len() - 2);
+    let time = times[n] + (nearest.time - n as f64) * (times[n + 1] - times[n]);
+    Some(Nearest { time, ..nearest })
 }
 
 /// The nearest pair along a motion through ascending times (s), if it is nearer than `below` (m). No pair comes nearer in between than
@@ -312,7 +357,9 @@ impl<'a> Search<'a> {
                 Mount::Pad => grippers.for_each(|g| add(Some(g), Origin::Pad(g))),
                 Mount::Stem => grippers.for_each(|g| add(Some(g), Origin::Stem(g))),
                 Mount::Flange if moves.has_flange() => add(None, Origin::Flange),
-                Mount::Flange => {}
+                // the foot stands still, on whatever carries it
+                Mount::Link(n) if 0 < n && n < moves.links() => add(None, Origin::Link(n)),
+                Mount::Flange | Mount::Link(_) => {}
             }
         }
         Search {

@@ -14,6 +14,8 @@ pub struct Poses {
     pub stems: Vec<Pose>,
     /// The robot's flange, where one robot carries the grippers.
     pub flange: Option<Pose>,
+    /// The links of its arm, where their places are known: they depend on where the motion began.
+    pub links: Vec<Pose>,
 }
 
 impl Poses {
@@ -26,6 +28,7 @@ impl Poses {
             pads: pads.map(|(p, q)| Pose::of_quaternion(*p, *q)).collect(),
             stems: commanded.iter().map(|p| Pose::upright(*p)).collect(),
             flange: None,
+            links: Vec::new(),
         }
     }
 
@@ -70,6 +73,7 @@ impl Poses {
             pads: self.pads.iter().map(moved).collect(),
             stems: self.stems.iter().map(stem).collect(),
             flange: self.flange.as_ref().map(moved),
+            links: Vec::new(),
         }
     }
 }

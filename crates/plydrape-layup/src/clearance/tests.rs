@@ -38,7 +38,7 @@ fn body(name: &str, on: Mount, shape: Shape) -> Body {
 
 /// Grippers whose pads and stems are turned alike.
 fn free_of(pads: &[Pose]) -> Poses {
-    Poses { pads: pads.to_vec(), stems: pads.to_vec(), flange: None }
+    Poses { pads: pads.to_vec(), stems: pads.to_vec(), flange: None, links: Vec::new() }
 }
 
 fn cylinder(radius: f64, from: f64, to: f64) -> Shape {
@@ -315,6 +315,7 @@ proptest! {
             pads: ends[2 * n..2 * n + 2].to_vec(),
             stems: ends[2 * n..2 * n + 2].to_vec(),
             flange: None,
+            links: Vec::new(),
         };
         let (from, to) = (poses(0), poses(1));
         let found = super::between_steps(&layup, LIMIT, &from, &to).unwrap();
@@ -323,7 +324,7 @@ proptest! {
         for k in 0..=2000 {
             let time = f64::from(k) / 2000.0;
             let pads: Vec<Pose> = (0..2).map(|n| straight.pose(Origin::Pad(n), time)).collect();
-            let now = Poses { stems: pads.clone(), pads, flange: None };
+            let now = Poses { stems: pads.clone(), pads, flange: None, links: Vec::new() };
             least = least.min(super::at(&layup, LIMIT, &now).unwrap().distance);
         }
         let resolution = 0.011 * found.distance.abs().max(LIMIT);

@@ -10,6 +10,7 @@
 
 mod carried;
 mod pick_up;
+
 mod release;
 mod settings;
 

@@ -30,6 +30,10 @@ pub enum Site {
     Frame,
     /// An axis of the tool by its index, at a gripper by its index.
     Axis(usize, usize),
+    /// A joint of the arm by its index.
+    Joint(usize),
+    /// The flange of the arm.
+    Flange,
     /// All edges together.
     AllEdges,
     /// All grippers together.
@@ -75,6 +79,11 @@ impl Site {
                 Some(axis) => format!("axis {} of gripper {}", axis.name, name(n)),
                 None => format!("gripper {}", name(n)),
             },
+            Site::Joint(n) => match layup.tool.as_ref().and_then(|tool| tool.arm.as_ref()) {
+                Some(arm) => arm.joints.get(n).map_or_else(String::new, |joint| joint.name.clone()),
+                None => format!("joint {}", n + 1),
+            },
+            Site::Flange => "the flange".into(),
             Site::AllEdges => "all edges".into(),
             Site::AllGrippers => "all grippers".into(),
             Site::Nowhere => "nowhere".into(),

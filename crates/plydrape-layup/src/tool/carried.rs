@@ -4,6 +4,7 @@ use super::rates::turn_between;
 use super::tuning::TIPS;
 use super::{Axis, Posture, Tool};
 use crate::Error;
+use crate::arm::ArmRecord;
 use crate::geometry::vector::{distance, dot, norm, sub};
 use rayon::prelude::*;
 
@@ -36,6 +37,9 @@ pub struct ToolRecord {
     /// The stroke that is missing most; none where all are long enough.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub missing: Option<MissingStroke>,
+    /// The arm along the motion; `None` where it is not known.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub arm: Option<ArmRecord>,
 }
 
 /// A stroke that a motion asks for beyond an end of its axis.
@@ -123,6 +127,7 @@ impl Tool {
             strokes_mm: vec![[0.0; 2]; self.axes.len()],
             turn_deg: 0.0,
             missing: None,
+            arm: None,
         };
         for (k, posture) in postures.iter().enumerate() {
             for (n, (a, b)) in asked[k].iter().zip(&positions[k]).enumerate() {

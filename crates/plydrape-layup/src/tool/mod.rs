@@ -24,6 +24,7 @@ pub use carried::{Carried, MissingStroke, ToolRecord};
 pub use posture::Posture;
 pub use rates::{ToolPeaks, turn_between};
 
+use crate::arm::Arm;
 use crate::geometry::vector::sub;
 use crate::mold::Pose;
 
@@ -53,8 +54,11 @@ pub struct Tool {
     pub with_errors: bool,
     /// Where the flange of the robot is in the frame.
     pub flange: Pose,
-    /// Where the origin of the scene is in the world of the robot.
+    /// Where the origin of the scene is in the world of the robot, which is at the foot of its arm.
     pub world: Pose,
+    /// The arm that carries the frame; `None` where it is not known.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub arm: Option<Arm>,
 }
 
 /// Whether a tool makes its motion without errors, which need not be written.
@@ -99,6 +103,7 @@ impl Tool {
             with_errors,
             flange,
             world,
+            arm: None,
         }
     }
 }

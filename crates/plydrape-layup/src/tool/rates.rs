@@ -2,7 +2,9 @@
 
 use super::{Posture, Tool};
 use crate::Error;
+use crate::arm::{Angles, Arm, ArmCourse, ArmPeaks, ArmRecord};
 use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::mold::Pose;
 use crate::motion::{Motion, Peak, TimedMotion};
 use rayon::prelude::*;
 
@@ -17,6 +19,10 @@ pub struct ToolPeaks {
     pub axis_share: Peak,
     /// Which axis that is.
     pub axis: usize,
+    /// What the motion takes of the arm; `None` where it is not known.
+    pub arm: Option<ArmPeaks>,
+    /// The arm along the motion, for reports.
+    pub arm_record: Option<ArmRecord>,
 }
 
 impl ToolPeaks {
@@ -43,6 +49,52 @@ impl Tool {
             times.par_iter().map(|t| self.posture(&motion.at(*t))).collect();
         let all: Vec<usize> = (0..count).collect();
         Ok(self.rates(&times, &postures, &all))
+    }
+
+    /// The arm along a motion as it is written, at a rate (Hz); `None` where it is not known.
+    ///
+    /// # Errors
+    /// The errors of [`TimedMotion::samples`].
+    pub fn arm_course(&self, motion: &TimedMotion, rate: f64) -> Result<Option<ArmCourse>, Error> {
+        if self.arm.is_none() {
+            return Ok(None);
+        }
+        let times = motion.samples(rate)?;
+        let postures: Vec<Posture> =
+            times.par_iter().map(|t| self.posture(&motion.at(*t))).collect();
+        let all: Vec<usize> = (0..times.len()).collect();
+        Ok(self.arm_along(&times, &postures, &all))
+    }
+
+    /// The arm along postures of the tool at ascending times (s); its angular acceleration is taken between the times `apart`, by their
+    /// index. `None` where the arm is not known.
+    #[must_use]
+    pub fn arm_along(
+        &self,
+        times: &[f64],
+        postures: &[Posture],
+        apart: &[usize],
+    ) -> Option<ArmCourse> {
+        let arm = self.arm.as_ref()?;
+        let flange = |p: &Posture| self.world.compose(&p.frame.compose(&self.flange));
+        let poses: Vec<Pose> = postures.iter().map(flange).collect();
+        arm.course(times, &poses, apart)
+    }
+
+    /// The tool whose arm begins in the configuration of a record.
+    #[must_use]
+    pub fn beginning_as(&self, record: &ArmRecord) -> Tool {
+        let start = Some(record.start_deg.map(f64::to_radians));
+        let arm = self.arm.as_ref().map(|arm| Arm { start, ..arm.clone() });
+        Tool { arm, ..self.clone() }
+    }
+
+    /// Where the links of the arm are in the scene at angles of its joints (rad), the foot first; nothing where the arm is not known.
+    #[must_use]
+    pub fn links(&self, angles: &Angles) -> Vec<Pose> {
+        let foot = self.world.inverse();
+        let links = self.arm.iter().flat_map(|arm| arm.links(angles));
+        links.map(|link| foot.compose(&link)).collect()
     }
 
     /// The rates between the steps of a motion, which begins and ends at rest; accelerations over a `window` (s) at least, see
@@ -96,6 +148,9 @@ impl Tool {
             }
             before = (speed, middle, time);
         }
+        let course = self.arm_along(times, postures, apart);
+        found.arm = course.as_ref().map(|course| course.peaks);
+        found.arm_record = course.as_ref().map(ArmCourse::record);
         found
     }
 }

@@ -55,11 +55,14 @@ impl Measure for Clearance {
         if layup.bodies.is_empty() {
             return None;
         }
-        // between the steps of a motion that was given, every step has looked
-        let (Course::Smooth(motion), Some(attitudes)) = (motion, whole.attitudes) else {
-            return None;
+        let nearest = match (motion, whole.attitudes) {
+            (Course::Smooth(motion), Some(attitudes)) => {
+                Nearest::of_motion(layup, least(limits), rate, motion, attitudes)?
+            }
+            // between the steps of a motion that was given, every step has looked, but not at the arm
+            (Course::Steps(motion), _) => Nearest::of_arm(layup, least(limits), motion)?,
+            (Course::Smooth(_), None) => return None,
         };
-        let nearest = Nearest::of_motion(layup, least(limits), rate, motion, attitudes)?;
         Some((found(&nearest, nearest.time), Some(nearest.time)))
     }
 }

@@ -12,6 +12,8 @@
 //! 4. `record`: what a result file keeps of measures.
 
 mod acceleration;
+mod arm_miss;
+mod arm_singularity;
 mod axis_speed;
 mod bound;
 mod bridging;
@@ -31,6 +33,9 @@ mod gripper_pull;
 mod height;
 mod holding;
 mod jerk;
+mod joint_acceleration;
+mod joint_margin;
+mod joint_speed;
 mod judge;
 mod landing_error;
 mod landing_gripper;
@@ -362,6 +367,11 @@ measures! {
     tool_turn_rate: ToolTurnRate,
     tool_turn_acceleration: ToolTurnAcceleration,
     axis_speed: AxisSpeed,
+    arm_miss: ArmMiss,
+    joint_speed: JointSpeed,
+    joint_acceleration: JointAcceleration,
+    joint_margin: JointMargin,
+    arm_singularity: ArmSingularity,
     tool_residual: ToolResidual,
     missing_nodes: MissingNodes,
     off_mold: OffMold,

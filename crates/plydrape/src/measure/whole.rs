@@ -2,6 +2,7 @@
 
 use super::observation::rate_window;
 use super::{Found, Limits, Name, Verdict, Worst};
+use crate::arm::ArmRecord;
 use crate::layup::Layup;
 use crate::motion::{Attitudes, Motion, Peak, Peaks, TimedMotion};
 use crate::state::Site;
@@ -89,9 +90,13 @@ impl Course<'_> {
     }
 }
 
-/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged. The transport ends at one of the steps.
+/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged, and the arm along it. The transport ends at one of the steps.
 #[must_use]
-pub(crate) fn verdicts_of_steps(layup: &Layup, limits: &Limits, last_free: usize) -> Vec<Verdict> {
+pub(crate) fn verdicts_of_steps(
+    layup: &Layup,
+    limits: &Limits,
+    last_free: usize,
+) -> (Vec<Verdict>, Option<ArmRecord>) {
     let (carried, _) = layup.carried();
     let motion = &carried.motion;
     let window = rate_window(motion.times.last().copied().unwrap_or(0.0));
@@ -109,7 +114,7 @@ pub(crate) fn verdicts_of_steps(layup: &Layup, limits: &Limits, last_free: usize
         tool: tool.as_ref(),
         rate: 0.0,
     };
-    whole.verdicts()
+    (whole.verdicts(), tool.and_then(|peaks| peaks.arm_record))
 }
 
 impl WholeMotion<'_> {

@@ -190,7 +190,11 @@ impl Summary {
     /// Judges the motion of a layup in time by its steps, as it was given.
     pub fn judge_motion(&mut self, layup: &Layup, limits: &Limits) {
         let last_free = self.last_free(layup.motion.times.len());
-        self.judge_also(measure::verdicts_of_steps(layup, limits, last_free));
+        let (verdicts, arm) = measure::verdicts_of_steps(layup, limits, last_free);
+        self.judge_also(verdicts);
+        if let Some(tool) = &mut self.tool {
+            tool.arm = arm;
+        }
         self.judge_rest(layup, limits);
     }
 

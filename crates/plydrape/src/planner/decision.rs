@@ -173,6 +173,9 @@ impl Decision {
             tool: peaks.as_ref(),
             rate,
         };
+        if let Some(tool) = &mut summary.tool {
+            tool.arm = peaks.and_then(|peaks| peaks.arm_record);
+        }
         summary.judge_also(infeasible_limits(scene));
         summary.judge_also(own_limits);
         summary.judge_also(whole.verdicts());

@@ -12,7 +12,7 @@ const CRATES: [(&str, &str); 8] = [
     ),
     (
         "plydrape-layup",
-        "gripper error stopwatch geometry mold material ply net motion bodies tool layup clearance state",
+        "gripper error stopwatch geometry mold material ply net motion bodies arm tool layup clearance placement state",
     ),
     ("plydrape-catenary", "error catenary elastica equilibrium draping sensitivity stepwise"),
     ("plydrape", "error fit sheet pick_up measure errors scene outcome planner"),

@@ -6,11 +6,13 @@ use super::pose::{angle, euler_zyx, quaternion, rotation_vector};
 use super::sampling::Track;
 use super::template::Robot;
 use super::{EventKind, Program, cam};
+use plydrape::arm::Angles;
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::{distance, norm, sub};
 use plydrape::ply::gripper_name;
 use plydrape::tool::turn_between;
 use serde::Serialize;
+use std::f64::consts::FRAC_PI_2;
 
 /// Everything.
 #[derive(Debug, Serialize)]
@@ -124,6 +126,12 @@ pub(super) struct PointOf {
     pub share: f64,
     #[serde(flatten)]
     pub pose: PoseOf,
+    /// Angles of the joints of the arm; empty where it is not known.
+    pub joints: Vec<f64>,
+    /// The configuration for RAPID: the quarter turns of axes 1, 4 and 6, and cfx. Zeros where the arm is not known.
+    pub conf: [i32; 4],
+    /// The configuration for KRL: S and T.
+    pub status: [u32; 2],
     /// Values of the external axes; of the progress where another controller follows it, which ends at 1 m.
     pub axes: Vec<f64>,
     /// The share of the motion that is behind it, from 0 to 1, without the time in which everything rests.
@@ -300,7 +308,13 @@ impl Maker<'_> {
         let ways = axes(sample).into_iter().zip(axes(*from)).map(|(now, then)| (now - then).abs());
         let farthest = ways.fold(0.0, f64::max);
         *from = sample;
+        let arm = program.arm.as_ref();
+        let angles = arm.map(|joints| joints.angles[sample]);
+        let sides = arm.zip(angles).map(|(joints, angles)| joints.arm.sides(&angles));
         PointOf {
+            joints: angles.map_or_else(Vec::new, |angles| angles.to_vec()),
+            conf: angles.zip(sides).map_or([0; 4], |(angles, sides)| conf(&angles, sides)),
+            status: angles.zip(sides).map_or([0; 2], |(angles, sides)| status(&angles, sides)),
             number,
             time: program.times[sample],
             duration,
@@ -315,6 +329,23 @@ impl Maker<'_> {
             stop: passed.radius == 0.0,
         }
     }
+}
+
+/// The quarter turns in which axes 1, 4 and 6 are, and cfx, whose bits are the shoulder, the elbow and the wrist (ABB, RAPID Instructions, Functions
+/// and Data types, `confdata`).
+fn conf(angles: &Angles, [behind, bent_back, negative]: [bool; 3]) -> [i32; 4] {
+    // rounding at a zero is no quarter turn
+    let quarter = |n: usize| ((angles[n] + 1e-9) / FRAC_PI_2).floor() as i32;
+    let cfx = 4 * i32::from(behind) + 2 * i32::from(bent_back) + i32::from(negative);
+    [quarter(0), quarter(3), quarter(5), cfx]
+}
+
+/// S, whose bits are the shoulder, the elbow and the wrist, and T, whose bits are the signs of all axes (KUKA System Software, Operating and
+/// Programming Instructions for System Integrators, "Status and Turn").
+fn status(angles: &Angles, [behind, bent_back, negative]: [bool; 3]) -> [u32; 2] {
+    let status = u32::from(behind) + 2 * u32::from(!bent_back) + 4 * u32::from(negative);
+    let turn = angles.iter().enumerate().map(|(n, angle)| u32::from(*angle < -1e-9) << n).sum();
+    [status, turn]
 }
 
 /// What every file says at its beginning; `names` are those of the program and of this part.

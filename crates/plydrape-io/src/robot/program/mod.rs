@@ -30,6 +30,7 @@ use crate::store::shown;
 use crate::text::table;
 use crate::write::csv;
 use plydrape::LayupError;
+use plydrape::arm::{Angles, Arm};
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::{cross, dot, norm};
 use plydrape::measure::Name;
@@ -67,6 +68,17 @@ pub struct Program {
     pub vacuum_timeout: Option<f64>,
     /// Where the frames are.
     pub frames: Frames,
+    /// The joints of the arm; `None` where it is not known.
+    pub arm: Option<ArmJoints>,
+}
+
+/// The joints of an arm over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArmJoints {
+    /// The arm.
+    pub arm: Arm,
+    /// The angle of each joint at each time (rad).
+    pub angles: Vec<Angles>,
 }
 
 /// A linear axis that moves a gripper.
@@ -124,6 +136,10 @@ impl Program {
         let all: Vec<GripperId> = (0..ply.grippers()).map(|n| ply.id(n)).collect();
         let event = |time, kind| Event { time, kind, grippers: all.clone() };
 
+        let arm = match &result.scene.tool {
+            Some(tool) => arm_joints(result, tool, &times, &pads),
+            None => None,
+        };
         let (flange, axes, frames) = match &result.scene.tool {
             Some(tool) => {
                 let (flange, axes) = carried(tool, &mut pads, &all);
@@ -161,6 +177,7 @@ impl Program {
             events,
             vacuum_timeout: result.scene.pick_up.and_then(|pick_up| pick_up.vacuum_timeout),
             frames,
+            arm,
         };
         program.check()?;
         Ok(program)
@@ -203,6 +220,9 @@ impl Program {
         };
         let tilts =
             |pad: &Pad| pad.tilts.len() == count && pad.tilts.iter().all(|tilt| tilt.is_finite());
+        let joints = |arm: &ArmJoints| {
+            arm.angles.len() == count && arm.angles.as_flattened().iter().all(|x| x.is_finite())
+        };
         let wrong = (self.flange.iter().find(|flange| !poses(flange)).map(|_| "flange"))
             .or_else(|| self.axes.iter().find(|axis| !numbers(axis)).map(|axis| &*axis.name))
             .or_else(|| {
@@ -211,6 +231,7 @@ impl Program {
                     .find(|pad| !(poses(&pad.poses) && tilts(pad)))
                     .map(|pad| &*pad.name)
             });
+        let wrong = wrong.or(self.arm.as_ref().filter(|arm| !joints(arm)).map(|_| "arm"));
         wrong.map_or(Ok(()), |what| {
             let message = format!("{what} has not one finite value for each time of the program");
             Err(Error::not_possible(message, "simulate or plan the scene again"))
@@ -257,6 +278,17 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), Error> {
         }
     };
     Ok((times, pads))
+}
+
+/// The joints of the arm that brings the pads to their places, in the configuration in which the motion was judged.
+fn arm_joints(result: &ResultFile, tool: &Tool, times: &[f64], pads: &[Pad]) -> Option<ArmJoints> {
+    let arm = tool.arm.clone()?;
+    let record = result.summary.tool.as_ref().and_then(|record| record.arm);
+    let tool = record.map_or_else(|| tool.clone(), |record| tool.beginning_as(&record));
+    let places = |k: usize| pads.iter().map(|pad| pad.poses[k].position).collect::<Vec<_>>();
+    let postures: Vec<Posture> = (0..times.len()).map(|k| tool.posture(&places(k))).collect();
+    let angles = tool.arm_along(times, &postures, &[])?.angles;
+    Some(ArmJoints { arm, angles })
 }
 
 /// The flange and the strokes of a tool that brings the pads to their places.

@@ -138,14 +138,11 @@ fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
     let mut files: Files = Vec::new();
     let head = wide::verdict(program);
 
-    if !program.axes.is_empty() {
+    if !program.axes.is_empty() || program.arm.is_some() {
         let trajectory = trajectory::trajectory(program)?;
         finite::check(&trajectory)?;
         bag.latched(TRAJECTORY, schema::JOINTS, &trajectory)?;
-        let alone = match program.flange {
-            Some(_) => ALONE,
-            None => "",
-        };
+        let alone = if program.flange.is_some() && program.arm.is_none() { ALONE } else { "" };
         let text = head.clone() + alone + &yaml(&trajectory)?;
         files.push(("trajectory.yaml".into(), text.into_bytes()));
     }

@@ -11,6 +11,7 @@ mod mold;
 mod pick_up;
 mod plan;
 mod release;
+mod robot;
 mod sheet;
 mod target;
 mod tool;
@@ -23,6 +24,7 @@ pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use pick_up::PickUpTable;
 pub(super) use plan::{MethodKey, PlanTable};
 pub(super) use release::{OrderKey, ReleaseTable};
+pub(super) use robot::{DhTable, RobotTable};
 pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
@@ -85,6 +87,8 @@ pub(super) struct SceneKeys {
     pub errors: Option<ErrorsTable>,
     /// How a robot carries the grippers; each moves by itself unless given.
     pub tool: Option<ToolTable>,
+    /// The arm that carries them.
+    pub robot: Option<Located<RobotTable>>,
     /// How the ply is picked up from a table, and how grippers come and leave. Without it a motion begins with a ply in the air.
     pub pick_up: Option<Located<PickUpTable>>,
     /// When the pads let go of the ply. Without it they hold it to the end.

@@ -98,7 +98,7 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
     let unseen = result.unseen().filter(|_| summary.accepted());
     let why =
         unseen.into_iter().chain(ended(summary)).chain(overstrained(summary).into_iter().flatten());
-    for line in why.chain([forces(result)]).filter(|line| !line.is_empty()) {
+    for line in why.chain([forces(result), tool::arm(result)]).filter(|line| !line.is_empty()) {
         text += &(shown::excerpt(&line, WIDTH) + "\n");
     }
     text + &errors::errors(result) + &beside::line(result)

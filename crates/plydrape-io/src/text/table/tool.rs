@@ -25,6 +25,24 @@ pub(super) fn tool(result: &ResultFile) -> String {
     text + "\n"
 }
 
+/// From how many configurations the arm follows, and where it begins; empty where it is not known.
+pub(super) fn arm(result: &ResultFile) -> String {
+    let arm = result.scene.tool.as_ref().and_then(|tool| tool.arm.as_ref());
+    let found = result.summary.tool.as_ref().and_then(|record| record.arm);
+    let (Some(arm), Some(found)) = (arm, found) else { return String::new() };
+    let name = &arm.name;
+    let start = found.start_deg.map(|angle| format!("{}", angle.round() + 0.0)).join(", ");
+    match (found.configurations, found.keeping) {
+        (0, _) => format!("{name} reaches the first pose in no configuration"),
+        (all, 0) => {
+            format!("{name} follows within its limits from none of {all} configurations")
+        }
+        (all, some) => {
+            format!("{name} follows from {some} of {all} configurations, and begins at ({start})°")
+        }
+    }
+}
+
 /// What the motion of a result would need of its tool, as in `y of g5_1 needs -41 mm, has -40 mm in step 80`: the stroke that is missing most,
 /// where the tool leaves more than its residual may be, or where none is limited more than what counts as touching. `None` where the tool
 /// follows.

@@ -16,7 +16,7 @@ use crate::pick_up::Moved;
 use crate::planner::evaluation::{self, clearance_verdict};
 use crate::scene::Scene;
 use crate::sheet::EventKind;
-use crate::tool::ToolPeaks;
+use crate::tool::{ToolPeaks, ToolRecord};
 
 /// What depends on where the grippers are and when.
 const AGAIN: [Name; 5] =
@@ -156,6 +156,8 @@ impl Outcome<'_> {
             if let Some(planned) = &plan.summary.tool {
                 let kept = carried.residual_mm <= planned.residual_mm;
                 let record = if kept { carried.with_residual_of(planned) } else { carried };
+                let arm = self.tool.and_then(|peaks| peaks.arm_record);
+                let record = ToolRecord { arm, ..record };
                 summary.follow_tool(scene, record);
             }
         }

@@ -1,0 +1,371 @@
+//! Arms of robots in the Unified Robot Description Format: their joints, and the bodies of their links.
+//!
+//! Of a robot the links between a foot and a flange are read, with what is fixed to them. XML is read by the crate `roxmltree`, which
+//! follows no reference to another file and bounds its entities.
+
+use crate::Error;
+use plydrape::arm::{JOINTS, Joint};
+use plydrape::geometry::Pose;
+use plydrape::geometry::vector::unit;
+use roxmltree::{Document, Node};
+use std::collections::BTreeMap;
+
+/// The largest file that is read (bytes).
+pub const LARGEST: u64 = 4 << 20;
+/// The range of a joint that turns without end (rad).
+const ENDLESS: f64 = 1e3;
+
+/// The arm of a robot.
+#[derive(Debug)]
+pub struct Urdf {
+    /// Its name.
+    pub name: String,
+    /// The turning joints from foot to flange.
+    pub joints: [Joint; JOINTS],
+    /// Where the flange is in the frame of the last one.
+    pub flange: Pose,
+    /// Shapes of links: which joint carries each, from 1, or 0 of the foot.
+    pub bodies: Vec<UrdfBody>,
+}
+
+/// A shape of a link.
+#[derive(Debug)]
+pub struct UrdfBody {
+    /// The link's name.
+    pub name: String,
+    /// The joint that carries it, from 1, or 0 of the foot.
+    pub link: usize,
+    /// Where the shape is in that joint's frame.
+    pub pose: Pose,
+    /// The shape.
+    pub shape: UrdfShape,
+}
+
+/// A shape in its own coordinates (m).
+#[derive(Debug)]
+pub enum UrdfShape {
+    /// A cylinder about z, with its middle in the origin.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Length.
+        length: f64,
+    },
+    /// A box with its middle in the origin.
+    Box([f64; 3]),
+    /// A mesh file, by the name that the robot has for it, and the scale of its coordinates.
+    Mesh(String, [f64; 3]),
+}
+
+/// A joint of any kind.
+struct AnyJoint<'a, 'i> {
+    node: Node<'a, 'i>,
+    name: &'a str,
+    kind: &'a str,
+    parent: &'a str,
+    origin: Pose,
+}
+
+/// The file under reading.
+struct Reader<'a, 'i> {
+    file: &'a str,
+    document: &'a Document<'i>,
+    /// The joint that carries each link.
+    carried: BTreeMap<&'a str, AnyJoint<'a, 'i>>,
+}
+
+/// Reads the arm between two links of a robot, by their names: its foot is the link `base` unless another is named, or the link that no joint
+/// carries; its flange is `tool0`, or the one link that carries nothing.
+///
+/// # Errors
+/// [`Error::File`] where the text is no such robot.
+pub fn parse(
+    file: &str,
+    text: &str,
+    foot: Option<&str>,
+    flange: Option<&str>,
+) -> Result<Urdf, Error> {
+    let document = Document::parse(text).map_err(|error| {
+        Error::file(
+            file,
+            format!("{file} is no XML: {error}"),
+            "export the robot as URDF again; of a .xacro file, run `xacro` first",
+        )
+    })?;
+    let robot = document.root_element();
+    if robot.tag_name().name() != "robot" {
+        let message =
+            format!("{file} begins with <{}> and not with <robot>", robot.tag_name().name());
+        return Err(Error::file(file, message, "name a URDF file, which describes a robot"));
+    }
+    let mut reader = Reader { file, document: &document, carried: BTreeMap::new() };
+    for node in children(robot, "joint") {
+        let joint = reader.any_joint(node)?;
+        let child = reader.link_of(node, "child")?;
+        if reader.carried.insert(child, joint).is_some() {
+            return Err(reader.fault(
+                node,
+                format!("two joints carry the link {child}"),
+                "let one joint carry each link",
+            ));
+        }
+    }
+    let links: Vec<&str> =
+        children(robot, "link").filter_map(|link| link.attribute("name")).collect();
+    let known = |name: &str| links.contains(&name);
+    for name in [foot, flange].into_iter().flatten() {
+        if !known(name) {
+            return Err(Error::file(
+                file,
+                format!("{file} has no link {name}"),
+                format!("it has {}", links.join(", ")),
+            ));
+        }
+    }
+    let root = links.iter().copied().find(|link| !reader.carried.contains_key(link));
+    let foot = foot.or(Some("base").filter(|name| known(name))).or(root);
+    let ends = || {
+        links
+            .iter()
+            .copied()
+            .filter(|link| reader.carried.values().all(|joint| joint.parent != *link))
+    };
+    let flange = flange
+        .or(Some("tool0").filter(|name| known(name)))
+        .or_else(|| ends().next().filter(|_| ends().count() == 1));
+    let (Some(foot), Some(flange)) = (foot, flange) else {
+        let message = format!("{file} does not say which of its links is the flange");
+        return Err(Error::file(
+            file,
+            message,
+            format!("add flange = \"...\" to [robot]: one of {}", links.join(", ")),
+        ));
+    };
+    reader.arm(robot.attribute("name").unwrap_or("robot"), foot, flange)
+}
+
+fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.children().filter(move |child| child.has_tag_name(name))
+}
+
+impl<'a, 'i> Reader<'a, 'i> {
+    fn fault(&self, node: Node, message: String, help: impl Into<String>) -> Error {
+        let line = self.document.text_pos_at(node.range().start).row;
+        Error::file(self.file, format!("{}, line {line}: {message}", self.file), help)
+    }
+
+    /// The numbers of an attribute, or those that stand for it.
+    fn numbers<const N: usize>(
+        &self,
+        node: Node,
+        name: &str,
+        usual: Option<[f64; N]>,
+    ) -> Result<[f64; N], Error> {
+        let Some(text) = node.attribute(name) else {
+            return usual.ok_or_else(|| {
+                let tag = node.tag_name().name();
+                self.fault(node, format!("<{tag}> has no {name}"), format!("give it {N} numbers"))
+            });
+        };
+        let numbers: Vec<f64> =
+            text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let numbers =
+            <[f64; N]>::try_from(numbers).ok().filter(|all| all.iter().all(|x| x.is_finite()));
+        numbers.filter(|all| text.split_whitespace().count() == all.len()).ok_or_else(|| {
+            let message = format!(
+                "{name} = \"{}\" are not {N} numbers",
+                crate::store::shown::excerpt(text, 40)
+            );
+            self.fault(
+                node,
+                message,
+                "a .xacro file has formulas where URDF has numbers: run `xacro` first",
+            )
+        })
+    }
+
+    /// The origin of a joint or a shape.
+    fn origin(&self, node: Node) -> Result<Pose, Error> {
+        let Some(origin) = children(node, "origin").next() else { return Ok(Pose::ORIGIN) };
+        let place = self.numbers(origin, "xyz", Some([0.0; 3]))?;
+        Ok(Pose::new(place, self.numbers(origin, "rpy", Some([0.0; 3]))?))
+    }
+
+    fn link_of(&self, node: Node<'a, 'i>, tag: &'a str) -> Result<&'a str, Error> {
+        let link = children(node, tag).next().and_then(|link| link.attribute("link"));
+        link.ok_or_else(|| {
+            self.fault(node, format!("this joint has no {tag}"), "name the links that it joins")
+        })
+    }
+
+    fn any_joint(&self, node: Node<'a, 'i>) -> Result<AnyJoint<'a, 'i>, Error> {
+        Ok(AnyJoint {
+            node,
+            name: node.attribute("name").unwrap_or("joint"),
+            kind: node.attribute("type").unwrap_or(""),
+            parent: self.link_of(node, "parent")?,
+            origin: self.origin(node)?,
+        })
+    }
+
+    /// The links that carry a link one after another, itself first, and where it is in each; no farther than `end`.
+    fn way(&self, link: &'a str, end: &str) -> Result<Vec<(&'a str, Pose)>, Error> {
+        let mut way = vec![(link, Pose::ORIGIN)];
+        let (mut now, mut pose) = (link, Pose::ORIGIN);
+        while let Some(joint) = self.carried.get(now).filter(|_| now != end) {
+            pose = joint.origin.compose(&pose);
+            now = joint.parent;
+            if way.len() > self.carried.len() {
+                return Err(self.fault(
+                    joint.node,
+                    "the links carry each other in a circle".into(),
+                    "let one link carry all",
+                ));
+            }
+            way.push((now, pose));
+        }
+        Ok(way)
+    }
+
+    fn arm(&self, name: &str, foot: &'a str, flange: &'a str) -> Result<Urdf, Error> {
+        // up from the flange, and from the foot, whose frame may itself be fixed to the first link
+        let mut up: Vec<&str> = self.way(flange, foot)?.into_iter().map(|(link, _)| link).collect();
+        let mut before = Pose::ORIGIN;
+        if up.last() != Some(&foot) {
+            let from_foot = self.way(foot, "")?;
+            let common = from_foot.iter().find(|(link, _)| up.contains(link));
+            let Some((common, pose)) = common else {
+                let message =
+                    format!("{} joins the links {foot} and {flange} by no joints", self.file);
+                return Err(Error::file(
+                    self.file,
+                    message,
+                    "name the links at the foot and at the flange of one arm",
+                ));
+            };
+            up.truncate(up.iter().position(|link| link == common).map_or(0, |n| n + 1));
+            before = pose.inverse();
+        }
+        let mut joints: Vec<Joint> = Vec::new();
+        // the frame of a link in that of the turning joint before it
+        let mut frames: BTreeMap<&str, (usize, Pose)> = BTreeMap::new();
+        if let Some(first) = up.last() {
+            frames.insert(*first, (0, before));
+        }
+        for link in up.iter().rev().skip(1) {
+            let Some(joint) = self.carried.get(link) else { continue };
+            let pose = before.compose(&joint.origin);
+            before = match joint.kind {
+                "fixed" => pose,
+                "revolute" | "continuous" => {
+                    joints.push(self.turning(joint, pose)?);
+                    Pose::ORIGIN
+                }
+                other => {
+                    let message = format!(
+                        "the joint {} is {other}: arms of turning joints are known",
+                        joint.name
+                    );
+                    return Err(self.fault(joint.node, message, "name the links at the foot and at the flange of an arm of six turning joints"));
+                }
+            };
+            frames.insert(*link, (joints.len(), before));
+        }
+        let count = joints.len();
+        let joints = <[Joint; JOINTS]>::try_from(joints).map_err(|_| {
+            let message = format!("{} has {count} turning joints from {foot} to {flange}, and arms of {JOINTS} are known", self.file);
+            Error::file(self.file, message, "name the links at the foot and at the flange of an arm of six turning joints")
+        })?;
+        Ok(Urdf { name: name.into(), joints, flange: before, bodies: self.bodies(&frames)? })
+    }
+
+    fn turning(&self, joint: &AnyJoint, pose: Pose) -> Result<Joint, Error> {
+        let axis = match children(joint.node, "axis").next() {
+            Some(axis) => self.numbers(axis, "xyz", None)?,
+            None => [1.0, 0.0, 0.0],
+        };
+        let axis = unit(axis).ok_or_else(|| {
+            self.fault(
+                joint.node,
+                "its axis has no direction".into(),
+                "give it one, as in xyz=\"0 0 1\"",
+            )
+        })?;
+        let limit = children(joint.node, "limit").next().ok_or_else(|| {
+            self.fault(
+                joint.node,
+                format!("the joint {} has no limits", joint.name),
+                "add <limit lower=... upper=... velocity=.../> in rad and rad/s",
+            )
+        })?;
+        let [speed] = self.numbers(limit, "velocity", None)?;
+        let range = match joint.kind {
+            "continuous" => [-ENDLESS, ENDLESS],
+            _ => {
+                let ([lower], [upper]) = (
+                    self.numbers(limit, "lower", Some([0.0]))?,
+                    self.numbers(limit, "upper", Some([0.0]))?,
+                );
+                [lower, upper]
+            }
+        };
+        if !(speed > 0.0 && range[0] < range[1]) {
+            let message = format!(
+                "the joint {} cannot move: from {} to {} rad with {speed} rad/s",
+                joint.name, range[0], range[1]
+            );
+            return Err(self.fault(limit, message, "give its range and its speed"));
+        }
+        Ok(Joint { name: joint.name.into(), pose, axis, range, speed })
+    }
+
+    /// The shapes of all links that are on the way or fixed to it.
+    fn bodies(&self, frames: &BTreeMap<&str, (usize, Pose)>) -> Result<Vec<UrdfBody>, Error> {
+        let mut bodies = Vec::new();
+        for node in children(self.document.root_element(), "link") {
+            let name = node.attribute("name").unwrap_or("link");
+            let (mut now, mut pose) = (name, Pose::ORIGIN);
+            let mut left = self.carried.len();
+            while !frames.contains_key(now) && left > 0 {
+                let Some(joint) = self.carried.get(now).filter(|joint| joint.kind == "fixed")
+                else {
+                    break;
+                };
+                pose = joint.origin.compose(&pose);
+                now = joint.parent;
+                left -= 1;
+            }
+            let Some((link, frame)) = frames.get(now) else { continue };
+            for collision in children(node, "collision") {
+                let pose = frame.compose(&pose).compose(&self.origin(collision)?);
+                let Some(shape) = self.shape(collision)? else { continue };
+                bodies.push(UrdfBody { name: name.into(), link: *link, pose, shape });
+            }
+        }
+        Ok(bodies)
+    }
+
+    fn shape(&self, collision: Node) -> Result<Option<UrdfShape>, Error> {
+        let geometry = children(collision, "geometry").next();
+        let Some(node) = geometry.and_then(|node| node.children().find(Node::is_element)) else {
+            return Ok(None);
+        };
+        Ok(match node.tag_name().name() {
+            "cylinder" | "capsule" => {
+                let ([radius], [length]) =
+                    (self.numbers(node, "radius", None)?, self.numbers(node, "length", None)?);
+                Some(UrdfShape::Cylinder { radius, length })
+            }
+            // as the cube around it
+            "sphere" => {
+                self.numbers(node, "radius", None).map(|[r]| Some(UrdfShape::Box([2.0 * r; 3])))?
+            }
+            "box" => Some(UrdfShape::Box(self.numbers(node, "size", None)?)),
+            "mesh" => {
+                let scale = self.numbers(node, "scale", Some([1.0; 3]))?;
+                node.attribute("filename").map(|name| UrdfShape::Mesh(name.into(), scale))
+            }
+            _ => None,
+        })
+    }
+}

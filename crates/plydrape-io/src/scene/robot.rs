@@ -1,0 +1,234 @@
+//! The arm of a robot, from a shipped file, a URDF file or a table, and the bodies of its links.
+
+use super::file::{DhTable, RobotTable};
+use super::located::{Fixed, Located};
+use super::mold::{Purpose, mesh_file};
+use super::quantity::{Angle, Length, Quantity};
+use super::read;
+use super::source::{Document, excerpt};
+use super::usual;
+use crate::Error;
+use crate::read::urdf::{self, UrdfBody, UrdfShape};
+use plydrape::arm::{Arm, JOINTS, Joint, LEAST_MARGIN, LEAST_SINGULAR};
+use plydrape::bodies::{Body, Mount, Shape};
+use plydrape::geometry::Pose;
+use std::path::{Path, PathBuf};
+
+/// The arms that plydrape comes with, each as a URDF file with its source.
+const SHIPPED: [(&str, &str); 3] = [
+    ("abb_irb4600_60_205", include_str!("../../robots/abb_irb4600_60_205.urdf")),
+    ("kuka_kr16_2", include_str!("../../robots/kuka_kr16_2.urdf")),
+    ("ur20", include_str!("../../robots/ur20.urdf")),
+];
+/// Smallest and largest angular acceleration of a joint (rad/s²).
+const ACCELERATIONS: [f64; 2] = [1e-3, 1e4];
+/// Smallest and largest angular speed of a joint (rad/s).
+const SPEEDS: [f64; 2] = [1e-4, 1e3];
+/// Sides of the prism around a round link.
+const SIDES: u32 = 24;
+
+/// Checks the table `[robot]`; files that it names are relative to `base`.
+pub(super) fn robot(
+    table: &Located<RobotTable>,
+    document: &Document,
+    base: &Path,
+) -> Result<(Arm, Vec<Body>), Error> {
+    let RobotTable { arm, dh, start, joint_margin, singularity, joint_acceleration, .. } =
+        &table.value;
+    let (name, joints, flange, bodies) = match (arm, dh) {
+        (Some(_), Some(dh)) => {
+            return Err(document.error(
+                dh.span.clone(),
+                "this robot has two arms",
+                "keep one of `arm` and `dh`",
+            ));
+        }
+        (None, None) => {
+            return Err(document.error(
+                table.span.clone(),
+                "[robot] does not say which arm it is",
+                format!(
+                    "add arm = \"{}\", or name a URDF file: arm = \"robot.urdf\"",
+                    SHIPPED[0].0
+                ),
+            ));
+        }
+        (Some(name), None) => from_file(name, &table.value, document, base)?,
+        (None, Some(dh)) => {
+            let (joints, flange) = from_table(&dh.value.0, document)?;
+            ("arm".into(), joints, flange, Vec::new())
+        }
+    };
+    let start = match start {
+        Some(start) => Some(angles(&start.value, document)?),
+        None => None,
+    };
+    let margin = match joint_margin {
+        Some(margin) => margin.not_negative(document, &usual::ANGLE)?,
+        None => LEAST_MARGIN,
+    };
+    let singular = match singularity {
+        Some(least) => least.not_negative(document, &usual::ANY)?,
+        None => LEAST_SINGULAR,
+    };
+    let acceleration = match joint_acceleration {
+        Some(most) => {
+            Some(most.within_for(document, ACCELERATIONS, "a joint", &usual::JOINT_ACCELERATION)?)
+        }
+        None => None,
+    };
+    Ok((Arm { name, joints, flange, start, acceleration, margin, singular }, bodies))
+}
+
+type Parts = (String, [Joint; JOINTS], Pose, Vec<Body>);
+
+/// The arm of a shipped file, or of one beside the scene.
+fn from_file(
+    name: &Located<String>,
+    table: &RobotTable,
+    document: &Document,
+    base: &Path,
+) -> Result<Parts, Error> {
+    let file = &name.value;
+    let shipped = SHIPPED.iter().find(|(shipped, _)| shipped == file);
+    let text = match shipped {
+        Some((_, text)) => (*text).into(),
+        None if !file.ends_with(".urdf") => {
+            let names: Vec<String> =
+                SHIPPED.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+            return Err(document.error(
+                name.span.clone(),
+                format!("there is no arm \"{}\"", excerpt(file)),
+                format!("plydrape comes with {}; a file of your own is named with its ending, as in \"robot.urdf\"", names.join(", ")),
+            ));
+        }
+        None => {
+            read::text(&base.join(file), file, urdf::LARGEST)
+                .map_err(|error| document.error_of_named(&name.span, error, "scene"))?
+                .text
+        }
+    };
+    let [foot, flange] =
+        [&table.foot, &table.flange].map(|key| key.as_ref().map(|key| &*key.value));
+    let read = urdf::parse(file, &text, foot, flange)
+        .map_err(|error| document.error(name.span.clone(), error.to_string(), error.help()))?;
+    let mut bodies = Vec::new();
+    if table.bodies.unwrap_or(true) {
+        let folder = base.join(file).parent().unwrap_or(base).to_path_buf();
+        let count = |name: &str| read.bodies.iter().filter(|body| body.name == name).count();
+        for (n, body) in read.bodies.iter().enumerate() {
+            let before = read.bodies[..n].iter().filter(|other| other.name == body.name).count();
+            let label = match count(&body.name) {
+                1 => body.name.clone(),
+                _ => format!("{} {}", body.name, before + 1),
+            };
+            bodies.push(Body {
+                name: format!("arm's {label}"),
+                on: Mount::Link(body.link),
+                shape: placed(body, name, document, &folder)?,
+            });
+        }
+    }
+    Ok((read.name, read.joints, read.flange, bodies))
+}
+
+/// Angles of joints (rad).
+fn angles<const N: usize>(
+    values: &Fixed<Quantity<Angle>, N>,
+    document: &Document,
+) -> Result<[f64; N], Error> {
+    let mut angles = [0.0; N];
+    for (angle, value) in angles.iter_mut().zip(&values.0) {
+        *angle = value.si(document, &usual::JOINT)?;
+    }
+    Ok(angles)
+}
+
+/// The shape of a link as triangles in the frame of its joint; around what is round.
+fn placed(
+    body: &UrdfBody,
+    file: &Located<String>,
+    document: &Document,
+    folder: &Path,
+) -> Result<Shape, Error> {
+    let (vertices, triangles) = match &body.shape {
+        UrdfShape::Cylinder { radius, length } => {
+            let radius = radius / (std::f64::consts::PI / f64::from(SIDES)).cos();
+            Shape::Cylinder { radius, from: -0.5 * length, to: 0.5 * length }.triangles(SIDES)
+        }
+        UrdfShape::Box(size) => Shape::Box { size: *size, at: [0.0; 3] }.triangles(SIDES),
+        UrdfShape::Mesh(name, scale) => {
+            let path = beside(name, folder).ok_or_else(|| {
+                document.error(
+                    file.span.clone(),
+                    format!("the mesh {} of {} is not beside {}", excerpt(name), body.name, excerpt(&file.value)),
+                    "copy the meshes of the robot's package to where its file stands, or leave the links out: bodies = false in [robot]",
+                )
+            })?;
+            let named = |value: String| Located { span: file.span.clone(), value };
+            let purpose = Purpose { what: "link", tolerance: 0.0 };
+            let whole = named(path.to_string_lossy().into_owned());
+            let meters = named("m".into());
+            let (mesh, _) =
+                mesh_file(&whole, Some(&meters), &purpose, &Pose::ORIGIN, document, Path::new(""))?;
+            let scaled = |p: &[f64; 3]| [0, 1, 2].map(|n| scale[n] * p[n]);
+            (mesh.vertices().iter().map(scaled).collect(), mesh.triangles().to_vec())
+        }
+    };
+    let vertices = vertices.iter().map(|p| body.pose.place(*p)).collect();
+    Ok(Shape::Mesh { vertices, triangles })
+}
+
+/// The file that a robot names, as in `package://robot/meshes/link.stl`: below the folder of the robot's file or one of those around it.
+fn beside(name: &str, folder: &Path) -> Option<PathBuf> {
+    let (package, rest) = match name.strip_prefix("package://") {
+        Some(rest) => (Some(rest), rest.split_once('/').map_or(rest, |(_, path)| path)),
+        None => (None, name.strip_prefix("file://").unwrap_or(name)),
+    };
+    let ways = |folder: &Path| {
+        [package, Some(rest)].into_iter().flatten().map(|way| folder.join(way)).collect::<Vec<_>>()
+    };
+    folder.ancestors().flat_map(ways).find(|path| path.is_file())
+}
+
+/// The joints of a table, and the flange in the frame of the last one.
+fn from_table(
+    table: &[DhTable; JOINTS],
+    document: &Document,
+) -> Result<([Joint; JOINTS], Pose), Error> {
+    let mut joints = Vec::with_capacity(JOINTS);
+    let mut before = Pose::ORIGIN;
+    for (n, row) in table.iter().enumerate() {
+        let length = |key: &Option<Quantity<Length>>| match key {
+            Some(length) => length.coordinate(document, &usual::PLACE),
+            None => Ok(0.0),
+        };
+        let angle = |key: &Option<Quantity<Angle>>| match key {
+            Some(angle) => angle.si(document, &usual::ANGLE),
+            None => Ok(0.0),
+        };
+        let range = angles(&row.range.value, document)?;
+        if range[0] >= range[1] {
+            return Err(document.error(
+                row.range.span.clone(),
+                "the joint ends before it begins",
+                "give its smallest angle first, as in range = [\"-180 deg\", \"180 deg\"]",
+            ));
+        }
+        let speed = row.speed.within_for(document, SPEEDS, "a joint", &usual::JOINT_RATE)?;
+        joints.push(Joint {
+            name: format!("joint {}", n + 1),
+            pose: before,
+            axis: [0.0, 0.0, 1.0],
+            range,
+            speed,
+        });
+        // what comes behind the turn of the joint
+        let turn = Pose::new([0.0, 0.0, length(&row.d)?], [0.0, 0.0, angle(&row.theta)?]);
+        let along = Pose::new([length(&row.a)?, 0.0, 0.0], [angle(&row.alpha)?, 0.0, 0.0]);
+        before = turn.compose(&along);
+    }
+    let joints = <[Joint; JOINTS]>::try_from(joints);
+    let none = || Error::not_possible("an arm has six joints", "give six rows to dh");
+    Ok((joints.map_err(|_| none())?, before))
+}
