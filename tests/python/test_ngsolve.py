@@ -49,6 +49,19 @@ def test_ngsolve_hangs_a_square_as_the_sheet_does(tmp_path: Path) -> None:
     assert step["apart_max_mm"] < 0.02 * sag
     assert step["shear_deg"]["peer"] == pytest.approx(step["shear_deg"]["plydrape"], abs=0.5)
 
+    # the page has it beside the sheet
+    page = [
+        "report",
+        str(result),
+        "--compare",
+        str(folder),
+        "-o",
+        str(tmp_path / "page"),
+        "--quiet",
+    ]
+    run(*page)
+    assert '"peer":{"name":"NGSolve"' in (tmp_path / "page" / "report.html").read_text()
+
     drape = json.loads((folder / "drape.json").read_text())
     carried = np.sum(drape["states"][-1]["forces"], axis=0)
     weight = 0.3143 * 9.80665 * 0.1 * 0.1

@@ -14,6 +14,7 @@ import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
 import { showLimit, showLimits, showVerdict } from "./page/limits";
 import { asked, colorOf, pointerOf, worst } from "./page/opening";
+import { showPeer } from "./page/peer";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
 import { showSample, showTolerance } from "./page/sample";
@@ -78,6 +79,7 @@ async function open(): Promise<void> {
   for (const id of ["limits", "courses", "timeline"]) byId(id).hidden = data.look !== undefined;
   showSample(state, motion);
   const charts = new Charts(state, data);
+  showPeer(state, motion, charts);
   showFacts(data);
   const section = new Section(state, motion, scene);
   if (scene !== null) linkHover(byId("view"), state, motion, scene, (found) => section.through(found));

@@ -71,6 +71,11 @@ describe("results page", { skip: missing ?? false }, () => {
     { skip: sheet ? false : "no page of a sheet" },
     () => sampleIsShown(sheet),
   );
+  test(
+    "the drape of another program is shown beside the sheet, and leads to where they differ most",
+    { skip: sheet ? false : "no page of a sheet" },
+    () => peerIsShown(sheet),
+  );
   test("paths of the grippers tell what they have passed from what comes", () => pathsShow(surfaced()));
   test("an address names step and colors", () => addressLeads(surfaced()));
   test("heights have a scale of orders or an even one, of all steps or of one", () =>
@@ -787,6 +792,69 @@ function parts(report) {
   const start = text.indexOf(mark) + mark.length;
   const end = text.indexOf("</script>", start);
   return [text.slice(0, start), text.slice(start, end), text.slice(end)];
+}
+
+/** A made-up drape by another program, with states in every other step: its table, both lines, and the place that is farthest apart. */
+async function peerIsShown(report) {
+  const [head, data, tail] = parts(report);
+  const page0 = JSON.parse(data);
+  const { steps, drape } = page0;
+  const node = Math.floor(drape.sheet.landing.length / 2);
+  const kept = (value) => steps.map((step, k) => ((steps.length - 1 - k) % 2 === 0 ? value(step) : null));
+  const course = (key, label, unit, name) => ({
+    key,
+    label,
+    unit,
+    first: kept((step) => 30 - 0.2 * step),
+    name,
+    second: kept((step) => 28 - 0.1 * step),
+  });
+  const last = steps.at(-1);
+  const peer = {
+    name: "NGSolve",
+    ends: [
+      ["largest height at the end (mm)", "0.35", "2.87"],
+      ["first touch in step", "43.0", "38.2"],
+    ],
+    cost: "NGSolve took 82 s of processor time.",
+    courses: [
+      course("lowest", "lowest point", "mm", "NGSolve"),
+      course("apart", "points apart, mean", "mm", "at most"),
+    ],
+    farthest: { step: last, node, uv_mm: [75, 50], apart_mm: 2.5 },
+  };
+  const file = join(scratch, "peer.html");
+  writeFileSync(file, head + JSON.stringify({ ...page0, peer }).replaceAll("<", "\\u003c") + tail);
+  const { page, context, diagnostics } = await openReport(browser, file);
+  const section = page.locator("#peer");
+  assert.equal(await section.locator("h2").innerText(), "Beside NGSolve");
+  assert.deepEqual(await section.locator("td").allInnerTexts(), ["0.35", "2.87", "43.0", "38.2"]);
+  await page.evaluate((step) => window.plydrape.goto(step), last);
+  await page.waitForTimeout(200);
+  const said = async (key) => {
+    const chart = section.locator(`[data-measure="${key}"]`);
+    return [await chart.locator(".chart-value").innerText(), await chart.locator(".chart-where").innerText()];
+  };
+  const at = (value) => `${String(Number(value.toPrecision(4)))}\u00a0mm`;
+  const [first, second] = [at(30 - 0.2 * last), at(28 - 0.1 * last)];
+  assert.deepEqual(await said("lowest"), [first, `NGSolve ${second}`]);
+  assert.deepEqual(await said("apart"), [first, `at most ${second}`]);
+
+  await page.evaluate((step) => window.plydrape.goto(step), steps[0]);
+  await section.getByRole("button").click();
+  const [pointer, place] = await page.evaluate(
+    (n) => [window.plydrape.pointer, window.plydrape.node(n)],
+    node,
+  );
+  assert.equal(pointer.step, last);
+  assert.deepEqual(pointer.place, place);
+  assert.equal(pointer.label, "Farthest apart: 2.5\u00a0mm");
+  assert.deepEqual(diagnostics, []);
+  await context.close();
+
+  const alone = await openReport(browser, report.file);
+  assert.equal(await alone.page.locator("#peer").isVisible(), false);
+  await alone.context.close();
 }
 
 async function fewerStepsAreSaid(report) {

@@ -8,14 +8,11 @@ use plydrape_io::store::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// What drapes it, as tables name it.
-const PEER: &str = "NGSolve";
-
 /// Lay a result beside the drape of its motion in NGSolve, at the same fabric points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 `plydrape export RESULT --to ngsolve` writes the folder, and `python drape.py` in it drapes the motion. Nothing is judged: the \
-exit code is 0 whatever the differences are.")]
+exit code is 0 whatever the differences are. `plydrape report RESULT --compare FOLDER` shows the comparison in the page.")]
 pub struct Arguments {
     /// The result.json of an earlier run, or its folder.
     result: PathBuf,
@@ -34,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Done {
     let comparison = peer::compare(&result, &peer::read(&arguments.folder)?)?;
     let text = match arguments.json {
         true => json::to_text(&comparison)?,
-        false => format!("{}\n\n{}", result.scene.title, peer::table(&comparison, PEER)),
+        false => format!("{}\n\n{}", result.scene.title, peer::table(&comparison)),
     };
     results::print(&text, &[])?;
     Ok(ExitCode::SUCCESS)

@@ -4,6 +4,7 @@ use crate::failure::Done;
 use crate::results;
 use crate::watch::whole;
 use plydrape_io::page;
+use plydrape_io::peer;
 use plydrape_io::result::read;
 use plydrape_io::store::folder;
 use std::path::{Path, PathBuf};
@@ -21,13 +22,22 @@ pub struct Arguments {
     /// Folder of the page; that of the result unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+
+    /// Show the drape of the same motion in NGSolve beside it, from the folder in which drape.py has run.
+    #[arg(long, value_name = "FOLDER")]
+    compare: Option<PathBuf>,
 }
 
 /// Reads the result and writes the page.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let file = read::file_of(&arguments.result);
     let result = read::read(&file)?;
-    let html = page::html(&result)?;
+    let html = match &arguments.compare {
+        Some(folder) => {
+            page::compared_html(&result, &peer::compare(&result, &peer::read(folder)?)?)?
+        }
+        None => page::html(&result)?,
+    };
     let beside = || match file.parent() {
         Some(folder) if folder != Path::new("") => folder.to_path_buf(),
         _ => PathBuf::from("."),

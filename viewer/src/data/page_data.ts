@@ -225,6 +225,29 @@ export interface Look {
   off: Place[];
 }
 
+/** The drape of the same motion by another program, beside that of the sheet. */
+export interface PeerData {
+  name: string;
+  /** Of the end and of the first touch: words, the sheet's value, the other program's, as text. */
+  ends: [string, string, string][];
+  /** What the other drape took, in a sentence. */
+  cost: string;
+  courses: PeerCourse[];
+  /** Where the same fabric point is farthest apart. */
+  farthest: { step: number; node: number; uv_mm: [number, number]; apart_mm: number } | null;
+}
+
+/** Two values over the steps; null in steps whose states were not kept. */
+export interface PeerCourse {
+  key: string;
+  label: string;
+  unit: string;
+  first: (number | null)[];
+  /** What the second one is called. */
+  name: string;
+  second: (number | null)[];
+}
+
 export interface PageData {
   format: string;
   version: number;
@@ -261,6 +284,8 @@ export interface PageData {
   tolerance: string[];
   /** What is shown of a scene that is not draped yet, in place of a verdict. */
   look?: Look;
+  /** The drape of the same motion by another program, if it was compared. */
+  peer?: PeerData;
   left_out: string[];
 }
 
@@ -305,6 +330,10 @@ export function checked(found: Partial<PageData> | null): PageData {
     throw new BrokenData("the drape for comparison is by the model that decides");
   }
   if (data.sample !== null) checkSample(data.sample);
+  for (const { key, first, second } of data.peer?.courses ?? []) {
+    if (first.length !== data.steps.length || second.length !== data.steps.length)
+      throw new BrokenData(`the course “${key}” of the compared drape does not fit its steps`);
+  }
   return data;
 }
 

@@ -8,7 +8,15 @@
 
 import uPlot from "uplot";
 import { full, quantity, short, ticks, withUnit } from "../data/number";
-import { drapeOf, isBeside, modelText, type Measure, type Model, type PageData } from "../data/page_data";
+import {
+  drapeOf,
+  isBeside,
+  modelText,
+  type Measure,
+  type Model,
+  type PageData,
+  type PeerCourse,
+} from "../data/page_data";
 import { byId, make, themeColor } from "./dom";
 import type { State } from "./state";
 
@@ -16,6 +24,13 @@ import type { State } from "./state";
 export interface Beside {
   data: PageData;
   at: (index: number) => number;
+}
+
+/** A second line in a chart, dashed: its values, where along the steps they are, and what it is called. */
+interface Other {
+  name: string;
+  x: number[];
+  values: (number | null)[];
 }
 
 const HEIGHT = 104;
@@ -30,12 +45,17 @@ interface Group {
 
 export class Charts {
   private readonly groups = new Map<Model, Group>();
+  /** Charts of another program, in view whichever model is. */
+  private readonly peers: Chart[] = [];
   private width: number | null = null;
   private last = -Infinity;
   private later = 0;
   private shown: Model;
 
-  constructor(state: State, data: PageData) {
+  constructor(
+    private readonly state: State,
+    data: PageData,
+  ) {
     const room = byId("charts");
     for (const { model, measures } of data.also === null ? [data.drape] : [data.drape, data.also]) {
       const host = make("div", { class: "charts", "data-model": model });
@@ -65,7 +85,7 @@ export class Charts {
   }
 
   private get charts(): Chart[] {
-    return this.groups.get(this.shown)?.charts ?? [];
+    return [...(this.groups.get(this.shown)?.charts ?? []), ...this.peers];
   }
 
   /** Moves the markers, at most so often that drawing them does not slow the picture down. */
@@ -78,6 +98,16 @@ export class Charts {
     }
     this.last = performance.now();
     for (const chart of this.charts) chart.mark(index);
+  }
+
+  /** A chart of two values over the steps in another place of the page. */
+  add(host: HTMLElement, steps: number[], { key, label, unit, first, name, second }: PeerCourse): void {
+    const none = steps.map(() => null);
+    const measure = { key, label, unit, values: first, where: none, places: none, limit: null, least: false };
+    const other = { name, x: steps, values: second };
+    const chart = new Chart(host, measure, steps, this.state, other);
+    chart.mark(this.state.now.index);
+    this.peers.push(chart);
   }
 
   /** Draws the lines of a second result too, or none. */
@@ -108,14 +138,17 @@ class Chart {
   private readonly line = make("div", { class: "chart-marker" });
   private readonly dot = make("div", { class: "chart-dot" });
   private index = 0;
-  private other: { x: number[]; values: (number | null)[] } | null = null;
+  /** Lines that are there from the start, of another program, go on over steps whose states were not kept. */
+  private readonly gaps: boolean;
 
   constructor(
     host: HTMLElement,
     private readonly measure: Measure,
     private readonly steps: number[],
     private readonly state: State,
+    private other: Other | null = null,
   ) {
+    this.gaps = other !== null;
     const { label, unit, limit, least } = measure;
     const allowed = limit === null ? "" : `limit ${least ? "≥" : "≤"}\u202f${quantity(limit, unit)}`;
     const bound = make("span", { class: "chart-limit" }, allowed);
@@ -127,6 +160,7 @@ class Chart {
       make("p", {}, bound, this.where),
     );
     this.card.dataset.measure = measure.key;
+    this.card.classList.toggle("compared", other !== null);
     this.card.append(head, this.room);
     host.append(this.card);
     this.plot = new uPlot(this.options(), [steps, measure.values], this.room);
@@ -175,7 +209,7 @@ class Chart {
         {
           stroke: () => themeColor("chart-line"),
           width: 1.6,
-          spanGaps: false,
+          spanGaps: this.gaps,
           points: { show: this.steps.length === 1, size: 5 },
         },
       ],
@@ -205,7 +239,7 @@ class Chart {
     this.other =
       beside === null || same === undefined
         ? null
-        : { x: same.values.map((_, k) => beside.at(k)), values: same.values };
+        : { name: "B", x: same.values.map((_, k) => beside.at(k)), values: same.values };
     this.card.classList.toggle("compared", this.other !== null);
     this.plot.setData(this.plot.data);
     this.mark(this.index);
@@ -230,7 +264,7 @@ class Chart {
         if (drawing) ctx.lineTo(x, y);
         else ctx.moveTo(x, y);
       }
-      drawing = value !== null;
+      drawing = value !== null || (drawing && this.gaps);
     });
     ctx.stroke();
     ctx.restore();
@@ -300,9 +334,10 @@ class Chart {
   /** The value of a second result at a step. */
   private besides(index: number): string | null {
     if (this.other === null) return null;
-    const away = this.other.x.map((x) => Math.abs(x - this.steps[index]!));
-    const value = this.other.values[away.indexOf(Math.min(...away))] ?? null;
-    return value === null ? "B –" : `B ${quantity(value, this.measure.unit)}`;
+    const { name, x, values } = this.other;
+    const away = x.map((at) => Math.abs(at - this.steps[index]!));
+    const value = values[away.indexOf(Math.min(...away))] ?? null;
+    return value === null ? `${name} –` : `${name} ${quantity(value, this.measure.unit)}`;
   }
 
   fit(given: number | null): void {

@@ -12,7 +12,7 @@
 //! 2. `drape`: the drape by one model; `grippers`, `reading`, `catenaries`, `sheet`: what is shown of it;
 //! 3. `cell`, `mold`: what is the same for both models;
 //! 4. `sample`, `facts`: the verdict over a sample of cells, and what was draped;
-//! 5. `look`: what a page shows of a scene that is not draped yet;
+//! 5. `look`: what a page shows of a scene that is not draped yet; `peer`: the drape of another program beside that of the result;
 //! 6. `block`, `packing`: integers in little text.
 
 mod block;
@@ -27,11 +27,13 @@ mod limit;
 mod look;
 mod mold;
 mod packing;
+mod peer;
 mod reading;
 mod sample;
 mod sheet;
 
 use crate::Error;
+use crate::peer::Comparison;
 use crate::result::ResultFile;
 use crate::result::sheet::ended;
 use crate::scene::SceneFile;
@@ -45,6 +47,7 @@ use facts::{Fact, facts};
 use limit::{Limit, limits};
 use look::{Look, look};
 use mold::Mold;
+use peer::Peer;
 use plydrape::layup::Model;
 use plydrape::ply::GripperId;
 use sample::{Sample, sample};
@@ -99,6 +102,9 @@ struct Page<'a> {
     /// What is shown of a scene before anything is draped on its mold, in place of a verdict; `None` for a result.
     #[serde(skip_serializing_if = "Option::is_none")]
     look: Option<Look>,
+    /// The drape of the same motion by another program; `None` where none is compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    peer: Option<Peer>,
     left_out: Vec<String>,
 }
 
@@ -138,6 +144,16 @@ pub fn data(result: &ResultFile, form: Form) -> Result<String, Error> {
 /// [`Error`] if a number is not finite, or the states of the sheet cannot be read.
 pub fn html(result: &ResultFile) -> Result<String, Error> {
     filled(result, &data(result, Form::FILE)?)
+}
+
+/// The page of a result, with the drape of the same motion by another program beside it. Same result and same drape, same bytes.
+///
+/// # Errors
+/// As [`html`].
+pub fn compared_html(result: &ResultFile, comparison: &Comparison) -> Result<String, Error> {
+    let page = page(result, Form::FILE)?;
+    let peer = Some(Peer::new(comparison, &page.steps));
+    filled(result, &crate::store::json::to_text(&Page { peer, ..page })?)
 }
 
 /// The page of a scene before anything is draped on its mold: the ply at its start, as the `result` of holding it there has it, where it
@@ -221,6 +237,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
         sample,
         tolerance: tolerances(result),
         look: None,
+        peer: None,
     })
 }
 

@@ -7,6 +7,7 @@
 mod table;
 
 pub use table::table;
+pub(crate) use table::{cost, ends, percent};
 
 use crate::result::ResultFile;
 use crate::store::{input, size};
@@ -15,6 +16,8 @@ use plydrape::geometry::vector::{dot, norm, sub};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+/// What drapes it, as tables and the page name it.
+pub(crate) const NAME: &str = "NGSolve";
 /// Name of the file in the folder of the export.
 const FILE: &str = "drape.json";
 /// What the file begins with.
@@ -89,6 +92,9 @@ pub struct Compared {
     pub apart_max_mm: f64,
     /// Where they are farthest apart, in fabric coordinates (mm).
     pub apart_uv_mm: [f64; 2],
+    /// The node of the sheet there.
+    #[serde(skip)]
+    pub(crate) apart_node: usize,
 }
 
 /// Where and when a ply first touched.
@@ -228,6 +234,7 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
             apart_rms_mm: 1e3 * (square / area.max(f64::MIN_POSITIVE)).sqrt(),
             apart_max_mm: 1e3 * farthest.0,
             apart_uv_mm: mesh.places[farthest.1].map(|c| 1e3 * c),
+            apart_node: farthest.1,
         });
         if is_last {
             let over = |places: &[[f64; 3]]| -> Vec<(f64, f64)> {

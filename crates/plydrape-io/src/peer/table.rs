@@ -1,38 +1,46 @@
 //! A comparison as plain text, at most 100 columns wide.
 
-use super::{Comparison, Pair, Touch};
+use super::{Comparison, NAME, Pair, Touch};
 use crate::text::table::{aligned, fixed};
 
 /// Most steps that are shown.
 const STEPS: usize = 12;
 
-/// The end, the first touch, and steps of both drapes side by side.
-#[must_use]
-pub fn table(comparison: &Comparison, peer: &str) -> String {
-    let rows = [
+/// What is compared of the end and of the first touch: words, plydrape's value, the other program's.
+pub(crate) fn ends(comparison: &Comparison) -> Vec<[String; 3]> {
+    let heights = [
         ("largest height at the end (mm)", comparison.height_max_mm, 2),
         ("its root of the mean square (mm)", comparison.height_rms_mm, 2),
         ("share above the limit (%)", percent(comparison.height_share), 1),
     ];
-    let titles = ["", "plydrape", peer].map(str::to_owned).to_vec();
-    let mut cells = vec![titles];
-    cells.extend(rows.map(|(title, pair, digits)| {
-        vec![title.into(), fixed(pair.plydrape, digits), fixed(pair.peer, digits)]
-    }));
-    let [ours, theirs] = &comparison.first_touch;
-    for (title, value) in [
-        (
-            "first touch in step",
-            &(|touch: &Touch| format!("{:.1}", touch.step)) as &dyn Fn(&Touch) -> String,
-        ),
-        ("at fabric point u, v (mm)", &|touch| {
-            let [u, v] = touch.uv_mm;
-            format!("{u:.0}, {v:.0}")
-        }),
-    ] {
-        let both = [ours, theirs].map(|touch| touch.as_ref().map_or("–".into(), value));
-        cells.push([vec![title.to_owned()], both.to_vec()].concat());
-    }
+    let heights = heights.map(|(title, pair, digits)| {
+        [title.into(), fixed(pair.plydrape, digits), fixed(pair.peer, digits)]
+    });
+    let touch = |title: &str, value: fn(&Touch) -> String| {
+        let both = &comparison.first_touch;
+        let [ours, theirs] = both.each_ref().map(|t| t.as_ref().map_or("–".into(), value));
+        [title.into(), ours, theirs]
+    };
+    let touches = [
+        touch("first touch in step", |touch| format!("{:.1}", touch.step)),
+        touch("at fabric point u, v (mm)", |Touch { uv_mm: [u, v], .. }| format!("{u:.0}, {v:.0}")),
+    ];
+    heights.into_iter().chain(touches).collect()
+}
+
+/// What the other drape took, in a sentence.
+pub(crate) fn cost(comparison: &Comparison) -> String {
+    format!(
+        "{NAME} took {:.0} s of processor time: {} time steps, {} linear systems, {} time steps refused.",
+        comparison.cpu_s, comparison.time_steps, comparison.solves, comparison.refused,
+    )
+}
+
+/// The end, the first touch, and steps of both drapes side by side.
+#[must_use]
+pub fn table(comparison: &Comparison) -> String {
+    let mut cells = vec![["", "plydrape", NAME].map(str::to_owned).to_vec()];
+    cells.extend(ends(comparison).into_iter().map(|row| row.to_vec()));
 
     let mut steps = vec![
         ["step", "lowest mm", "lies %", "shear °", "cup N", "apart mm", "at most", "at u, v mm"]
@@ -57,20 +65,15 @@ pub fn table(comparison: &Comparison, peer: &str) -> String {
         ]);
     }
     format!(
-        "{}\n{}\nA pair is plydrape, then {peer}, whose last state is that at rest. Apart is the distance of\n\
-         the same fabric points: root of the mean square over the area, and largest.\n\
-         {peer} took {:.0} s of processor time: {} time steps, {} linear systems, {} time steps\n\
-         refused.\n",
+        "{}\n{}\nA pair is plydrape, then {NAME}, whose last state is that at rest. Apart is the distance of\n\
+         the same fabric points: root of the mean square over the area, and largest.\n{}\n",
         aligned(&cells, &[0]),
         aligned(&steps, &[]),
-        comparison.cpu_s,
-        comparison.time_steps,
-        comparison.solves,
-        comparison.refused,
+        cost(comparison),
     )
 }
 
-fn percent(Pair { plydrape, peer }: Pair) -> Pair {
+pub(crate) fn percent(Pair { plydrape, peer }: Pair) -> Pair {
     let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
     Pair { plydrape: percent(plydrape), peer: percent(peer) }
 }

@@ -80,7 +80,7 @@ fn what_differs_is_what_was_made_to_differ() {
     let touches = found.first_touch.each_ref().map(|touch| touch.as_ref().unwrap());
     assert!((touches[0].step, touches[1].step) == (1.0, 2.5), "{touches:?}");
     assert!(touches[1].uv_mm == [50.0, 20.0]);
-    let text = table(&found, "NGSolve");
+    let text = table(&found);
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     assert!(text.contains("7 linear systems, 6 time steps"), "{text}");
 }
@@ -103,4 +103,26 @@ fn what_cannot_be_compared_is_refused() {
     assert!(read(dir.path()).unwrap_err().help().contains("drape.py"));
     std::fs::write(dir.path().join(FILE), "{}").unwrap();
     assert!(read(dir.path()).unwrap_err().to_string().contains("is no drape"));
+}
+
+/// The page that was asked for has the comparison, whose steps are those of the page; the page of the result alone has none.
+#[test]
+fn the_page_has_the_comparison_that_was_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    let result = result(dir.path());
+    let found = compare(&result, &drape(&result)).unwrap();
+    let page = crate::page::compared_html(&result, &found).unwrap();
+    let data = page.split_once(r#"id="plydrape-data">"#).unwrap().1;
+    let data = data.split_once("</script>").unwrap().0;
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    assert_eq!(data["peer"]["name"], NAME);
+    for course in data["peer"]["courses"].as_array().unwrap() {
+        for line in ["first", "second"] {
+            assert_eq!(
+                course[line].as_array().unwrap().len(),
+                data["steps"].as_array().unwrap().len()
+            );
+        }
+    }
+    assert!(!crate::page::html(&result).unwrap().contains(r#""peer":{"#));
 }

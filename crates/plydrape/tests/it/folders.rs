@@ -18,7 +18,7 @@ const CRATES: [(&str, &str); 8] = [
     ("plydrape", "error fit sheet pick_up measure errors scene outcome planner"),
     (
         "plydrape-io",
-        "error store read result scene text write robot page export peer fit plan replan rerun sample",
+        "error store read result scene text write robot peer page export fit plan replan rerun sample",
     ),
     (
         "plydrape-cli",

@@ -16,6 +16,7 @@ use plydrape::layup::Friction;
 use plydrape::sheet::fabric::Cell;
 use plydrape::sheet::{Sheet, coarsest_mesh, pitch};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The script.
 const SCRIPT: &str = include_str!("drape.py");
@@ -29,6 +30,16 @@ const RIGID: f64 = 50.0;
 /// How deep the ply's own weight sinks into the mold, and how high a node is clear of it, as shares of the pitch.
 const DEPTH: f64 = 1e-4;
 const CLEAR: f64 = 5e-4;
+/// Options of the script: names, values unless others are given, and meanings.
+const SETTINGS: [(&str, f64, &str); 7] = [
+    ("step", 4e-3, "longest time step (s)"),
+    ("hang", 1.0, "time before the motion, in which the ply comes to rest (s)"),
+    ("longest", 4.0, "time of the motion, which runs faster if it takes longer (s)"),
+    ("rest", 1.0, "time after the motion (s)"),
+    ("drag", 2.0, "drag of the air, per mass (1/s)"),
+    ("twist", 0.1, "rigidity in twist, as a share of the mean of the other two"),
+    ("green", 0.0, "1 for shear as 2 E12, 0 for the angle between the fibers"),
+];
 /// Angles of the table of the shear curve (°).
 const ANGLES: std::ops::RangeInclusive<u32> = 0..=90;
 
@@ -41,6 +52,8 @@ struct Data<'a> {
     program: &'a str,
     /// Check sum of the states that the result was written with; `None` without a sheet.
     result: Option<&'a str>,
+    /// Values and meanings of the options of the script.
+    settings: BTreeMap<&'static str, (f64, &'static str)>,
     nodes: Vec<[f64; 2]>,
     quads: Vec<[u32; 4]>,
     /// Fabric points at which the drape is compared.
@@ -144,6 +157,7 @@ pub(crate) fn files(
         title: &result.scene.title,
         program: &result.program,
         result: result.sheet_states.as_ref().map(|states| states.seal().checksum.as_str()),
+        settings: SETTINGS.map(|(name, value, meaning)| (name, (value, meaning))).into(),
         nodes,
         quads,
         points,

@@ -122,6 +122,20 @@ fn cups_follow_the_steps_until_they_let_go() {
     }
 }
 
+/// Every option that the script reads has a value and a meaning, and the script reads every one of them.
+#[test]
+fn every_option_of_the_script_has_a_value() {
+    let settings = &data(&shells(sample::hanging(3, 2)), None, None)["settings"];
+    let written: BTreeSet<&str> =
+        settings.as_object().unwrap().keys().map(String::as_str).collect();
+    let name = |text: &'static str| text.split(|c: char| !c.is_alphanumeric()).next().unwrap();
+    let read: BTreeSet<&str> = SCRIPT.split("args.").skip(1).map(name).collect();
+    assert_eq!(written, read);
+    for setting in settings.as_object().unwrap().values() {
+        assert!(setting[0].is_f64() && !setting[1].as_str().unwrap().is_empty(), "{setting}");
+    }
+}
+
 /// The grid holds the signed distance of every one of its points, and reaches beyond the grippers; without a mold there is none.
 #[test]
 fn the_grid_has_the_distance_of_the_mold() {
