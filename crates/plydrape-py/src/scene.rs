@@ -8,7 +8,9 @@ use crate::ply::Ply;
 use crate::work::parallel;
 use crate::{error, table};
 use plydrape::errors::{Draw, Errors};
+use plydrape::measure::Name;
 use plydrape::motion::Motion;
+use plydrape::tool::Tool;
 use plydrape_io::scene::{self, SceneFile, slow_in_seconds};
 use plydrape_io::store::{shown, size};
 use pyo3::exceptions::{PyFutureWarning, PyTypeError, PyValueError};
@@ -53,6 +55,8 @@ use toml::map::Map;
 ///     What holds the ply and how far it may be off, where `grippers` and `errors` do not say so.
 /// errors : dict, optional
 ///     How far a real cell may be from the scene.
+/// robot : dict, optional
+///     The arm that carries the tool.
 /// pick_up : dict, optional
 ///     How the ply is picked up from a table.
 /// release : dict, optional
@@ -118,7 +122,7 @@ impl Scene {
         motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
         sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
         limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
-        cell: "dict[str, typing.Any] | None" = None, errors: "dict[str, typing.Any] | None" = None, pick_up: "dict[str, typing.Any] | None" = None,
+        cell: "dict[str, typing.Any] | None" = None, errors: "dict[str, typing.Any] | None" = None, robot: "dict[str, typing.Any] | None" = None, pick_up: "dict[str, typing.Any] | None" = None,
         release: "dict[str, typing.Any] | None" = None,
         tool: "dict[str, typing.Any] | None" = None,
         bodies: "typing.Sequence[dict[str, typing.Any]] | None" = None,
@@ -140,6 +144,7 @@ impl Scene {
         plan: Table<'_, '_>,
         cell: Table<'_, '_>,
         errors: Table<'_, '_>,
+        robot: Table<'_, '_>,
         pick_up: Table<'_, '_>,
         release: Table<'_, '_>,
         tool: Table<'_, '_>,
@@ -183,6 +188,7 @@ impl Scene {
             ("plan", plan),
             ("cell", cell),
             ("errors", errors),
+            ("robot", robot),
             ("pick_up", pick_up),
             ("release", release),
             ("tool", tool),
@@ -568,6 +574,41 @@ impl Scene {
             pick_up.lift_steps = 0;
         }
         Ok(Scene(Arc::new(scene), Origin { motion: true, ..self.1.clone() }))
+    }
+
+    /// This scene where the arm of its robot follows the motion best.
+    ///
+    /// Places of the scene in the robot's world are tried, on a grid in units of the arm's reach, with the motion that the scene has; the bodies of the
+    /// arm stay clear of mold and obstacles.
+    ///
+    /// Returns
+    /// -------
+    /// scene : Scene
+    ///     The same scene with another `world` in its `tool`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If no arm is known, or it follows from no place.
+    fn placed(&self, py: Python<'_>) -> PyResult<Scene> {
+        let scene = &self.0;
+        let Some(tool) = scene.layup.tool.as_ref().filter(|tool| tool.arm.is_some()) else {
+            return Err(PyValueError::new_err(
+                "no arm is known: say it in robot, as in robot=dict(arm=\"ur20\"), beside a tool",
+            ));
+        };
+        let clearance = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+        let placement = py.detach(|| scene.layup.placement(clearance));
+        let Some(placement) = placement else {
+            return Err(PyValueError::new_err(
+                "the arm follows from the start to the target from no place; take one with a longer reach, or ask less of it in robot",
+            ));
+        };
+        let tool = Tool { world: placement.world, ..tool.clone() };
+        let mut placed = (**scene).clone();
+        placed.layup.tool = Some(tool);
+        placed.input = None;
+        Ok(Scene(Arc::new(placed), Origin { motion: true, ..self.1.clone() }))
     }
 
     /// How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term one of
