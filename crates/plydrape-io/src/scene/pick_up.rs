@@ -2,9 +2,8 @@
 
 use super::file::{MotionKind, PickUpTable, SceneKeys};
 use super::located::Located;
-use super::quantity::{Length, Quantity, Time};
+use super::quantity::{Read, read_given, read_or};
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::layup::{Layup, Model, PickUp};
 use plydrape::motion::Motion;
@@ -35,24 +34,12 @@ pub(super) fn pick_up(
         ));
     }
     let (height, obstacle) = on(keys, span, layup, document)?;
-    let time = |key: &Option<Quantity<Time>>| match key {
-        Some(time) => time.not_negative(document, &usual::DWELL),
-        None => Ok(GRIP),
-    };
-    let length = |key: &Option<Quantity<Length>>, default| match key {
-        Some(length) => length.size(document, &usual::CLEAR),
-        None => Ok(default),
-    };
     let mut pick_up = PickUp {
         height,
-        clearance: length(&keys.clearance, CLEARANCE)?,
-        grip: time(&keys.grip)?,
-        vacuum_timeout: keys
-            .vacuum_timeout
-            .as_ref()
-            .map(|time| time.positive(document, &usual::DWELL))
-            .transpose()?,
-        retreat: length(&keys.retreat, RETREAT)?,
+        clearance: read_or(&keys.clearance, CLEARANCE, document)?,
+        grip: read_or(&keys.grip, GRIP, document)?,
+        vacuum_timeout: read_given(&keys.vacuum_timeout, document)?,
+        retreat: read_or(&keys.retreat, RETREAT, document)?,
         table: obstacle,
         lift_steps: 0,
     };
@@ -123,7 +110,7 @@ fn on(
         None => None,
     };
     let height = match (&keys.height, obstacle) {
-        (Some(height), _) => height.coordinate(document, &usual::PLACE)?,
+        (Some(height), _) => height.read(document)?,
         (None, Some(n)) => obstacles[n].bounds()[1][2],
         (None, None) => {
             return Err(document.error(

@@ -2,7 +2,8 @@
 
 use crate::scene::bound::Kind;
 use crate::scene::located::{Fixed, Located, LocatedSeed};
-use crate::scene::quantity::{Length, Quantity, Ratio, Raw, RawSeed};
+use crate::scene::quantity::{Quantity, Raw, RawSeed};
+use crate::scene::usual::{Coordinate, GripSafety};
 use plydrape::measure::{Name, Preset};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -16,9 +17,9 @@ pub(in crate::scene) struct LimitsTable {
     /// A named set of limits.
     pub preset: Option<Located<Preset>>,
     /// Box that the grippers must stay in: [from, to] in x, y and z (m).
-    pub workspace: Option<Fixed<Fixed<Quantity<Length>, 2>, 3>>,
+    pub workspace: Option<Fixed<Fixed<Quantity<Coordinate>, 2>, 3>>,
     /// By how much the grippers' `slip_force` and `holding_force` must exceed the loads.
-    pub grip_safety: Option<Quantity<Ratio>>,
+    pub grip_safety: Option<Quantity<GripSafety>>,
     /// Bounds of measures as they are written.
     pub bounds: Vec<(Name, Located<Raw>)>,
     /// Measures that are bounded by a name of before version 0.1.0, and that name.
@@ -139,12 +140,12 @@ impl JsonSchema for LimitsTable {
         );
         own(
             "workspace",
-            generator.subschema_for::<Fixed<Fixed<Quantity<Length>, 2>, 3>>(),
+            generator.subschema_for::<Fixed<Fixed<Quantity<Coordinate>, 2>, 3>>(),
             "Box that the grippers must stay in: [from, to] in x, y and z (m); none unless given.",
         );
         own(
             "grip_safety",
-            generator.subschema_for::<Quantity<Ratio>>(),
+            generator.subschema_for::<Quantity<GripSafety>>(),
             "By how much the grippers' `slip_force` and `holding_force` must exceed the loads, 1.5 unless given.",
         );
         json_schema!({

@@ -1,7 +1,8 @@
 //! The keys of the table `[plan]`.
 
 use crate::scene::located::{Count, Located, Seed};
-use crate::scene::quantity::{Frequency, Length, Quantity};
+use crate::scene::quantity::Quantity;
+use crate::scene::usual::{Move, Rate};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -17,7 +18,7 @@ pub(in crate::scene) struct PlanTable {
     pub steps: Option<Located<Count>>,
     /// Farthest that a gripper may move in one step (m). Without it "path" is free, and "stepwise" takes a share
     /// of its way.
-    pub move_limit: Option<Quantity<Length>>,
+    pub move_limit: Option<Quantity<Move>>,
     /// Seed of the search, 0 unless given: the same seed, the same plan.
     pub seed: Option<Located<Seed>>,
     /// Most candidates that the search may drape, 100 unless given; those on which it decides are draped once more.
@@ -26,7 +27,7 @@ pub(in crate::scene) struct PlanTable {
     /// "stepwise" improves nothing.
     pub improve: Option<bool>,
     /// Samples a second of the file motion.csv (Hz), 100 unless given.
-    pub rate: Option<Quantity<Frequency>>,
+    pub rate: Option<Quantity<Rate>>,
 }
 
 /// The planner of a motion.

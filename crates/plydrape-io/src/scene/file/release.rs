@@ -1,6 +1,7 @@
 //! The keys of the table `[release]`.
 
-use crate::scene::quantity::{Quantity, Time};
+use crate::scene::quantity::Quantity;
+use crate::scene::usual::Dwell;
 use plydrape::layup::ReleaseOrder;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -13,7 +14,7 @@ pub(in crate::scene) struct ReleaseTable {
     /// All after the motion, or each when the ply around it lies; "end" unless given.
     pub order: Option<OrderKey>,
     /// How long a pad presses before it lets go (s), 0 unless given. With "landed" the ply around it lies for that long.
-    pub dwell: Option<Quantity<Time>>,
+    pub dwell: Option<Quantity<Dwell>>,
 }
 
 /// The order in which pads let go of the ply.
