@@ -94,6 +94,7 @@ impl<'a> Contact<'a> {
         pads: &Pads,
         system: &System,
     ) -> Self {
+        // under its own weight a node sinks in by a small share of the pitch; under a mount it must be stiff against the mount
         let pressure = penalty(sheet, tuning.contact_depth);
         let mut stiffness: Vec<f64> = sheet.fabric.areas.iter().map(|a| pressure * a).collect();
         for (gripper, nodes) in sheet.grippers.iter().zip(pads.held()) {
@@ -103,6 +104,7 @@ impl<'a> Contact<'a> {
                 stiffness[*node] = stiffness[*node].max(share);
             }
         }
+        // a point begins far from the mold, without an anchor
         let point = |node: usize, rubs: bool| Point {
             node,
             area: sheet.fabric.areas[node],
@@ -115,6 +117,7 @@ impl<'a> Contact<'a> {
             press: None,
             slips: false,
         };
+        // nodes of a rigid pad cannot give way, and those of a pad that moves up and down do not rub
         let points = (0..sheet.fabric.places.len()).filter_map(|node| match system.carrier(node) {
             Carrier::Held { .. } => None,
             Carrier::Pad { shift: None, .. } => Some(point(node, false)),
