@@ -23,8 +23,6 @@ CHOICE_OF_TABLES = ("anyOf", "oneOf")
 DEFAULTS = [
     re.compile(r"(?:^|[,;.]\s+)(?P<default>(?:[^,;.]|\.(?=\d))+?) unless given\b"),
     re.compile(r"\s*Unless given,? (?P<default>[^.]+)\."),
-    re.compile(r"(?P<default>\"[\w-]+\") \(the default\)"),
-    re.compile(r"\((?P<default>\"[\w-]+\"), the default\)"),
 ]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?toml\n(.*?)^```", re.M | re.S)
 

@@ -12,7 +12,7 @@ use crate::read::outline::{self, Drawn, Options, Piece};
 use std::path::Path;
 
 /// How far a curve may be from the lines that stand for it, and the widest gap that is closed (m), unless given: what a cutter keeps.
-const TOLERANCE: f64 = 1e-4;
+pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// Reads the file that an outline names; `None` for an outline that is points.
 pub(super) fn drawn(

@@ -12,7 +12,7 @@ use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion, SHORTEST_STEP, is_too
 use plydrape::ply::Ply;
 
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
-const STEPS: usize = 30;
+pub(super) const STEPS: usize = 30;
 /// Shortest and longest duration (s).
 pub(super) const DURATIONS: [f64; 2] = [1e-6, 1e7];
 

@@ -9,11 +9,11 @@ use plydrape::layup::{Layup, Model, PickUp};
 use plydrape::motion::Motion;
 
 /// How far above the ply the pads come from unless given (m).
-const CLEARANCE: f64 = 0.05;
+pub(super) const CLEARANCE: f64 = 0.05;
 /// How long they stand on it (s).
-const GRIP: f64 = 0.5;
+pub(super) const GRIP: f64 = 0.5;
 /// How far they go back along the normals of the mold (m).
-const RETREAT: f64 = 0.02;
+pub(super) const RETREAT: f64 = 0.02;
 /// Height of a start over the table (of the shorter side of a cell) below which nothing could hang free.
 const LEAST_LIFT: f64 = 0.05;
 

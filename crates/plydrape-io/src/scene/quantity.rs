@@ -400,6 +400,15 @@ fn plain(number: f64) -> String {
     }
 }
 
+/// A default (SI) as one would write it in a scene, `"0.2 mm"`.
+pub(super) fn written(value: f64, unit: &str) -> Value {
+    let size = units::unit(unit).map_or(1.0, |(size, _)| size);
+    match (value / size * 1e9).round() / 1e9 {
+        0.0 => 0.into(),
+        number => format!("{number} {unit}").into(),
+    }
+}
+
 /// A key whose type says which values it may have.
 pub(super) trait Read {
     /// What is read (SI).

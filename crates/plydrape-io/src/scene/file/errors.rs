@@ -1,8 +1,9 @@
 //! The keys of the table `[errors]`.
 
 use crate::scene::located::{CountOrNone, Located, Seed};
-use crate::scene::quantity::{Measure, Quantity, Ratio, Unchecked};
+use crate::scene::quantity::{Measure, Quantity, Ratio, Unchecked, written};
 use crate::scene::usual::{AngleError, CellError, CellShare, Waves};
+use plydrape::errors::Errors;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -13,11 +14,14 @@ use std::borrow::Cow;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Errors")]
 pub(in crate::scene) struct ErrorsTable {
-    /// Seed of the draws, 0 unless given: the same seed, the same cells.
+    /// Seed of the draws. The same seed draws the same cells.
+    #[schemars(extend("default" = Errors::default().seed))]
     pub seed: Option<Located<Seed>>,
-    /// Cells that are drawn at most, 64 unless given; with 0 nothing is judged with errors.
+    /// Cells that are drawn at most. With 0 nothing is judged with errors.
+    #[schemars(extend("default" = Errors::default().samples))]
     pub samples: Option<Located<CountOrNone>>,
-    /// Share of the cells that must keep the limits, 95 % unless given.
+    /// Share of the cells that must keep the limits.
+    #[schemars(extend("default" = written(Errors::default().share, "%")))]
     pub share: Option<Quantity<CellShare>>,
     /// Of the tool frame, common to all grippers.
     #[serde(default)]

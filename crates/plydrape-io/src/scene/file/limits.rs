@@ -4,7 +4,7 @@ use crate::scene::bound::Kind;
 use crate::scene::located::{Fixed, Located, LocatedSeed};
 use crate::scene::quantity::{Quantity, Raw, RawSeed};
 use crate::scene::usual::{Coordinate, GripSafety};
-use plydrape::measure::{Name, Preset};
+use plydrape::measure::{Limits, Name, Preset};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -124,6 +124,8 @@ impl JsonSchema for LimitsTable {
                 crate::scene::bound::schema(name, &bound, generator),
             );
         }
+        let mut safety = generator.subschema_for::<Quantity<GripSafety>>();
+        safety.insert("default".into(), Limits::GRIP_SAFETY.into());
         let mut own = |key: &str, mut schema: Schema, about: &str| {
             schema.insert("description".into(), about.into());
             properties.insert(key.into(), schema.into());
@@ -145,8 +147,8 @@ impl JsonSchema for LimitsTable {
         );
         own(
             "grip_safety",
-            generator.subschema_for::<Quantity<GripSafety>>(),
-            "By how much the grippers' `slip_force` and `holding_force` must exceed the loads, 1.5 unless given.",
+            safety,
+            "By how much the grippers' `slip_force` and `holding_force` must exceed the loads.",
         );
         json_schema!({
             "type": "object",

@@ -30,14 +30,15 @@ pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 use super::choice::{Curve, FrictionChoice, MaterialChoice, PlaceChoice, Positions, WarpChoice};
 use super::drawing::{HoleChoice, OutlineChoice, Polygon};
 use super::located::{Count, Fixed, Located};
-use super::quantity::{Mass, Quantity, Ratio};
+use super::quantity::{Mass, Quantity, Ratio, written};
 use super::usual::{
     AcuteAngle, AnyAngle, Axial, Bending, Cell, Drawn, Duration, FabricPoint, Factor, Flexural,
     Gravity, Heading, Height, Hole, Moment, Overhang, Pad, PadForce, Place, PlyCurvature, PlySize,
     PlyTemperature, Relaxation, Share, Shear, ShearForce, ShearRate, Spacing, Tack, Tension,
     Thickness, Tolerance,
 };
-use plydrape::layup::Model;
+use crate::scene::{dxf, motion};
+use plydrape::layup::{ContactSettings, Model, PadSettings, Settings, SheetSettings};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -129,11 +130,13 @@ pub(super) struct PlyTable {
     pub material: Located<MaterialChoice>,
     /// Temperature of the ply in the cell (K), of a material whose resin is known at several; the lowest of those unless given.
     pub temperature: Option<Quantity<PlyTemperature>>,
-    /// The grid direction along which the warp runs, "u" unless given. Of a ply that is cut, the angle from the drawing's x
+    /// The grid direction along which the warp runs. Of a ply that is cut, the angle from the drawing's x
     /// axis to the warp (rad), or "u" for its x axis and "v" for its y axis.
+    #[schemars(extend("default" = "u"))]
     pub warp: Option<Located<WarpChoice>>,
-    /// Fabric beyond the outermost grippers, on all sides (m), 0 unless given. Catenaries end at the grippers: the
+    /// Fabric beyond the outermost grippers, on all sides (m). Catenaries end at the grippers: the
     /// sheet alone has it.
+    #[schemars(extend("default" = written(SheetSettings::default().overhang, "mm")))]
     pub overhang: Option<Quantity<Overhang>>,
     /// Thickness of the ply once it lies (m). A plybook needs it where another ply lies on this one; nothing else uses it.
     pub thickness: Option<Quantity<Thickness>>,
@@ -151,8 +154,8 @@ pub(super) struct DrawingTable {
     pub layers: Option<Located<Vec<Located<String>>>>,
     /// The unit of its coordinates, as "mm"; that of the file unless given.
     pub unit: Option<Located<String>>,
-    /// How far a curve may be from the lines that stand for it, and the widest gap between ends of lines that is closed (m), 0.1 mm
-    /// unless given.
+    /// How far a curve may be from the lines that stand for it, and the widest gap between ends of lines that is closed (m).
+    #[schemars(extend("default" = written(dxf::TOLERANCE, "mm")))]
     pub tolerance: Option<Quantity<Drawn>>,
 }
 
@@ -194,7 +197,8 @@ pub(super) struct ArrayTable {
     /// Which cups hold: a text for each row along v, "#" for a cup that holds and "." for one that does not. All that are on
     /// the ply unless given.
     pub holds: Option<Located<Vec<Located<String>>>>,
-    /// What becomes of a cup whose pad is only partly on the ply, "refuse" unless given.
+    /// What becomes of a cup whose pad is only partly on the ply.
+    #[schemars(extend("default" = "refuse"))]
     pub partly: Option<PartlyKey>,
 }
 
@@ -242,7 +246,8 @@ pub(super) struct MaterialTable {
     pub locking_angle: Option<Quantity<AcuteAngle>>,
     /// The test that found the locking angle.
     pub locking_test: Option<Located<String>>,
-    /// How its fibers are held together: "woven" (the default), or "unidirectional", which is refused so far.
+    /// How its fibers are held together. "unidirectional" is refused so far.
+    #[schemars(extend("default" = "woven"))]
     pub fabric: Option<Located<FabricKey>>,
 }
 
@@ -357,7 +362,8 @@ pub(super) struct GrippersTable {
     pub positions: Option<Located<Positions>>,
     /// Limit of the ball joints: largest gripper tilt (rad), that of the cell or 40 deg unless given.
     pub max_tilt: Option<Quantity<AcuteAngle>>,
-    /// Radius of the pads that hold the sheet flat (m); 0 unless given, which holds one point.
+    /// Radius of the pads that hold the sheet flat (m). A radius of 0 holds one point.
+    #[schemars(extend("default" = written(PadSettings::default().radius, "mm")))]
     pub pad_radius: Option<Quantity<Pad>>,
     /// How far the mounts of the pads yield; that of the cell or rigid unless given.
     pub stiffness: Option<Located<MountTable>>,
@@ -375,7 +381,8 @@ pub(super) struct GrippersTable {
 pub(super) struct MotionTable {
     /// Straight to the target, held still, or from a file.
     pub kind: MotionKind,
-    /// Number of steps of a straight motion, 30 unless given; step 1 is the start.
+    /// Number of steps of a straight motion; step 1 is the start.
+    #[schemars(extend("default" = motion::STEPS))]
     pub steps: Option<Located<Count>>,
     /// Time from the first to the last step of a straight motion (s), a second a step unless given. `plydrape plan`
     /// refuses it: what a plan keeps is the `duration` of [limits].
@@ -401,18 +408,23 @@ pub(super) enum MotionKind {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Model")]
 pub(super) struct ModelTable {
-    /// The whole ply as a sheet of cloth, or a net of catenaries; "sheet" unless given.
+    /// The whole ply as a sheet of cloth, or a net of catenaries.
+    #[schemars(extend("default" = "sheet"))]
     pub kind: Option<Located<ModelKey>>,
     /// The other model, to be draped beside the one that decides; it is shown and judges nothing. Unless given, none.
     pub also: Option<Located<ModelKey>>,
-    /// How shared slopes are found, "moment-balance" unless given.
+    /// How shared slopes are found.
+    #[schemars(extend("default" = "moment-balance"))]
     pub slopes: Option<Slopes>,
-    /// How one span hangs, "small-sag" unless given. "exact" is refused so far: nets have the closed form of small sag, and
+    /// How one span hangs. "exact" is refused so far: nets have the closed form of small sag, and
     /// `plydrape span --theory exact` solves one span.
+    #[schemars(extend("default" = "small-sag"))]
     pub theory: Option<Located<TheoryKey>>,
-    /// Axial stiffness EA of a line of ply (N), 100 kN unless given; inf for an inextensible ply.
+    /// Axial stiffness EA of a line of ply (N), inf for an inextensible ply.
+    #[schemars(extend("default" = written(Settings::default().axial_stiffness, "kN")))]
     pub axial_stiffness: Option<Quantity<Axial>>,
-    /// Acceleration of gravity (m/s²), 9.81 unless given.
+    /// Acceleration of gravity (m/s²).
+    #[schemars(extend("default" = written(Settings::default().gravity, "m/s^2")))]
     pub gravity: Option<Quantity<Gravity>>,
 }
 
@@ -471,16 +483,21 @@ pub(super) enum Slopes {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Contact")]
 pub(super) struct ContactTable {
-    /// Distance that counts as touching (m), 0.2 mm unless given.
+    /// Distance that counts as touching (m).
+    #[schemars(extend("default" = written(ContactSettings::default().tolerance, "mm")))]
     pub tolerance: Option<Quantity<Tolerance>>,
-    /// Once per step, or with steps cut so that none penetrates deeper than the tolerance ("cut", the default).
+    /// Once per step, or with steps cut so that none penetrates deeper than the tolerance.
+    #[schemars(extend("default" = "cut"))]
     pub stepping: Option<SteppingKey>,
-    /// Slope of a span where it leaves the mold, "free" unless given.
+    /// Slope of a span where it leaves the mold.
+    #[schemars(extend("default" = "free"))]
     pub end: Option<EndKey>,
-    /// What holds the sheet along the mold: "stick" (the default) until it is lifted off, "stick-for-ever", or a
-    /// coefficient of friction. Catenaries always stick.
+    /// What holds the sheet along the mold: it sticks until it is lifted off, "stick-for-ever", or a coefficient of friction. Catenaries
+    /// always stick.
+    #[schemars(extend("default" = "stick"))]
     pub friction: Option<Located<FrictionChoice>>,
-    /// Shear stress that the sheet's tack bears besides friction (Pa), 0 unless given.
+    /// Shear stress that the sheet's tack bears besides friction (Pa).
+    #[schemars(extend("default" = written(ContactSettings::default().tack, "Pa")))]
     pub tack: Option<Quantity<Tack>>,
 }
 

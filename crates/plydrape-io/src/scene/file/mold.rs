@@ -31,7 +31,8 @@ pub(in crate::scene) struct MoldTable {
     pub ring_radius: Option<Quantity<Radius>>,
     /// Of a torus: radius of the tube (m), smaller than that of the ring.
     pub tube_radius: Option<Quantity<Radius>>,
-    /// Of a cylinder, sphere or torus: the side on which the ply lies, "outside" unless given.
+    /// Of a cylinder, sphere or torus: the side on which the ply lies.
+    #[schemars(extend("default" = "outside"))]
     pub side: Option<Located<SideKey>>,
     /// Of a saddle: radii of curvature at its middle, upwards along x and downwards along y (m).
     pub radii: Option<Located<Fixed<Quantity<Radius>, 2>>>,

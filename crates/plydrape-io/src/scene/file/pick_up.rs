@@ -1,7 +1,8 @@
 //! The keys of the table `[pick_up]`.
 
 use crate::scene::located::Located;
-use crate::scene::quantity::Quantity;
+use crate::scene::pick_up;
+use crate::scene::quantity::{Quantity, written};
 use crate::scene::usual::{Clear, Grip, Place, Timeout};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -15,13 +16,16 @@ pub(in crate::scene) struct PickUpTable {
     pub height: Option<Quantity<Place>>,
     /// Name of the obstacle on which the ply lies. Pads stand on it, so bodies on pads are not judged against it.
     pub table: Option<Located<String>>,
-    /// How far above the ply the pads come from, and go to when they have let go of it (m), 50 mm unless given.
+    /// How far above the ply the pads come from, and go to when they have let go of it (m).
+    #[schemars(extend("default" = written(pick_up::CLEARANCE, "mm")))]
     pub clearance: Option<Quantity<Clear>>,
-    /// How long the pads stand on the ply with the vacuum on before they lift it (s), 0.5 s unless given.
+    /// How long the pads stand on the ply with the vacuum on before they lift it (s).
+    #[schemars(extend("default" = written(pick_up::GRIP, "s")))]
     pub grip: Option<Quantity<Grip>>,
     /// How long programs wait at most for an input of each pad that says that its vacuum is there, before they stop and hold (s). Unless given
     /// they do not look.
     pub vacuum_timeout: Option<Quantity<Timeout>>,
-    /// How far the pads go back along the normals of the mold when they have let go (m), 20 mm unless given.
+    /// How far the pads go back along the normals of the mold when they have let go (m).
+    #[schemars(extend("default" = written(pick_up::RETREAT, "mm")))]
     pub retreat: Option<Quantity<Clear>>,
 }

@@ -3,6 +3,7 @@
 use crate::scene::located::{Count, Located};
 use crate::scene::quantity::Quantity;
 use crate::scene::usual::{Mesh, Mount, Strain, TensionForce};
+use plydrape::layup::SheetSettings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,9 +14,11 @@ use serde::Deserialize;
 pub(in crate::scene) struct SheetTable {
     /// Largest distance between neighboring lines of nodes (m), a tenth of the shorter side of a cell unless given.
     pub mesh: Option<Quantity<Mesh>>,
-    /// Which time the motion takes, "quasi-static" unless given.
+    /// Which time the motion takes.
+    #[schemars(extend("default" = "quasi-static"))]
     pub time: Option<TimeKey>,
-    /// Most states that are kept, the first and the last among them, 100 unless given.
+    /// Most states that are kept, the first and the last among them.
+    #[schemars(extend("default" = SheetSettings::default().keep))]
     pub keep: Option<Located<Count>>,
 }
 

@@ -26,9 +26,11 @@ pub(in crate::scene) struct TargetTable {
     /// Mesh width of the net (m), a whole part of both cells. Unless given, cells are divided to a tenth of their shorter side or
     /// less, on a plane not at all.
     pub mesh: Option<Quantity<Mesh>>,
-    /// How the first two yarns run, "geodesic" unless given.
+    /// How the first two yarns run.
+    #[schemars(extend("default" = "geodesic"))]
     pub generators: Option<Located<GeneratorsKey>>,
-    /// How the fabric between neighboring nodes of the net is measured, "along" unless given.
+    /// How the fabric between neighboring nodes of the net is measured.
+    #[schemars(extend("default" = "along"))]
     pub edges: Option<Located<EdgesKey>>,
     /// The target boundary, for `plydrape net`: a CSV file (x, y, z) of points on the mold in turn around the ply.
     pub trim: Option<Located<String>>,

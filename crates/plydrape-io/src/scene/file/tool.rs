@@ -1,10 +1,11 @@
 //! The keys of the table `[tool]`.
 
 use crate::scene::located::{Fixed, Located};
-use crate::scene::quantity::{Measure, Quantity};
+use crate::scene::quantity::{Measure, Quantity, written};
 use crate::scene::usual::{
     AxisSpeed, Coordinate, Flange, Heading, Residual, Stroke, TurnAcceleration, TurnRate,
 };
+use plydrape::tool::Tool;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,11 +17,14 @@ use serde::Deserialize;
 pub(in crate::scene) struct ToolTable {
     /// Linear axes between the frame and each gripper, one for a direction; without them the grippers are fixed in the frame.
     pub axes: Option<Located<Vec<Located<AxisTable>>>>,
-    /// What lets the pads tilt: "ball" joints, by which each follows the ply, unless given; with "none" they turn with the frame alone.
+    /// What lets the pads tilt. By "ball" joints each follows the ply; with "none" they turn with the frame alone.
+    #[schemars(extend("default" = "ball"))]
     pub joints: Option<Located<JointsKey>>,
-    /// Largest angular speed of the frame (rad/s), 45 deg/s unless given.
+    /// Largest angular speed of the frame (rad/s).
+    #[schemars(extend("default" = written(Tool::new(&[], Vec::new()).turn_rate, "deg/s")))]
     pub turn_rate: Option<Quantity<TurnRate>>,
-    /// Largest angular acceleration of the frame (rad/s²), 180 deg/s^2 unless given.
+    /// Largest angular acceleration of the frame (rad/s²).
+    #[schemars(extend("default" = written(Tool::new(&[], Vec::new()).turn_acceleration, "deg/s^2")))]
     pub turn_acceleration: Option<Quantity<TurnAcceleration>>,
     /// Farthest that the tool may bring a gripper from where it should be (m); no limit unless given.
     pub residual: Option<Quantity<Residual>>,
