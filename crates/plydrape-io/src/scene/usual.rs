@@ -233,7 +233,7 @@ kinds! {
     Share: Ratio, Allowed::NotNegative, ANY;
     /// A factor that a value is known within.
     Factor: Ratio, Allowed::Positive, ANY;
-    /// Those of many cells that keep the limits.
+    /// The part of many cells that keeps the limits.
     CellShare: Ratio, Allowed::PartOf("all of the cells"), ANY;
     /// By how much a pad must hold more than its load.
     GripSafety: Ratio, Allowed::Within([1.0, 100.0], "the safety of a pad"), ANY;
