@@ -117,7 +117,8 @@ impl<'a> Contact<'a> {
             press: None,
             slips: false,
         };
-        // nodes of a rigid pad cannot give way, and those of a pad that moves up and down do not rub
+        // a node that a rigid gripper holds at a point cannot move; those of a pad on a rigid mount do not rub, because the mount is
+        // stronger than friction
         let points = (0..sheet.fabric.places.len()).filter_map(|node| match system.carrier(node) {
             Carrier::Held { .. } => None,
             Carrier::Pad { shift: None, .. } => Some(point(node, false)),
