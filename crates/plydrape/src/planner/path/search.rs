@@ -111,6 +111,7 @@ pub fn search(
         idle: 0,
         left: scene.plan.evaluations.max(1),
     };
+    // infeasible limits are not searched for: no motion could keep them
     search.first(checkpoint);
     if infeasible_limits(scene).is_empty() {
         search.improve(checkpoint);
@@ -125,6 +126,7 @@ pub fn search(
     if let Some(fault) = lock(&shared.fault).take() {
         return Err(fault);
     }
+    // a decision that an earlier search made is only known by its score, so it is draped again
     match (best, fault) {
         (None, Some(fault)) => Err(fault),
         (Some(Choice { decision: None, strategy, positions, known }), _) => {
@@ -358,6 +360,7 @@ impl Search<'_, '_> {
         let before = state.begin(stage);
         let positions = candidate.positions.clone();
         let ranked = candidate.drapes.as_ref().and_then(|drapes| drapes.worst.effort);
+        // what was decided before is read from the journal, and counts as if it were draped now
         let key = journal::key(&positions, None, &state.cells());
         let strategy = candidate.strategy;
         let choice = match state.decided(key) {
@@ -384,6 +387,7 @@ impl Search<'_, '_> {
                 self.candidates.push(candidate);
             }
             Ok(choice) => {
+                // later candidates are draped with the cell that refused this one
                 if let Some(cell) = choice.known.refused_by {
                     state.add_cell(cell);
                 }
@@ -399,6 +403,7 @@ impl Search<'_, '_> {
             }
             Err(fault) => self.fault = self.fault.take().or(Some(fault)),
         }
+        // coarse scores of all that wait are corrected by what was learned
         let bias = lock(&self.shared.ranking).bias.clone();
         for candidate in &mut self.candidates {
             if let Some(drapes) = &candidate.drapes {
