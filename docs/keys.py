@@ -23,41 +23,8 @@ CHOICE_OF_TABLES = ("anyOf", "oneOf")
 DEFAULTS = [
     re.compile(r"(?:^|[,;.]\s+)(?P<default>(?:[^,;.]|\.(?=\d))+?) unless given\b"),
     re.compile(r"\s*Unless given,? (?P<default>[^.]+)\."),
-    re.compile(r"(?P<default>\"[\w-]+\") \(the default\)"),
-    re.compile(r"\((?P<default>\"[\w-]+\"), the default\)"),
 ]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?toml\n(.*?)^```", re.M | re.S)
-# Beyond this the program refuses a value, where the schema does not say so itself, as it does of
-# limits; a test compares all.
-RANGES = {
-    "contact.friction": "≥ 0",
-    "contact.tolerance": "> 0",
-    "errors.share": "> 0, ≤ 1",
-    "grippers.direction": "-360 to 360 deg",
-    "grippers.holding_force": "> 0",
-    "grippers.max_tilt": "> 0, < 90 deg",
-    "grippers.pad_radius": "≥ 0",
-    "grippers.slip_force": "> 0",
-    "limits.grip_safety": "≥ 1",
-    "model.axial_stiffness": "> 0",
-    "model.gravity": "> 0",
-    "mold.radius": "> 0",
-    "mold.ring_radius": "> 0",
-    "mold.spanned": "≥ 0",
-    "mold.tilt": "≥ 0",
-    "mold.tilt_direction": "-360 to 360 deg",
-    "mold.tube_radius": "> 0",
-    "motion.duration": "> 0",
-    "plan.move_limit": "> 0",
-    "plan.rate": "> 0",
-    "ply.overhang": "≥ 0",
-    "ply.thickness": "> 0",
-    "release.dwell": "≥ 0",
-    "sheet.mesh": "> 0",
-    "target.direction": "-360 to 360 deg",
-    "target.mesh": "> 0",
-    "target.shear": "-90 to 90 deg",
-}
 
 # Examples of keys that no scene of the repository and no chapter of the guide uses.
 LIKELY = {
@@ -113,7 +80,7 @@ LIKELY = {
 }
 
 # what is no bare quantity: words to choose from, and what has its least value from the schema
-WORDS = re.compile("[`≥]")
+WORDS = re.compile("[`≥]|^table$")
 UNIT = re.compile(r" \((?:m|rad|s|N|Hz|Pa|m/s|m/s²|m/s³|rad/s|rad/s²|N/m|N·m|N·m²)\)")
 
 
@@ -166,7 +133,8 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
     name = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
     lines = ["", f"{level} `{name}`" if path else "## Before all tables", ""]
     lines += [sentence(table["description"]) if path else "", ""]
-    lines += ["| key | meaning | unit | default | allowed | example |", "|---|---|---|---|---|---|"]
+    lines += ["| key | meaning | unit | default | allowed | found in practice | example |"]
+    lines += ["|---" * 7 + "|"]
     needed = table.get("required", [])
     for key, of in table["properties"].items():
         meaning, default = parted(of.get("description", ""))
@@ -178,9 +146,10 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
         shown = f"`{key} = {example}`" if example else ""
         meaning += choices(schema, of)
         units, ranges = kinds(schema, of)
-        if limits := RANGES.get(f"{path}.{key}") or bounds(of):
+        if limits := bounds(schema, of):
             ranges = [text if WORDS.search(text) else f"{text}, {limits}" for text in ranges]
-        row = [f"`{key}`", meaning, ", ".join(units), default, " or ".join(ranges), shown]
+        allowed, usual = " or ".join(ranges), found(schema, of)
+        row = [f"`{key}`", meaning, ", ".join(units), default, allowed, usual, shown]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") or "–" for cell in row) + " |")
     return "\n".join([*lines, ""])
 
@@ -275,27 +244,58 @@ def is_term(properties: Json) -> bool:
     return {"bound", "deviation"} <= set(properties) <= {"bound", "deviation", "factor"}
 
 
-def bounds(key: Json) -> str:
-    """The range of a number that the schema gives: > 0, < 90 deg."""
-    number: Json = next(
-        (option for option in key.get("anyOf", []) if option.get("type") == "number"), {}
-    )
-    least, most = number.get("minimum"), number.get("maximum")
-    if (least, most) == (0, 1):
+def number(schema: Json, key: Json) -> Json:
+    """The plain number that a key may be, or each value of a list."""
+    for option in alternatives(schema, key):
+        if option.get("type") == "number":
+            return option
+        inner = option.get("items") or option.get("properties", {}).get("bound")
+        if inner and (plain := number(schema, inner)):
+            return plain
+    return {}
+
+
+def bounds(schema: Json, key: Json) -> str:
+    """The range of a number: > 0, < 90 deg."""
+    plain = number(schema, key)
+    above, below = plain.get("exclusiveMinimum"), plain.get("exclusiveMaximum")
+    least, most = plain.get("minimum", above), plain.get("maximum", below)
+    if least is None or (least < 0 and not is_angle(plain)):
+        return ""
+    if least == -most if most else False:
+        return f"{math.degrees(least):g} to {math.degrees(most):g} deg"
+    if (least, most, above) == (0, 1, None):
         return "0 to 1"
-    if most_open := number.get("exclusiveMaximum"):
-        return f"> 0, < {math.degrees(most_open):g} deg"
+    if plain["description"] == "a ratio" and least >= 1:
+        return f"≥ {least:g}"
     # what is far below anything that somebody would write is zero
-    if "exclusiveMinimum" in number or (least or 0) > 0:
-        return "> 0"
-    return "≥ 0" if least == 0 else ""
+    text = "> 0" if above == 0 or least > 0 else "≥ 0"
+    if is_angle(plain) and below:
+        return f"{text}, < {math.degrees(below):g} deg"
+    return f"{text}, ≤ 1" if most == 1 else text
+
+
+def is_angle(plain: Json) -> bool:
+    """Whether a number is an angle."""
+    return bool(plain.get("description") == "an angle in rad")
+
+
+def found(schema: Json, key: Json) -> str:
+    """What is found in practice of a number."""
+    return str(number(schema, key).get("x-usual", ""))
 
 
 def ranges() -> dict[str, str]:
-    """The range of every key that has one."""
+    """The range of every number in a table of a scene that has one."""
     schema = json.loads((DOCS / "scene.schema.json").read_text(encoding="utf-8"))
-    limits = schema["$defs"]["Limits"]["properties"]
-    return RANGES | {f"limits.{key}": text for key, of in limits.items() if (text := bounds(of))}
+    texts = {}
+    for name, table in schema["properties"].items():
+        for option in alternatives(schema, table):
+            for key, of in option.get("properties", {}).items():
+                scalar = any(inner.get("type") == "number" for inner in alternatives(schema, of))
+                if scalar and (text := bounds(schema, of)):
+                    texts[f"{name}.{key}"] = text
+    return texts
 
 
 def article(text: str) -> str:

@@ -170,6 +170,11 @@ BASE: dict[str, dict[str, Any]] = {
 TORUS = {"kind": "torus", "ring_radius": "1.2 m", "tube_radius": "0.3 m"}
 TILTED = {"kind": "plane", "tilt": "12 deg", "tilt_direction": "30 deg"}
 MESH = {"kind": "mesh", "file": "mold.stl", "unit": "mm"}
+# what a table or a key needs beside it
+BESIDE: dict[str, dict[str, Any]] = {
+    "pick_up": {"height": 0},
+    "ply.warp": {"size": ["350 mm", "260 mm"]},
+}
 MOLDS = {
     "ring_radius": TORUS,
     "spanned": MESH,
@@ -185,6 +190,7 @@ BEYOND: dict[str, list[tuple[float | str, str]]] = {
     "0 to 1": [(-1e-6, "is negative"), ("101 %", "is more than")],
     "> 0, ≤ 1": [(0, "is zero"), (1.01, "is more than")],
     "> 0, < 90 deg": [(0, "is zero"), ("91 deg", "is a right angle or more")],
+    "≥ 0, < 90 deg": [(-1e-6, "is negative"), ("91 deg", "is a right angle or more")],
     "-90 to 90 deg": [("91 deg", "a right angle or more"), ("-91 deg", "a right angle or more")],
     "-360 to 360 deg": [("361 deg", "is more than a"), ("-361 deg", "is more than a")],
 }
@@ -197,8 +203,9 @@ def test_what_is_beyond_the_range_of_a_key_is_refused(path: str, limits: str) ->
     tables = copy.deepcopy(BASE)
     if table == "mold":
         tables["mold"] = dict(MOLDS.get(key, tables["mold"]))
+    tables.setdefault(table, {}).update(BESIDE.get(table, {}) | BESIDE.get(path, {}))
     for value, words in BEYOND[limits]:
-        tables.setdefault(table, {})[key] = value
+        tables[table][key] = value
         with pytest.raises(plydrape.SceneError) as refused:
             plydrape.Scene(**tables)  # type: ignore[arg-type]
         assert words in refused.value.message, refused.value

@@ -43,6 +43,7 @@ pub fn fronts(matrix: &BlockMatrix, supernodes: &Supernodes) -> Vec<Front> {
     let n = supernodes.len();
     let mut parity = vec![0; n];
     let mut children = vec![Vec::new(); n];
+    // a front and its children take turns on two stacks, so that the update of one is never written over what it reads
     for s in (0..n).rev() {
         parity[s] = supernodes.parents[s].map_or(0, |parent| 1 - parity[parent]);
     }
@@ -63,6 +64,7 @@ pub fn fronts(matrix: &BlockMatrix, supernodes: &Supernodes) -> Vec<Front> {
         }
         let update = tops[parity[s]];
         tops[parity[s]] += shape.update_len();
+        // where the rows that each child leaves are in this front
         let mut front = Front {
             shape,
             first,

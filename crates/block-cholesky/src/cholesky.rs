@@ -52,10 +52,12 @@ impl Cholesky {
     #[must_use]
     pub fn with_tuning(matrix: &BlockMatrix, tuning: &CholeskyTuning) -> Self {
         let n = matrix.nodes();
+        // order, supernodes, and the front of each: all that depends on the pattern alone
         let graph = Graph::new(n, matrix.pairs());
         let supernodes = Supernodes::new(&graph, &graph.minimum_degree_order(), tuning);
         let fronts = analysis::fronts(matrix, &supernodes);
 
+        // room for the factor, for the updates of fronts that wait for their parent, and for one front
         let shapes = || fronts.iter().map(|front| front.shape);
         let stack = |parity| {
             let mine = fronts.iter().filter(|front| front.parity == parity);
@@ -160,12 +162,14 @@ impl Cholesky {
         if !self.is_factorized {
             return Err(Error::NotFactorized);
         }
+        // into the order of elimination
         let x = x.as_chunks_mut::<3>().0;
         for (unknown, &node) in self.unknowns.iter_mut().zip(&self.remaining) {
             *unknown = x[node as usize];
         }
         let [right, solution] = &mut self.local;
         let fronts = self.fronts.iter().filter(|front| front.shape.pivots > 0);
+        // forward: L y = b, from the leaves to the root
         for front in fronts.clone() {
             let shape = front.shape;
             let factor = &self.factor[front.factor..][..shape.factor_len()];
@@ -185,6 +189,7 @@ impl Cholesky {
                 }
             }
         }
+        // backward: Lᵀ x = y, from the root to the leaves
         for front in fronts.rev() {
             let shape = front.shape;
             let factor = &self.factor[front.factor..][..shape.factor_len()];
@@ -200,6 +205,7 @@ impl Cholesky {
                 *own = node_of(all, k);
             }
         }
+        // back into the order of the caller; nodes that are left out get zero
         x.fill([0.0; 3]);
         for (unknown, &node) in self.unknowns.iter().zip(&self.remaining) {
             x[node as usize] = *unknown;

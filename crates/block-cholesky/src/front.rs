@@ -227,7 +227,9 @@ fn diagonal<S: Simd, const FIRST: usize>(
     c: &mut [Column; COLUMNS],
     a: &[Column],
 ) -> Result<(), usize> {
+    // the columns of the panel that are factorized already
     kernel::subtract_product::<S, FIRST>(simd, c, a, a);
+    // Cholesky of the 4 × 4 triangle; its diagonal keeps the reciprocals, because solving multiplies
     let mut l = [[0.0; COLUMNS]; COLUMNS];
     for j in 0..COLUMNS {
         let mut pivot = c[j].0[FIRST + j];
@@ -247,6 +249,7 @@ fn diagonal<S: Simd, const FIRST: usize>(
             l[j][r] = value * reciprocal;
         }
     }
+    // rows below are divided by the triangle
     let mut triangle = [Column::ZERO; COLUMNS];
     for j in 0..COLUMNS {
         triangle[j].0[FIRST..FIRST + COLUMNS].copy_from_slice(&l[j]);

@@ -41,6 +41,7 @@ impl Supernodes {
 
     /// Update rows and parents of groups that are eliminated one after the other.
     fn analyze(graph: &Graph, groups: &[Vec<u32>]) -> Self {
+        // place of every node in the order, and the group that has it
         let order: Vec<u32> = groups.iter().flatten().copied().collect();
         let mut place = vec![0; order.len()];
         for (k, &node) in order.iter().enumerate() {
@@ -55,6 +56,7 @@ impl Supernodes {
         let mut parents = vec![None; groups.len()];
         let mut children = vec![Vec::new(); groups.len()];
         let mut rows: Vec<Vec<u32>> = Vec::with_capacity(groups.len());
+        // rows of a group: neighbors that are eliminated later, and what its children leave; its parent has the first of them
         for s in 0..groups.len() {
             let end = starts[s + 1] as u32;
             let own = groups[s].iter().flat_map(|&node| graph.neighbors(node));

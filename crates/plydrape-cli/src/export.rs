@@ -192,7 +192,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             "--position-error",
             position_error,
             lengths,
-            &usual::POSITION_ERROR,
+            &usual::PositionError::USUAL,
             POSITION_ERRORS,
             &mut tolerance.position,
         ),
@@ -200,7 +200,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             "--least-way",
             least_way,
             lengths,
-            &usual::POSITION_ERROR,
+            &usual::PositionError::USUAL,
             LEAST,
             &mut tolerance.least_way,
         ),
@@ -242,7 +242,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         &arguments.mesh,
         &[Format::Ngsolve],
         Measured::Length,
-        &usual::MESH,
+        &usual::Mesh::USUAL,
         MESHES,
     )?;
     let shells = [Format::Inp, Format::Ngsolve];
@@ -251,7 +251,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         &arguments.tension,
         &shells,
         Measured::ForcePerLength,
-        &usual::TENSION,
+        &usual::Tension::USUAL,
         TENSIONS,
     )?;
     let read = |path: &PathBuf| {

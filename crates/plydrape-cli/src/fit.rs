@@ -162,7 +162,9 @@ impl Kind {
         let length = |option: &str, text: &Option<String>| {
             let help = "expected a length from 1 um to 10 km, e.g. \"100 mm\"";
             text.as_ref()
-                .map(|text| value(option, text, Measured::Length, &usual::COUPON, LENGTHS, help))
+                .map(|text| {
+                    value(option, text, Measured::Length, &usual::Coupon::USUAL, LENGTHS, help)
+                })
                 .transpose()
         };
         let areal = |text: &Option<String>| {
@@ -173,7 +175,7 @@ impl Kind {
                         "--mass",
                         text,
                         Measured::ArealMass,
-                        &usual::AREAL_MASS,
+                        &usual::PlyMass::USUAL,
                         [1e-6, 1e3],
                         help,
                     )
@@ -201,7 +203,8 @@ impl Kind {
             Kind::Overhang { strips, mass, angle, overhang } => {
                 let help = "expected an angle from 1 to 89 deg, e.g. \"41.5 deg\"";
                 let range = [1.0_f64, 89.0].map(f64::to_radians);
-                let angle = value("--angle", angle, Measured::Angle, &usual::ANGLE, range, help)?;
+                let angle =
+                    value("--angle", angle, Measured::Angle, &usual::AnyAngle::USUAL, range, help)?;
                 strips
                     .request(Test::Overhang { mass: areal(mass)?, angle }, [overhang.clone(), None])
             }

@@ -137,24 +137,31 @@ impl Arguments {
     /// The span, each value held against its dimension and range, and its moment (N·m) where that is a table.
     fn span(&self) -> Result<(Span, Option<MomentCurve>), Failure> {
         let length = "expected a length from 1 um to 10 km, e.g. \"98 mm\"";
-        let run = value("--run", &self.run, Measured::Length, &usual::SPAN, LENGTHS, length)?;
+        let run =
+            value("--run", &self.run, Measured::Length, &usual::Span::USUAL, LENGTHS, length)?;
         let steepest = STEEPEST * run;
         let rise = value(
             "--rise",
             &self.rise,
             Measured::Length,
-            &usual::SPAN,
+            &usual::Span::USUAL,
             [-steepest, steepest],
             "small-sag theory is for ends side by side: expected a rise of at most 1000 runs",
         )?;
-        let length =
-            value("--length", &self.length, Measured::Length, &usual::SPAN, LENGTHS, length)?;
+        let length = value(
+            "--length",
+            &self.length,
+            Measured::Length,
+            &usual::Span::USUAL,
+            LENGTHS,
+            length,
+        )?;
         let (weight, flexural_rigidity, curve) = self.strip()?;
         let axial_stiffness = value(
             "--axial-stiffness",
             &self.axial_stiffness,
             Measured::Force,
-            &usual::AXIAL,
+            &usual::Axial::USUAL,
             [1e-3, f64::INFINITY],
             "expected a force from 1 mN, e.g. \"100 kN\", or inf for a ply that does not stretch",
         )?;
@@ -190,7 +197,7 @@ impl Arguments {
             "--weight",
             weight,
             Measured::ForcePerLength,
-            &usual::WEIGHT,
+            &usual::Weight::USUAL,
             WEIGHTS,
             "expected a weight per length from 1e-9 to 1e9 N/m, e.g. 3.08 or \"3.08 N/m\"",
         )?;
@@ -200,7 +207,7 @@ impl Arguments {
             "--rigidity",
             ei,
             Measured::FlexuralRigidity,
-            &usual::FLEXURAL,
+            &usual::Flexural::USUAL,
             [0.0, RIGIDITIES[1]],
             rigidity,
         )?;
@@ -230,7 +237,8 @@ impl Arguments {
             }),
             (Section::Areal { mass, warp_rigidity, weft_rigidity }, Some(width)) => {
                 let help = "expected a width from 1 um to 10 km, e.g. \"50 mm\"";
-                let width = value("--width", width, Measured::Length, &usual::SPAN, LENGTHS, help)?;
+                let width =
+                    value("--width", width, Measured::Length, &usual::Span::USUAL, LENGTHS, help)?;
                 let curve = material.moment[along].as_ref().map(|curve| curve.times(width));
                 Ok((GRAVITY * mass * width, [warp_rigidity, weft_rigidity][along] * width, curve))
             }

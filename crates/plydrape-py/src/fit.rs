@@ -97,12 +97,12 @@ pub fn fit(
     let si = |amount: Option<Amount>, name: &str, measured: Measured, usual: &usual::Usual| {
         amount.map(|amount| amount.si(name, measured, usual)).transpose()
     };
-    let width = si(width, "width", Measured::Length, &usual::COUPON)?;
-    let length = si(length, "length", Measured::Length, &usual::COUPON)?;
-    let side = si(side, "side", Measured::Length, &usual::COUPON)?;
-    let fabric = si(fabric, "fabric", Measured::Length, &usual::COUPON)?;
-    let mass = si(mass, "mass", Measured::ArealMass, &usual::AREAL_MASS)?;
-    let angle = angle.si("angle", Measured::Angle, &usual::ANGLE)?;
+    let width = si(width, "width", Measured::Length, &usual::Coupon::USUAL)?;
+    let length = si(length, "length", Measured::Length, &usual::Coupon::USUAL)?;
+    let side = si(side, "side", Measured::Length, &usual::Coupon::USUAL)?;
+    let fabric = si(fabric, "fabric", Measured::Length, &usual::Coupon::USUAL)?;
+    let mass = si(mass, "mass", Measured::ArealMass, &usual::PlyMass::USUAL)?;
+    let angle = angle.si("angle", Measured::Angle, &usual::AnyAngle::USUAL)?;
     let (test, titles) = match test {
         "bias" => (Test::Bias { width, length }, [displacement, force]),
         "rate" => (Test::Rate { width, length }, [displacement, force]),

@@ -241,7 +241,7 @@ impl Mold {
         most: usize,
     ) -> PyResult<(Array<f64>, Array<u32>)> {
         let place = |name: &str, [x, y]: &[Amount; 2]| -> PyResult<[f64; 2]> {
-            let place = |side: &Amount| side.si(name, Measured::Length, &usual::COORDINATE);
+            let place = |side: &Amount| side.si(name, Measured::Length, &usual::Coordinate::USUAL);
             Ok([place(x)?, place(y)?])
         };
         let (low, high) = (place("low", &low)?, place("high", &high)?);

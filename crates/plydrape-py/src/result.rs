@@ -645,7 +645,7 @@ impl Result {
     ) -> PyResult<Self> {
         let text = Offset::file(offset, points.map(Points::pairs).transpose()?);
         let tolerance =
-            tolerance.map(|length| length.si("tolerance", Measured::Length, &usual::LANDED));
+            tolerance.map(|length| length.si("tolerance", Measured::Length, &usual::Landed::USUAL));
         let tolerance = tolerance.transpose()?;
         let result = parallel(py, || {
             let fault = |error: Error| error::plan(&error::text(&error));
@@ -783,7 +783,7 @@ impl Result {
             }
         };
         let mut tolerance = Tolerance::default();
-        let length = (Measured::Length, &usual::POSITION_ERROR);
+        let length = (Measured::Length, &usual::PositionError::USUAL);
         for (name, given, (measured, usual), to) in [
             ("position_error", position_error, length, &mut tolerance.position),
             ("least_way", least_way, length, &mut tolerance.least_way),
@@ -793,10 +793,11 @@ impl Result {
                 *to = amount.si(name, measured, usual)?;
             }
         }
-        let mesh =
-            mesh.map(|length| length.si("mesh", Measured::Length, &usual::MESH)).transpose()?;
+        let mesh = mesh
+            .map(|length| length.si("mesh", Measured::Length, &usual::Mesh::USUAL))
+            .transpose()?;
         let tension = tension
-            .map(|value| value.si("tension", Measured::ForcePerLength, &usual::TENSION))
+            .map(|value| value.si("tension", Measured::ForcePerLength, &usual::Tension::USUAL))
             .transpose()?;
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

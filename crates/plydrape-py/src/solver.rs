@@ -86,9 +86,9 @@ impl Solver {
         max_tilt: Amount,
     ) -> PyResult<Self> {
         let axial_stiffness =
-            axial_stiffness.si("axial_stiffness", Measured::Force, &usual::AXIAL)?;
-        let gravity = gravity.si("gravity", Measured::Acceleration, &usual::GRAVITY)?;
-        let max_tilt = max_tilt.si("max_tilt", Measured::Angle, &usual::ANGLE)?;
+            axial_stiffness.si("axial_stiffness", Measured::Force, &usual::Axial::USUAL)?;
+        let gravity = gravity.si("gravity", Measured::Acceleration, &usual::Gravity::USUAL)?;
+        let max_tilt = max_tilt.si("max_tilt", Measured::Angle, &usual::AnyAngle::USUAL)?;
         let slopes = match slopes {
             "moment-balance" => SlopeRule::MomentBalance,
             "min-force" => SlopeRule::MinForce,

@@ -90,17 +90,17 @@ impl Span {
         theory: &str,
         moment: Option<(Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Self> {
-        let run = run.si("run", Measured::Length, &usual::SPAN)?;
-        let length = length.si("length", Measured::Length, &usual::SPAN)?;
-        let weight = weight.si("weight", Measured::ForcePerLength, &usual::WEIGHT)?;
+        let run = run.si("run", Measured::Length, &usual::Span::USUAL)?;
+        let length = length.si("length", Measured::Length, &usual::Span::USUAL)?;
+        let weight = weight.si("weight", Measured::ForcePerLength, &usual::Weight::USUAL)?;
         let flexural_rigidity = flexural_rigidity.si(
             "flexural_rigidity",
             Measured::FlexuralRigidity,
-            &usual::FLEXURAL,
+            &usual::Flexural::USUAL,
         )?;
-        let rise = rise.si("rise", Measured::Length, &usual::SPAN)?;
+        let rise = rise.si("rise", Measured::Length, &usual::Span::USUAL)?;
         let axial_stiffness = axial_stiffness
-            .map(|ea| ea.si("axial_stiffness", Measured::Force, &usual::AXIAL))
+            .map(|ea| ea.si("axial_stiffness", Measured::Force, &usual::Axial::USUAL))
             .transpose()?;
         let exact = match theory {
             "small-sag" => false,

@@ -61,7 +61,7 @@ fn read<M: Measure>(text: &str, usual: &Usual) -> Result<f64, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::usual::{ANY, SPAN};
+    use super::super::usual::{ANY, Span};
     use super::*;
 
     /// By the definition of the units.
@@ -83,12 +83,12 @@ mod tests {
     /// What is far from what is usual without a unit is believed with one.
     #[test]
     fn a_plain_number_is_near_what_is_usual() {
-        let error = quantity("98", Measured::Length, &SPAN).unwrap_err();
+        let error = quantity("98", Measured::Length, &Span::USUAL).unwrap_err();
         assert_eq!(error.message(), "`98` would make a span of 98 m");
         assert!(error.help().starts_with("did you mean \"98 mm\"?"), "{}", error.help());
-        assert_eq!(quantity("98 m", Measured::Length, &SPAN).unwrap(), 98.0);
-        assert_eq!(quantity("-0.098", Measured::Length, &SPAN).unwrap(), -0.098);
-        assert!(quantity("-98", Measured::Length, &SPAN).is_err());
+        assert_eq!(quantity("98 m", Measured::Length, &Span::USUAL).unwrap(), 98.0);
+        assert_eq!(quantity("-0.098", Measured::Length, &Span::USUAL).unwrap(), -0.098);
+        assert!(quantity("-98", Measured::Length, &Span::USUAL).is_err());
     }
 
     #[test]

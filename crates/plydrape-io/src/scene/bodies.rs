@@ -2,11 +2,11 @@
 
 use super::check::line;
 use super::file::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable, SceneKeys};
-use super::heading::{coordinates, pose};
+use super::heading::pose;
 use super::located::Located;
 use super::mold::{Purpose, mesh_file};
+use super::quantity::{Read, read_or};
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::bodies::{Bodies, Body, Obstacle, Shape};
 use plydrape::geometry::Pose;
@@ -75,7 +75,7 @@ impl Reader<'_> {
         let keys = ShapeKeys { table: name.span.clone(), cylinder, cuboid, mesh, unit };
         Ok(Obstacle {
             name: self.name(name)?,
-            pose: pose(position.as_ref(), rotation.as_ref(), self.document, &usual::COORDINATE)?,
+            pose: pose(position.as_ref(), rotation.as_ref(), self.document)?,
             shape: self.shape(&keys)?,
         })
     }
@@ -148,12 +148,9 @@ impl Reader<'_> {
     }
 
     fn cylinder(&self, table: &CylinderTable) -> Result<Shape, Error> {
-        let radius = table.radius.size(self.document, &usual::CYLINDER)?;
-        let from = match &table.from {
-            Some(from) => from.coordinate(self.document, &usual::PLACE)?,
-            None => 0.0,
-        };
-        let to = table.to.coordinate(self.document, &usual::PLACE)?;
+        let radius = table.radius.read(self.document)?;
+        let from = read_or(&table.from, 0.0, self.document)?;
+        let to = table.to.read(self.document)?;
         if to <= from {
             return Err(self.document.error(
                 table.to.span.clone(),
@@ -168,14 +165,7 @@ impl Reader<'_> {
     }
 
     fn cuboid(&self, table: &BoxTable) -> Result<Shape, Error> {
-        let mut size = [0.0; 3];
-        for (size, side) in size.iter_mut().zip(&table.size.0) {
-            *size = side.size(self.document, &usual::BODY)?;
-        }
-        let at = match &table.at {
-            Some(at) => coordinates(at, self.document, &usual::PLACE)?,
-            None => [0.0; 3],
-        };
-        Ok(Shape::Box { size, at })
+        let size = table.size.read(self.document)?;
+        Ok(Shape::Box { size, at: read_or(&table.at, [0.0; 3], self.document)? })
     }
 }

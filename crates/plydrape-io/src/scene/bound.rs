@@ -3,7 +3,7 @@
 use super::located::Located;
 use super::quantity::{
     Acceleration, Angle, AngularRate, Force, Jerk, Length, Measure, Quantity, Ratio, Raw, Speed,
-    Time, Unchecked,
+    Time, Unchecked, describe,
 };
 use super::source::Document;
 use super::usual;
@@ -12,6 +12,7 @@ use plydrape::layup::Model;
 use plydrape::measure::{Bound, Name, Range, Unit, Usual, UsualLimit};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::Value;
+use std::ops;
 
 /// How the limits of measures in one unit are written and read.
 pub(super) struct Kind {
@@ -22,6 +23,7 @@ pub(super) struct Kind {
     /// Unit of a plain number, empty for a ratio.
     si: &'static str,
     schema: fn(&mut SchemaGenerator) -> Schema,
+    usual: fn(&Bound) -> usual::Usual,
     read: fn(Located<Raw>, &Bound, &Document) -> Result<f64, Error>,
 }
 
@@ -45,7 +47,7 @@ impl Kind {
         read: fn(Located<Raw>, &Bound, &Document) -> Result<f64, Error>,
     ) -> Self {
         let schema = Unchecked::<M>::json_schema;
-        Kind { name: M::NAME, example: M::EXAMPLE, si: M::UNIT, schema, read }
+        Kind { name: M::NAME, example: M::EXAMPLE, si: M::UNIT, schema, usual: usual_of::<M>, read }
     }
 }
 
@@ -127,14 +129,13 @@ pub(super) fn schema(name: Name, bound: &Bound, generator: &mut SchemaGenerator)
         && let Some(Value::Object(number)) = choices.first_mut()
     {
         let Range { least, most, open, .. } = bound.range;
-        let [low, high] = match open {
-            true => ["exclusiveMinimum", "exclusiveMaximum"],
-            false => ["minimum", "maximum"],
+        let low = if open { ops::Bound::Excluded(least) } else { ops::Bound::Included(least) };
+        let high = match most {
+            f64::INFINITY => ops::Bound::Unbounded,
+            _ if open => ops::Bound::Excluded(most),
+            _ => ops::Bound::Included(most),
         };
-        number.insert(low.into(), least.into());
-        if most.is_finite() {
-            number.insert(high.into(), most.into());
-        }
+        describe(number, [low, high], &(kind.usual)(bound));
     }
     let unit = name.measure().unit();
     let example = match kind.si {

@@ -2,9 +2,9 @@
 
 use super::bodies::bodies;
 use super::cell::cell;
+use super::choice::WarpChoice;
 use super::cut::CupArray;
 use super::diagnostic::hint;
-use super::drawing::WarpChoice;
 use super::errors::errors;
 use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, RobotTable, SceneKeys};
 use super::limits::limits;
@@ -13,11 +13,12 @@ use super::model::Models;
 use super::motion::{motion, unplanned};
 use super::pick_up::pick_up;
 use super::plan::plan;
+use super::quantity::{Read, read_given, read_or};
 use super::release::release;
 use super::settings::{self, settings};
 use super::source::Document;
 use super::trajectory::trajectory;
-use super::{SceneFile, cut, material, mold, named, rate, robot, start, target, tool, usual};
+use super::{SceneFile, cut, material, mold, named, rate, robot, start, target, tool};
 use crate::Error;
 use crate::read::outline::Drawn;
 use crate::store::shown;
@@ -119,9 +120,7 @@ pub(super) fn scene(
         pick_up(table, file, &mut layup, models.has_also(), document)?;
     }
     let title = title(file.title.as_ref(), document, base)?;
-    let thickness = file.ply.value.thickness.as_ref();
-    let thickness =
-        thickness.map(|thickness| thickness.size(document, &usual::THICKNESS)).transpose()?;
+    let thickness = read_given(&file.ply.value.thickness, document)?;
     Ok(SceneFile {
         scene: Scene {
             title,
@@ -228,17 +227,15 @@ pub(super) fn ply(
         rate::set_temperature(&mut material, temperature, document)?;
     }
     if cut::is_cut(table) {
-        let radius = match grippers.and_then(|grippers| grippers.pad_radius.as_ref()) {
-            Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
-            None => 0.0,
-        };
+        let radius = grippers.and_then(|grippers| grippers.pad_radius.clone());
+        let radius = read_or(&radius, 0.0, document)?;
         let cut::Shape { grid, cell, warp, cut, array: cups, drawn } =
             cut::shape(ply, radius, document, base)?;
         let (cut, found) = (Some(cut), FoundLines::default());
         let ply = Ply { grid, cell, material, warp, length_factor: 1.0, cut, found };
         return Ok((ply, CutRead { cups, drawn }));
     }
-    let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
+    let Some(cell) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {
         None | Some(Located { value: WarpChoice::U, .. }) => Direction::U,
         Some(Located { value: WarpChoice::V, .. }) => Direction::V,
@@ -252,7 +249,7 @@ pub(super) fn ply(
     };
     let ply = Ply {
         grid: grid(ply, document)?,
-        cell: [a.size(document, &usual::CELL)?, b.size(document, &usual::CELL)?],
+        cell: cell.read(document)?,
         material,
         warp,
         length_factor: 1.0,

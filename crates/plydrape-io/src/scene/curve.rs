@@ -3,18 +3,18 @@
 use super::choice::Curve;
 use super::file::{MomentTable, ShearCurveTable, TensionTable};
 use super::located::Located;
-use super::quantity::{Measure, Quantity, ShearSlope, TensileStiffness};
+use super::quantity::{Measure, Quantity, Read};
 use super::source::Document;
-use super::usual::{self, Usual};
+use super::usual::{Shear, Tension};
 use crate::Error;
 use plydrape::material::{MomentCurve, ShearCurve, TensionLaw};
 
-/// Largest shear force per length, or its slope (N/m).
+/// Largest shear force per length (N/m).
 const SHEAR: f64 = 1e6;
 /// Largest moment per width (N).
 const RIGIDITY: f64 = 1e6;
-/// Smallest and largest tensile stiffness per width (N/m).
-const TENSION: [f64; 2] = [1.0, 1e10];
+/// Largest tension per width (N/m).
+const TENSION: f64 = 1e10;
 
 /// Largest curvature (1/m): a radius of 10 µm.
 const CURVATURE: f64 = 1e5;
@@ -34,8 +34,8 @@ pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentC
         ));
     }
     let curve = MomentCurve {
-        curvature: climbing(&curvature.value, "curvature", CURVATURE, &usual::CURVATURE, document)?,
-        moment: climbing(&moment.value, "moment", RIGIDITY, &usual::MOMENT, document)?,
+        curvature: climbing(&curvature.value, "curvature", CURVATURE, document)?,
+        moment: climbing(&moment.value, "moment", RIGIDITY, document)?,
     };
     if curve.least_slope() >= LEAST_SLOPE * curve.rigidity() {
         return Ok(curve);
@@ -55,12 +55,11 @@ fn climbing<M: Measure>(
     list: &[Quantity<M>],
     what: &str,
     most: f64,
-    usual: &Usual,
     document: &Document,
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(list.len());
     for item in list {
-        let value = item.not_negative(document, usual)?;
+        let value = item.read(document)?;
         let (fault, help) = match values.last() {
             None if value > 0.0 => (
                 format!("the {what}s of the bending do not start at 0"),
@@ -86,15 +85,13 @@ fn climbing<M: Measure>(
 
 /// A tensile stiffness, or a measured table.
 pub(super) fn tension(
-    law: &Located<Curve<TensileStiffness, TensionTable>>,
+    law: &Located<Curve<Tension, TensionTable>>,
     document: &Document,
 ) -> Result<TensionLaw, Error> {
     match &law.value {
         Curve::Slope(stiffness) => {
             let stiffness = Located { value: stiffness.clone(), span: law.span.clone() };
-            Ok(TensionLaw::Linear {
-                stiffness: stiffness.within(document, TENSION, &usual::TENSION)?,
-            })
+            Ok(TensionLaw::Linear { stiffness: stiffness.read(document)? })
         }
         Curve::Table(TensionTable { strain, force }) => {
             same_length("the tension", "strains", [strain.value.len(), force.value.len()])
@@ -122,19 +119,13 @@ pub(super) fn tension(
 
 /// A slope, a measured table, or a polynomial.
 pub(super) fn shear(
-    curve: &Located<Curve<ShearSlope, ShearCurveTable>>,
+    curve: &Located<Curve<Shear, ShearCurveTable>>,
     document: &Document,
 ) -> Result<ShearCurve, Error> {
     let table = match &curve.value {
         Curve::Slope(slope) => {
             let slope = Located { value: slope.clone(), span: curve.span.clone() };
-            let value = slope.not_negative(document, &usual::SHEAR)?;
-            let slope = if value > SHEAR {
-                slope.within(document, [0.0, SHEAR], &usual::SHEAR)?
-            } else {
-                value
-            };
-            return Ok(ShearCurve::Polynomial { coefficients: vec![slope] });
+            return Ok(ShearCurve::Polynomial { coefficients: vec![slope.read(document)?] });
         }
         Curve::Table(table) => table,
     };
@@ -157,7 +148,7 @@ pub(super) fn shear(
             }
             let mut coefficients = Vec::with_capacity(polynomial.value.len());
             for coefficient in &polynomial.value {
-                coefficients.push(coefficient.si(document, &usual::ANY)?);
+                coefficients.push(coefficient.read(document)?);
             }
             let curve = ShearCurve::Polynomial { coefficients };
             let force = |degree: i32| curve.force(f64::from(degree).to_radians()).0;
@@ -184,7 +175,7 @@ fn ascending_angles<M: Measure>(
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(angles.len());
     for angle in angles {
-        let value = angle.not_negative(document, &usual::ANGLE)?;
+        let value = angle.read(document)?;
         let fault = match values.last() {
             None if value > 0.0 => "the shear curve does not start at an angle of 0",
             Some(last) if value <= *last => "the angles of the shear curve do not ascend",
@@ -211,7 +202,6 @@ struct Forces {
     of: &'static str,
     most_help: &'static str,
     rising_help: &'static str,
-    usual: Usual,
 }
 
 const SHEARS: Forces = Forces {
@@ -219,14 +209,12 @@ const SHEARS: Forces = Forces {
     of: "the shear curve",
     most_help: "expected a shear force per length up to 1e6 N/m",
     rising_help: "give forces that never fall: where a test shows less force, the cloth slipped or wrinkled, and the curve ends before",
-    usual: usual::SHEAR_FORCE,
 };
 const TENSIONS: Forces = Forces {
-    most: TENSION[1],
+    most: TENSION,
     of: "the tension",
     most_help: "expected a tension per width up to 1e10 N/m",
     rising_help: "give forces that never fall: where a test shows less force, yarns broke or slipped, and the table ends before",
-    usual: usual::TENSION_FORCE,
 };
 
 fn rising<M: Measure>(
@@ -236,7 +224,7 @@ fn rising<M: Measure>(
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(forces.len());
     for force in forces {
-        let value = force.not_negative(document, &rules.usual)?;
+        let value = force.read(document)?;
         if value > rules.most {
             return Err(document.error(
                 force.span.clone(),
@@ -262,7 +250,7 @@ fn ascending_strains<M: Measure>(
 ) -> Result<Vec<f64>, Error> {
     let mut values: Vec<f64> = Vec::with_capacity(strains.len());
     for strain in strains {
-        let value = strain.not_negative(document, &usual::STRAIN)?;
+        let value = strain.read(document)?;
         let fault = match values.last() {
             None if value > 0.0 => "the tension does not start at a strain of 0",
             Some(last) if value <= *last => "the strains of the tension do not ascend",

@@ -4,12 +4,12 @@
 //! holds: along the rows of the array where these lie along the yarns, else along the warp.
 
 use super::check::{grid, missing};
-use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
+use super::choice::WarpChoice;
+use super::drawing::{HoleChoice, OutlineChoice, Polygon};
 use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
-use super::heading::{coordinates, heading};
-use super::located::{Fixed, Located};
+use super::located::Located;
+use super::quantity::{Read, read_or};
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use crate::read::outline::Drawn;
 use crate::store::shown::millimeters;
@@ -101,7 +101,7 @@ pub(super) fn from_warp(table: &PlyTable, ply: &Ply, document: &Document) -> Res
     match (&ply.cut, &table.warp) {
         (Some(cut), Some(Located { value: WarpChoice::Angle(angle), span })) => {
             let warp = Located { value: angle.clone(), span: span.clone() };
-            Ok(cut.angle - heading(&warp, document)?)
+            Ok(cut.angle - warp.read(document)?)
         }
         _ => Ok(0.0),
     }
@@ -127,7 +127,7 @@ pub(super) fn shape(
         None | Some(Located { value: WarpChoice::U, .. }) => 0.0,
         Some(Located { value: WarpChoice::V, .. }) => FRAC_PI_2,
         Some(Located { value: WarpChoice::Angle(angle), span }) => {
-            heading(&Located { value: angle.clone(), span: span.clone() }, document)?
+            Located { value: angle.clone(), span: span.clone() }.read(document)?
         }
     };
     let shape = match &table.points {
@@ -159,8 +159,7 @@ fn outline(
             }
         }
         (None, Some(size)) => {
-            let [a, b] = &size.value.0;
-            let (a, b) = (a.size(document, &usual::PLY)?, b.size(document, &usual::PLY)?);
+            let [a, b] = size.read(document)?;
             (vec![[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]], Vec::new(), size.span.clone())
         }
         (Some(_), Some(size)) => {
@@ -218,12 +217,12 @@ fn outline(
 }
 
 fn polygon(points: &Polygon, document: &Document) -> Result<Ring, Error> {
-    points.iter().map(|point| coordinates(&point.value, document, &usual::FABRIC)).collect()
+    points.iter().map(|point| point.read(document)).collect()
 }
 
 fn disc(circle: &CircleTable, document: &Document) -> Result<Ring, Error> {
-    let [x, y] = coordinates(&circle.middle.value, document, &usual::FABRIC)?;
-    let radius = 0.5 * circle.diameter.size(document, &usual::HOLE)?;
+    let [x, y] = circle.middle.read(document)?;
+    let radius = 0.5 * circle.diameter.read(document)?;
     let point = |n: usize| {
         let (sin, cos) = (TAU * n as f64 / SIDES as f64).sin_cos();
         [x + radius * cos, y + radius * sin]
@@ -241,26 +240,17 @@ fn array(
 ) -> Result<Shape, Error> {
     let table = &ply.value;
     let Grid { nu, nv } = grid(ply, document)?;
-    let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
-    let cell = [a.size(document, &usual::CELL)?, b.size(document, &usual::CELL)?];
+    let Some(cell) = &table.cell else { return Err(missing("cell", ply, document)) };
+    let cell = cell.read(document)?;
     let none = ArrayTable::default();
     let (keys, span) = match &table.array {
         Some(array) => (&array.value, &array.span),
         None => (&none, &ply.span),
     };
-    let direction = match &keys.direction {
-        Some(direction) => heading(direction, document)?,
-        None => 0.0,
-    };
+    let direction = read_or(&keys.direction, 0.0, document)?;
     let [low, high] = outline.bounds();
-    let middle = match &keys.middle {
-        Some(middle) => coordinates(&middle.value, document, &usual::FABRIC)?,
-        None => [0, 1].map(|n| 0.5 * (low[n] + high[n])),
-    };
-    let margin = match &keys.margin {
-        Some(margin) => margin.size_or_zero(document, &usual::OVERHANG)?,
-        None => 0.0,
-    };
+    let middle = read_or(&keys.middle, [0, 1].map(|n| 0.5 * (low[n] + high[n])), document)?;
+    let margin = read_or(&keys.margin, 0.0, document)?;
     let (sin, cos) = direction.sin_cos();
     let cup = |index: usize| {
         let id = [index % nu, index / nu];
@@ -398,7 +388,7 @@ fn listed(
     }
     let mut cups: Vec<Cup> = Vec::with_capacity(count);
     for (n, point) in points.value.iter().enumerate() {
-        let place = coordinates(&point.value, document, &usual::FABRIC)?;
+        let place = point.read(document)?;
         let depth = outline.depth(place);
         if depth < radius * (1.0 - 1e-9) {
             let off = if depth < 0.0 { "beyond" } else { "inside" };

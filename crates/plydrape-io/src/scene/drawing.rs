@@ -2,17 +2,17 @@
 
 use super::file::{CircleTable, DrawingTable};
 use super::located::{Fixed, Located};
-use super::quantity::{Angle, Length, Quantity, Unchecked};
+use super::quantity::Quantity;
+use super::usual::FabricPoint;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor};
-use serde_json::Value;
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
 /// Points of a drawing (m), end to end.
-pub(super) type Polygon = Vec<Located<Fixed<Quantity<Length>, 2>>>;
+pub(super) type Polygon = Vec<Located<Fixed<Quantity<FabricPoint>, 2>>>;
 
 /// A boundary: points, a file, or a table that says more of a file.
 #[derive(Debug)]
@@ -97,58 +97,5 @@ impl JsonSchema for HoleChoice {
         let points = generator.subschema_for::<Polygon>();
         let circle = generator.subschema_for::<CircleTable>();
         json_schema!({ "anyOf": [points, circle] })
-    }
-}
-
-/// The direction of the warp: an axis, or an angle.
-#[derive(Debug)]
-pub(super) enum WarpChoice {
-    U,
-    V,
-    Angle(Unchecked<Angle>),
-}
-
-impl<'de> Deserialize<'de> for WarpChoice {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Choice;
-        impl Visitor<'_> for Choice {
-            type Value = WarpChoice;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("\"u\", \"v\" or an angle, e.g. \"45 deg\"")
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Self::Value, E> {
-                Unchecked::deserialize(value.into_deserializer()).map(WarpChoice::Angle)
-            }
-            fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
-                Unchecked::deserialize(value.into_deserializer()).map(WarpChoice::Angle)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {
-                Unchecked::deserialize(value.into_deserializer()).map(WarpChoice::Angle)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
-                match word {
-                    "u" => Ok(WarpChoice::U),
-                    "v" => Ok(WarpChoice::V),
-                    _ if word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) => {
-                        Unchecked::deserialize(word.into_deserializer()).map(WarpChoice::Angle)
-                    }
-                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
-                }
-            }
-        }
-        deserializer.deserialize_any(Choice)
-    }
-}
-
-impl JsonSchema for WarpChoice {
-    fn schema_name() -> Cow<'static, str> {
-        "Warp".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut schema = Unchecked::<Angle>::json_schema(generator);
-        if let Some(Value::Array(choices)) = schema.get_mut("anyOf") {
-            choices.push(json_schema!({ "enum": ["u", "v"] }).into());
-        }
-        schema
     }
 }

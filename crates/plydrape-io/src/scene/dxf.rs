@@ -2,18 +2,17 @@
 
 use super::drawing::OutlineChoice;
 use super::file::{DrawingTable, PieceTable, PlyTable};
-use super::heading::coordinates;
 use super::located::Located;
+use super::quantity::{Read, read_or};
 use super::read;
 use super::source::Document;
 use super::units::{self, Dimension};
-use super::usual;
 use crate::Error;
 use crate::read::outline::{self, Drawn, Options, Piece};
 use std::path::Path;
 
 /// How far a curve may be from the lines that stand for it, and the widest gap that is closed (m), unless given: what a cutter keeps.
-const TOLERANCE: f64 = 1e-4;
+pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// Reads the file that an outline names; `None` for an outline that is points.
 pub(super) fn drawn(
@@ -69,9 +68,7 @@ fn piece(table: &Located<PieceTable>, document: &Document) -> Result<Piece, Erro
     match (block, label, point) {
         (Some(block), None, None) => Ok(Piece::Block(block.value.trim().into())),
         (None, Some(label), None) => Ok(Piece::Label(label.value.trim().into())),
-        (None, None, Some(point)) => {
-            Ok(Piece::Point(coordinates(&point.value, document, &usual::FABRIC)?))
-        }
+        (None, None, Some(point)) => Ok(Piece::Point(point.read(document)?)),
         (None, None, None) => Err(refused("`piece` chooses no piece")),
         _ => Err(refused("`piece` chooses in more than one way")),
     }
@@ -79,10 +76,7 @@ fn piece(table: &Located<PieceTable>, document: &Document) -> Result<Piece, Erro
 
 fn options(table: &DrawingTable, document: &Document) -> Result<Options, Error> {
     let names = |layers: &Vec<Located<String>>| layers.iter().map(|l| l.value.clone()).collect();
-    let tolerance = match &table.tolerance {
-        Some(tolerance) => tolerance.size(document, &usual::DRAWN)?,
-        None => TOLERANCE,
-    };
+    let tolerance = read_or(&table.tolerance, TOLERANCE, document)?;
     let unit = match &table.unit {
         Some(unit) => Some(length(unit, document)?),
         None => None,

@@ -2,9 +2,9 @@
 
 use super::file::{ErrorsTable, MoldErrorsTable, ShareTable, Term};
 use super::located::{CountOrNone, Located, Whole};
-use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
+use super::quantity::{Measure, Quantity, Read, read_or};
 use super::source::Document;
-use super::usual;
+use super::usual::{AngleError, CellError};
 use crate::Error;
 use crate::store::shown::millimeters;
 use plydrape::errors::{
@@ -40,7 +40,7 @@ pub(super) fn errors(
     let default = cell.unwrap_or_default();
     let [a, b] = ply.cell;
     let reader = Reader { document, shift: LARGEST_SHIFT * a.min(b) };
-    let turn = |term: &Option<Term<Angle>>, other: errors::Term| {
+    let turn = |term: &Option<Term<AngleError>>, other: errors::Term| {
         reader.term(term, other, [LARGEST_TURN; 2], "10 deg")
     };
     Ok(Errors {
@@ -52,10 +52,7 @@ pub(super) fn errors(
             Some(samples) => reader.samples(samples)?,
             None => default.samples,
         },
-        share: match &table.share {
-            Some(share) => reader.accepted(share)?,
-            None => default.share,
-        },
+        share: read_or(&table.share, default.share, document)?,
         frame: FrameErrors {
             position: reader.shift(&table.frame.position, default.frame.position)?,
             angle: turn(&table.frame.angle, default.frame.angle)?,
@@ -144,7 +141,7 @@ impl Reader<'_> {
             }
             (None, Some(value), None) => self.size(value, even, most).map(errors::Term::Bound),
             (None, None, Some(value)) => {
-                let factor = value.si(self.document, &usual::ANY)?;
+                let factor = value.read(self.document)?;
                 if (1.0..=LARGEST_FACTOR).contains(&factor) {
                     return Ok(errors::Term::Factor(factor));
                 }
@@ -174,8 +171,7 @@ impl Reader<'_> {
         largest: f64,
         most: &str,
     ) -> Result<f64, Error> {
-        let size =
-            value.not_negative(self.document, &usual::error::<M>().within([0.0, largest]))?;
+        let size = value.not_negative(self.document, &M::usual().within([0.0, largest]))?;
         if size <= largest {
             return Ok(size);
         }
@@ -188,7 +184,7 @@ impl Reader<'_> {
 
     fn shift(
         &self,
-        written: &Option<Term<Length>>,
+        written: &Option<Term<CellError>>,
         other: errors::Term,
     ) -> Result<errors::Term, Error> {
         let most = format!("{} mm, half of the shorter side of a cell", millimeters(self.shift));
@@ -210,25 +206,10 @@ impl Reader<'_> {
         }
     }
 
-    fn accepted(&self, written: &Quantity<Ratio>) -> Result<f64, Error> {
-        let share = written.positive(self.document, &usual::ANY)?;
-        if share <= 1.0 {
-            return Ok(share);
-        }
-        Err(self.document.error(
-            written.span.clone(),
-            format!("{} is more than all of the cells", self.document.quoted(&written.span)),
-            "expected a share above 0, up to 1, e.g. \"95 %\"",
-        ))
-    }
-
     /// All of a mold's errors but the tilt.
     fn mold(&self, table: &MoldErrorsTable, other: MoldErrors) -> Result<MoldErrors, Error> {
         let offset = self.shift(&table.offset, other.offset)?;
-        let wavelength = match &table.wavelength {
-            Some(length) => length.size(self.document, &usual::WAVES)?,
-            None => other.wavelength,
-        };
+        let wavelength = read_or(&table.wavelength, other.wavelength, self.document)?;
         let largest = STEEPEST_WAVES * wavelength;
         let waviness = match (&table.waviness, &table.wavelength) {
             (Some(term), None) if wavelength == 0.0 => {

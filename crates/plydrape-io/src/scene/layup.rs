@@ -5,9 +5,8 @@
 
 use super::choice::{HeadingChoice, SeedChoice};
 use super::file::{EdgesKey, GeneratorsKey, TargetTable};
-use super::heading::{coordinates, heading};
 use super::located::Located;
-use super::quantity::{Angle, Length, Quantity, rounded};
+use super::quantity::{Quantity, Read, read_or, rounded};
 use super::source::Document;
 use super::usual;
 use crate::Error;
@@ -48,20 +47,14 @@ pub(super) fn layup(
     mold: &Mold,
     document: &Document,
 ) -> Result<Placement, Error> {
-    let shear = match &keys.shear {
-        Some(shear) => shear_angle(shear, document)?,
-        None => 0.0,
-    };
+    let shear = read_or(&keys.shear, 0.0, document)?;
     let heading = match &keys.direction {
         Some(Located { value: HeadingChoice::Angle(angle), span }) => {
-            heading(&Located { value: angle.clone(), span: span.clone() }, document)?
+            Located { value: angle.clone(), span: span.clone() }.read(document)?
         }
         Some(Located { value: HeadingChoice::Best, .. }) | None => 0.0,
     };
-    let origin = match &keys.origin {
-        Some(origin) => coordinates(&origin.value, document, &usual::PLACE)?,
-        None => [0.0; 2],
-    };
+    let origin = read_or(&keys.origin, [0.0; 2], document)?;
     let Some(place) = mold.highest_point(origin) else {
         let [x, y] = origin.map(|c| format!("{} mm", round(c * 1e3)));
         return Err(document.error(
@@ -137,7 +130,7 @@ fn nodes_of_cut(
     let seed = match &keys.seed {
         None | Some(Located { value: SeedChoice::Middle | SeedChoice::Best, .. }) => ply.middle(),
         Some(Located { value: SeedChoice::At(point), span }) => {
-            let uv = cut.fabric(coordinates(point, document, &usual::FABRIC)?);
+            let uv = cut.fabric(point.read(document)?);
             if !(0..2).all(|n| (low[n]..=high[n]).contains(&uv[n])) {
                 return Err(document.error(
                     span.clone(),
@@ -163,7 +156,7 @@ fn nodes_of_cut(
     };
     let mesh = match &keys.mesh {
         Some(width) => {
-            let mesh = width.size(document, &usual::MESH)?;
+            let mesh = width.read(document)?;
             if size / mesh > MOST_NODES as f64 || number(mesh) > MOST_NODES {
                 return Err(document.error(
                     width.span.clone(),
@@ -193,22 +186,6 @@ fn nodes_of_cut(
     })
 }
 
-/// A shear angle to either side, below a right angle (rad).
-fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = shear.si(document, &usual::ANGLE.within([0.0, std::f64::consts::FRAC_PI_2]))?;
-    if value >= 0.0 {
-        return shear.below_right_angle(document);
-    }
-    if value > -std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9) {
-        return Ok(value);
-    }
-    Err(document.error(
-        shear.span.clone(),
-        format!("{} shears the ply by a right angle or more", document.quoted(&shear.span)),
-        "expected an angle between -90 deg and 90 deg; write degrees as \"20 deg\"",
-    ))
-}
-
 /// The fabric point that is laid first.
 struct Seed {
     /// Where it lies in the fabric, in cells.
@@ -228,7 +205,7 @@ impl Seed {
             SeedChoice::Middle | SeedChoice::Best => {
                 return Ok(Seed { cells: most.map(|count| 0.5 * count), span });
             }
-            SeedChoice::At(point) => coordinates(point, document, &usual::FABRIC)?,
+            SeedChoice::At(point) => point.read(document)?,
         };
         let cells = [0, 1].map(|n| point[n] / ply.cell[n]);
         if (0..2).all(|n| cells[n] > -WHOLE && cells[n] < most[n] + WHOLE) {
@@ -264,12 +241,12 @@ fn is_too_fine(ply: &Ply, divisions: [usize; 2]) -> bool {
 
 /// The divisions of a mesh width that the scene gives.
 fn given_divisions(
-    width: &Quantity<Length>,
+    width: &Quantity<usual::Mesh>,
     ply: &Ply,
     seed: &Seed,
     document: &Document,
 ) -> Result<[usize; 2], Error> {
-    let value = width.size(document, &usual::MESH)?;
+    let value = width.read(document)?;
     let counts = [0, 1].map(|n| ply.cell[n] / value);
     // a strip has no cells along v to be divided
     let cells = [ply.grid.nu, ply.grid.nv].map(|grippers| grippers > 1);

@@ -2,18 +2,14 @@
 
 use super::bound;
 use super::file::LimitsTable;
-use super::heading::coordinates;
 use super::located::Fixed;
-use super::quantity::{Length, Quantity};
+use super::quantity::{Quantity, Read, read_or};
 use super::source::Document;
-use super::usual;
+use super::usual::Coordinate;
 use crate::Error;
 use plydrape::layup::Layup;
 use plydrape::measure::{Limits, Name};
 use std::cmp::Reverse;
-
-/// Smallest and largest safety of the pads.
-const GRIP_SAFETIES: [f64; 2] = [1.0, 100.0];
 
 /// Checks the table `[limits]` of a layup; what it does not say is that of its preset, or else as in [`Limits::of`].
 pub(super) fn limits(
@@ -44,10 +40,7 @@ pub(super) fn limits(
     }
     refuse(table, layup, document)?;
 
-    if let Some(safety) = &table.grip_safety {
-        limits.grip_safety =
-            safety.within_for(document, GRIP_SAFETIES, "the safety of a pad", &usual::ANY)?;
-    }
+    limits.grip_safety = read_or(&table.grip_safety, limits.grip_safety, document)?;
     if let Some(sides) = &table.workspace {
         limits.workspace = Some(workspace(sides, document)?);
     }
@@ -69,12 +62,12 @@ fn refuse(table: &LimitsTable, layup: &Layup, document: &Document) -> Result<(),
 
 /// A box (m); refuses sides that are empty or run backwards.
 fn workspace(
-    sides: &Fixed<Fixed<Quantity<Length>, 2>, 3>,
+    sides: &Fixed<Fixed<Quantity<Coordinate>, 2>, 3>,
     document: &Document,
 ) -> Result<[[f64; 2]; 3], Error> {
     let mut out = [[0.0; 2]; 3];
     for (n, side) in sides.0.iter().enumerate() {
-        let [from, to] = coordinates(side, document, &usual::COORDINATE)?;
+        let [from, to] = side.read(document)?;
         if from >= to {
             let axis = ["x", "y", "z"][n];
             let fault = if from == to { "is empty" } else { "runs backwards" };

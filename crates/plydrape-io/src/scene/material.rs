@@ -4,10 +4,10 @@ use super::check::line;
 use super::choice::{Curve, MaterialChoice};
 use super::file::{FabricKey, MaterialTable, MomentTable};
 use super::located::Located;
-use super::quantity::{BendingRigidity, Measure, Quantity, Ratio};
+use super::quantity::{Quantity, Read};
 use super::source::{Document, excerpt};
 use super::units::Dimension;
-use super::usual::{self, Usual};
+use super::usual::{Bending, Factor, LineMass, PlyMass, Share};
 use super::{curve, rate, read};
 use crate::Error;
 use crate::store::shown;
@@ -35,8 +35,6 @@ const SHIPPED: [(&str, &str); 14] = [
 
 /// Smallest and largest mass per length (kg/m) or area (kg/m²).
 const MASSES: [f64; 2] = [1e-6, 1e3];
-/// Largest flexural rigidity (N·m²) or rigidity per width (N·m).
-const RIGIDITY: f64 = 1e6;
 /// Largest factor of a scatter: who knows less does not know the force.
 const LARGEST_FACTOR: f64 = 100.0;
 
@@ -146,7 +144,7 @@ fn from_table(
         (Some(angle), Some(test)) => {
             let test = line(test, document)?;
             source = format!("{source}; locking angle: {test}");
-            Some(angle.acute(document)?)
+            Some(angle.read(document)?)
         }
         (Some(angle), None) => {
             return Err(document.error(
@@ -181,7 +179,7 @@ fn from_table(
 /// How much the properties scatter.
 fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, Error> {
     let Some(given) = &table.scatter else { return Ok(Scatter::default()) };
-    let share = |share: &Option<Quantity<Ratio>>| {
+    let share = |share: &Option<Quantity<Share>>| {
         share.as_ref().map(|share| scatter_share(share, "", document)).transpose()
     };
     let shear_curve = match &given.shear_curve {
@@ -206,8 +204,8 @@ fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, Error>
 }
 
 /// A standard deviation as a share of the value, of which it is not more; `other` ends the remedy.
-fn scatter_share(share: &Quantity<Ratio>, other: &str, document: &Document) -> Result<f64, Error> {
-    let value = share.not_negative(document, &usual::ANY)?;
+fn scatter_share(share: &Quantity<Share>, other: &str, document: &Document) -> Result<f64, Error> {
+    let value = share.read(document)?;
     if value <= 1.0 {
         return Ok(value);
     }
@@ -221,8 +219,8 @@ fn scatter_share(share: &Quantity<Ratio>, other: &str, document: &Document) -> R
 }
 
 /// A factor from 1 to [`LARGEST_FACTOR`].
-fn scatter_factor(factor: &Quantity<Ratio>, document: &Document) -> Result<f64, Error> {
-    let value = factor.positive(document, &usual::ANY)?;
+fn scatter_factor(factor: &Quantity<Factor>, document: &Document) -> Result<f64, Error> {
+    let value = factor.read(document)?;
     if (1.0..=LARGEST_FACTOR).contains(&value) {
         return Ok(value);
     }
@@ -245,8 +243,8 @@ fn section(
     let by_area = table.bending_rigidity_warp.is_some() || table.bending_rigidity_weft.is_some();
     let per_length = dimension == Some(Dimension::LINE_MASS)
         || dimension.is_none() && table.flexural_rigidity.is_some();
-    let usual = if per_length { &usual::LINE_MASS } else { &usual::AREAL_MASS };
-    let mass = table.mass.within(document, MASSES, usual)?;
+    let usual = if per_length { &LineMass::USUAL } else { &PlyMass::USUAL };
+    let mass = table.mass.within_for(document, MASSES, "a ply", &usual.within(MASSES))?;
     let mismatch = |rigidity: &str| {
         document.error(
             table.mass.span.clone(),
@@ -263,7 +261,7 @@ fn section(
             Err(mismatch("flexural_rigidity"))
         }
         (Some(rigidity), None, None) => {
-            let flexural_rigidity = bounded_rigidity(rigidity, document, &usual::FLEXURAL)?;
+            let flexural_rigidity = rigidity.read(document)?;
             Ok((Section::Line { mass, flexural_rigidity }, [None, None]))
         }
         (None, ..) if by_area && dimension == Some(Dimension::LINE_MASS) => {
@@ -294,29 +292,17 @@ fn section(
 
 /// A rigidity, or the moment over the curvature and its first slope.
 fn bending(
-    given: &Located<Curve<BendingRigidity, MomentTable>>,
+    given: &Located<Curve<Bending, MomentTable>>,
     document: &Document,
 ) -> Result<(f64, Option<MomentCurve>), Error> {
     match &given.value {
         Curve::Slope(rigidity) => {
             let rigidity = Located { value: rigidity.clone(), span: given.span.clone() };
-            Ok((bounded_rigidity(&rigidity, document, &usual::BENDING)?, None))
+            Ok((rigidity.read(document)?, None))
         }
         Curve::Table(table) => {
             let curve = curve::moment(table, document)?;
             Ok((curve.rigidity(), Some(curve)))
         }
     }
-}
-
-fn bounded_rigidity<M: Measure>(
-    rigidity: &Quantity<M>,
-    document: &Document,
-    usual: &Usual,
-) -> Result<f64, Error> {
-    let value = rigidity.not_negative(document, usual)?;
-    if value == 0.0 {
-        return Ok(value);
-    }
-    rigidity.within(document, [f64::MIN_POSITIVE, RIGIDITY], usual)
 }

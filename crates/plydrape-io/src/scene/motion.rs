@@ -3,8 +3,8 @@
 use super::file::{MotionKind, MotionTable};
 use super::located::{Count, Located, Whole};
 use super::places::Places;
+use super::quantity::Read;
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::geometry::vector;
 use plydrape::layup::Target;
@@ -12,7 +12,7 @@ use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion, SHORTEST_STEP, is_too
 use plydrape::ply::Ply;
 
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
-const STEPS: usize = 30;
+pub(super) const STEPS: usize = 30;
 /// Shortest and longest duration (s).
 pub(super) const DURATIONS: [f64; 2] = [1e-6, 1e7];
 
@@ -55,13 +55,9 @@ pub(super) fn motion(
         None => STEPS,
     };
     let last = (steps - 1) as f64;
-    let duration = match keys.and_then(|k| k.duration.as_ref()) {
-        Some(duration) => {
-            duration.within_for(document, DURATIONS, "a motion", &usual::duration())?
-        }
-        None => last,
-    };
-    if let Some(written) = keys.and_then(|k| k.duration.as_ref())
+    let written = keys.and_then(|k| k.duration.as_ref());
+    let duration = written.map_or(Ok(last), |duration| duration.read(document))?;
+    if let Some(written) = written
         && is_too_short(duration / last)
     {
         return Err(document.error(

@@ -1,10 +1,10 @@
 //! Where a camera saw the ply: the file of `plydrape replan --picked`.
 
 use super::located::{Fixed, Located};
-use super::quantity::{Angle, Length, Quantity};
+use super::quantity::{Measure, Quantity, Read};
 use super::read;
 use super::source::Document;
-use super::usual::{self, Usual};
+use super::usual::{Landed, Place, Shift, Yaw};
 use crate::Error;
 use plydrape::pick_up::Offset;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
@@ -41,7 +41,7 @@ struct OffsetFile {
     #[serde(default)]
     point: Vec<Located<PointTable>>,
     /// How far a point may be from where the others put it.
-    tolerance: Option<Quantity<Length>>,
+    tolerance: Option<Quantity<Landed>>,
     /// Whether the ply does lie more than 50 mm or 10° off.
     #[serde(default)]
     far: bool,
@@ -52,13 +52,13 @@ struct OffsetFile {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 struct OffsetTable {
     /// Shift along x (m), 0 unless given.
-    x: Option<Quantity<Length>>,
+    x: Option<Quantity<Shift>>,
     /// Shift along y (m), 0 unless given.
-    y: Option<Quantity<Length>>,
+    y: Option<Quantity<Shift>>,
     /// Turn about the upright axis (rad), 0 unless given.
-    yaw: Option<Quantity<Angle>>,
+    yaw: Option<Quantity<Yaw>>,
     /// Where this axis is; the middle of the grippers at the start unless given.
-    about: Option<Fixed<Quantity<Length>, 2>>,
+    about: Option<Fixed<Quantity<Place>, 2>>,
 }
 
 /// A table `[[point]]`.
@@ -66,9 +66,9 @@ struct OffsetTable {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 struct PointTable {
     /// Where it is in the plan (m).
-    planned: Fixed<Quantity<Length>, 2>,
+    planned: Fixed<Quantity<Place>, 2>,
     /// Where it was seen (m).
-    seen: Fixed<Quantity<Length>, 2>,
+    seen: Fixed<Quantity<Place>, 2>,
 }
 
 /// Reads the file; points may be `tolerance` (m) from where the others put them, unless the file says otherwise.
@@ -219,8 +219,8 @@ fn quoted(text: &str) -> String {
 
 fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
     let OffsetFile { offset, point, tolerance: own, far } = read::keys(document)?;
-    let pair = |fixed: &Fixed<Quantity<Length>, 2>| -> Result<[f64; 2], Error> {
-        let [x, y] = fixed.0.each_ref().map(|given| place(given, document, &usual::PLACE));
+    let pair = |fixed: &Fixed<Quantity<Place>, 2>| -> Result<[f64; 2], Error> {
+        let [x, y] = fixed.0.each_ref().map(|given| place(given, document));
         Ok([x?, y?])
     };
     match (offset, point.as_slice()) {
@@ -233,8 +233,8 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
                     "write x = 0 if the ply does lie where it was planned; a camera that found nothing has no offset",
                 ));
             }
-            let shift = |given: &Option<Quantity<Length>>| {
-                given.as_ref().map_or(Ok(0.0), |given| place(given, document, &usual::SHIFT))
+            let shift = |given: &Option<Quantity<Shift>>| {
+                given.as_ref().map_or(Ok(0.0), |given| place(given, document))
             };
             let yaw = match yaw {
                 Some(yaw) => angle(yaw, document)?,
@@ -257,7 +257,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
                 .map(|point| Ok((pair(&point.value.planned)?, pair(&point.value.seen)?)));
             let pairs: Vec<_> = pairs.collect::<Result<_, Error>>()?;
             let tolerance = match own {
-                Some(own) => own.positive(document, &usual::LANDED)?,
+                Some(own) => own.read(document)?,
                 None => tolerance,
             };
             let (offset, residual) = Offset::of_points(&pairs, tolerance).map_err(|fault| {
@@ -282,8 +282,8 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
 }
 
 /// A coordinate or a shift (m).
-fn place(given: &Quantity<Length>, document: &Document, usual: &Usual) -> Result<f64, Error> {
-    let value = given.si(document, &usual.within([0.0, plydrape::ply::FARTHEST]))?;
+fn place<M: Measure>(given: &Quantity<M>, document: &Document) -> Result<f64, Error> {
+    let value = given.si(document, &M::usual().within([0.0, plydrape::ply::FARTHEST]))?;
     match value.abs() <= plydrape::ply::FARTHEST {
         true => Ok(value),
         false => Err(document.error(
@@ -295,8 +295,8 @@ fn place(given: &Quantity<Length>, document: &Document, usual: &Usual) -> Result
 }
 
 /// A yaw (rad).
-fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, Error> {
-    let value = given.si(document, &usual::YAW.within([0.0, std::f64::consts::PI]))?;
+fn angle(given: &Quantity<Yaw>, document: &Document) -> Result<f64, Error> {
+    let value = given.si(document, &Yaw::USUAL.within([0.0, std::f64::consts::PI]))?;
     match value.abs() <= std::f64::consts::PI {
         true => Ok(value),
         false => Err(document.error(

@@ -2,19 +2,18 @@
 
 use super::file::{MotionKind, PickUpTable, SceneKeys};
 use super::located::Located;
-use super::quantity::{Length, Quantity, Time};
+use super::quantity::{Read, read_given, read_or};
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::layup::{Layup, Model, PickUp};
 use plydrape::motion::Motion;
 
 /// How far above the ply the pads come from unless given (m).
-const CLEARANCE: f64 = 0.05;
+pub(super) const CLEARANCE: f64 = 0.05;
 /// How long they stand on it (s).
-const GRIP: f64 = 0.5;
+pub(super) const GRIP: f64 = 0.5;
 /// How far they go back along the normals of the mold (m).
-const RETREAT: f64 = 0.02;
+pub(super) const RETREAT: f64 = 0.02;
 /// Height of a start over the table (of the shorter side of a cell) below which nothing could hang free.
 const LEAST_LIFT: f64 = 0.05;
 
@@ -35,24 +34,12 @@ pub(super) fn pick_up(
         ));
     }
     let (height, obstacle) = on(keys, span, layup, document)?;
-    let time = |key: &Option<Quantity<Time>>| match key {
-        Some(time) => time.not_negative(document, &usual::DWELL),
-        None => Ok(GRIP),
-    };
-    let length = |key: &Option<Quantity<Length>>, default| match key {
-        Some(length) => length.size(document, &usual::CLEAR),
-        None => Ok(default),
-    };
     let mut pick_up = PickUp {
         height,
-        clearance: length(&keys.clearance, CLEARANCE)?,
-        grip: time(&keys.grip)?,
-        vacuum_timeout: keys
-            .vacuum_timeout
-            .as_ref()
-            .map(|time| time.positive(document, &usual::DWELL))
-            .transpose()?,
-        retreat: length(&keys.retreat, RETREAT)?,
+        clearance: read_or(&keys.clearance, CLEARANCE, document)?,
+        grip: read_or(&keys.grip, GRIP, document)?,
+        vacuum_timeout: read_given(&keys.vacuum_timeout, document)?,
+        retreat: read_or(&keys.retreat, RETREAT, document)?,
         table: obstacle,
         lift_steps: 0,
     };
@@ -123,7 +110,7 @@ fn on(
         None => None,
     };
     let height = match (&keys.height, obstacle) {
-        (Some(height), _) => height.coordinate(document, &usual::PLACE)?,
+        (Some(height), _) => height.read(document)?,
         (None, Some(n)) => obstacles[n].bounds()[1][2],
         (None, None) => {
             return Err(document.error(

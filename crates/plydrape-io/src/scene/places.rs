@@ -1,14 +1,13 @@
 //! Gripper positions as written: by spacing, as a table, or in a CSV file.
 
 use super::choice::{Positions, PositionsRow};
-use super::heading::coordinates;
 use super::located::Located;
-use super::quantity::rounded;
+use super::quantity::{Read, rounded};
 use super::read;
 use super::source::Document;
 use super::table::{Column, Plain, Row, Table};
 use super::units::Dimension;
-use super::usual;
+use super::usual::Coordinate;
 use crate::Error;
 use plydrape::LayupError;
 use plydrape::ply::{Grid, GripperId, Ply, gripper_name};
@@ -49,7 +48,7 @@ const fn coordinate(names: &'static [&'static str]) -> Column {
 
 /// The largest coordinate in meters without a unit, as in a scene.
 const PLAIN: Plain =
-    Plain { believed: [0.0, 2.0 * usual::COORDINATE.found[1]], words: usual::COORDINATE.range };
+    Plain { believed: [0.0, 2.0 * Coordinate::USUAL.found[1]], words: Coordinate::USUAL.range };
 
 impl Places {
     /// Reads the key `positions`.
@@ -186,7 +185,7 @@ fn from_table(
             return Err(scene.error(row.span.clone(), message, help));
         }
         for position in &row.value {
-            places.points.push(coordinates(&position.value, scene, &usual::COORDINATE)?);
+            places.points.push(position.read(scene)?);
             places.spans.push(position.span.clone());
         }
     }

@@ -2,8 +2,8 @@
 
 use super::file::{MethodKey, PlanTable};
 use super::located::{Count, Located, Seed, Whole};
+use super::quantity::{read_given, read_or};
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::motion::MOST_POSITIONS;
 use plydrape::scene::{PlanMethod, PlanSettings};
@@ -12,8 +12,6 @@ use plydrape::scene::{PlanMethod, PlanSettings};
 const MOST_STEPS: usize = 10_000;
 /// Most candidates that a search may drape.
 const MOST_EVALUATIONS: usize = 1_000_000;
-/// Smallest and largest rate of the motion file (Hz).
-const RATES: [f64; 2] = [0.1, 1e4];
 
 /// Checks the table `[plan]`.
 pub(super) fn plan(
@@ -33,10 +31,7 @@ pub(super) fn plan(
             Some(steps) => count(steps, [2, most_steps], "steps", document)?,
             None => default.steps.min(most_steps),
         },
-        move_limit: match &table.move_limit {
-            Some(limit) => Some(limit.size(document, &usual::MOVE)?),
-            None => None,
-        },
+        move_limit: read_given(&table.move_limit, document)?,
         seed: match &table.seed {
             Some(seed) => number(seed, document)?,
             None => default.seed,
@@ -46,10 +41,7 @@ pub(super) fn plan(
             None => default.evaluations,
         },
         improve: table.improve.unwrap_or(default.improve),
-        rate: match &table.rate {
-            Some(rate) => rate.within_for(document, RATES, "a motion file", &usual::RATE)?,
-            None => default.rate,
-        },
+        rate: read_or(&table.rate, default.rate, document)?,
     })
 }
 

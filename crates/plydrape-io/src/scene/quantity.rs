@@ -1,6 +1,6 @@
 //! Measured values of a scene file, held against the dimension and the range that they must have.
 
-use super::located::Located;
+use super::located::{Fixed, Located};
 use super::source::Document;
 use super::units::{self, Dimension};
 use super::usual::{self, Usual};
@@ -8,9 +8,12 @@ use crate::Error;
 use crate::error::Fault;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Visitor};
+use serde_json::{Map, Value};
 use std::borrow::Cow;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
 use std::marker::PhantomData;
+use std::ops::Bound;
 
 /// What a key of the scene measures.
 pub(super) trait Measure {
@@ -22,6 +25,97 @@ pub(super) trait Measure {
     const UNIT: &'static str;
     /// A value with a unit, as a user would write it.
     const EXAMPLE: &'static str;
+    /// Which values are not refused.
+    const ALLOWED: Allowed = Allowed::Finite;
+
+    /// What is found in practice.
+    fn usual() -> Usual {
+        usual::ANY
+    }
+}
+
+/// Smallest and largest size of anything in a scene (m).
+const SIZES: [f64; 2] = [1e-6, 1e4];
+
+/// Which values a key may have (SI).
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Allowed {
+    /// All that are finite.
+    Finite,
+    /// Zero and more.
+    NotNegative,
+    /// More than zero.
+    Positive,
+    /// A size from 1 µm to 10 km.
+    Size,
+    /// Such a size, or zero.
+    SizeOrZero,
+    /// Up to 10 km to either side.
+    Coordinate,
+    /// More than zero and no more than the whole, which the message names.
+    PartOf(&'static str),
+    /// From a smallest to a largest value, and of what these are.
+    Within([f64; 2], &'static str),
+    /// Such a value, or zero.
+    ZeroOrWithin([f64; 2], &'static str),
+    /// Such a value, or infinity.
+    InfiniteOrWithin([f64; 2], &'static str),
+    /// A turn to either side at most.
+    Turn,
+    /// From zero to below a right angle.
+    BelowRightAngle,
+    /// Above zero and below a right angle.
+    Acute,
+    /// Below a right angle to either side.
+    ShearAngle,
+}
+
+impl Allowed {
+    /// From where to where, of which the reader alone knows that infinity is allowed, too.
+    fn range(self) -> [Bound<f64>; 2] {
+        use Bound::{Excluded, Included, Unbounded};
+        match self {
+            Allowed::Finite => [Unbounded, Unbounded],
+            Allowed::NotNegative => [Included(0.0), Unbounded],
+            Allowed::Positive => [Excluded(0.0), Unbounded],
+            Allowed::Size => SIZES.map(Included),
+            Allowed::SizeOrZero => [Included(0.0), Included(SIZES[1])],
+            Allowed::Coordinate => [-SIZES[1], SIZES[1]].map(Included),
+            Allowed::PartOf(_) => [Excluded(0.0), Included(1.0)],
+            Allowed::Within(bounds, _) => bounds.map(Included),
+            Allowed::ZeroOrWithin([_, high], _) => [Included(0.0), Included(high)],
+            Allowed::InfiniteOrWithin([low, _], _) => [Included(low), Unbounded],
+            Allowed::Turn => [-TAU, TAU].map(Included),
+            Allowed::BelowRightAngle => [Included(0.0), Excluded(FRAC_PI_2)],
+            Allowed::Acute => [0.0, FRAC_PI_2].map(Excluded),
+            Allowed::ShearAngle => [-FRAC_PI_2, FRAC_PI_2].map(Excluded),
+        }
+    }
+
+    /// Smallest and largest size of a value that is possible at all.
+    fn sizes(self) -> [f64; 2] {
+        let [low, high] = self.range().map(|bound| match bound {
+            Bound::Included(value) | Bound::Excluded(value) => Some(value),
+            Bound::Unbounded => None,
+        });
+        [low.unwrap_or(0.0).max(0.0), high.unwrap_or(f64::INFINITY)]
+    }
+}
+
+/// Says in the JSON Schema of a number from where to where it may be, and what of that is found in practice.
+pub(super) fn describe(number: &mut Map<String, Value>, range: [Bound<f64>; 2], usual: &Usual) {
+    for (bound, [closed, open]) in
+        range.into_iter().zip([["minimum", "exclusiveMinimum"], ["maximum", "exclusiveMaximum"]])
+    {
+        match bound {
+            Bound::Included(value) => number.insert(closed.into(), value.into()),
+            Bound::Excluded(value) => number.insert(open.into(), value.into()),
+            Bound::Unbounded => None,
+        };
+    }
+    if usual.found[1].is_finite() {
+        number.insert("x-usual".into(), usual.range.into());
+    }
 }
 
 macro_rules! measures {
@@ -65,6 +159,8 @@ measures! {
     Coefficient: [NONE], "a coefficient of friction", "", "0.3";
     /// Mass per length (kg/m) or per area (kg/m²).
     Mass: [LINE_MASS, AREAL_MASS], "a mass per length or per area", "kg/m or kg/m^2", "314 g/m^2";
+    /// Mass per length (kg/m).
+    MassPerLength: [LINE_MASS], "a mass per length", "kg/m", "30 g/m";
     /// Mass per area (kg/m²).
     ArealMass: [AREAL_MASS], "a mass per area", "kg/m^2", "314 g/m^2";
     /// Flexural rigidity EI of a line of ply (N·m²).
@@ -80,7 +176,7 @@ measures! {
     /// Tensile stiffness per width EA′ (N/m).
     TensileStiffness: [FORCE_PER_LENGTH], "a tensile stiffness per width", "N/m", "1e6 N/m";
     /// Slope of the shear force per length over the shear angle (N/m per rad).
-    ShearSlope: [FORCE_PER_LENGTH, SHEAR_SLOPE], "a shear force per length and radian", "N/m", "5 N/m";
+    ShearSlope: [FORCE_PER_LENGTH, SHEAR_SLOPE], "a shear force per length and radian", "N/m per radian", "5 N/m";
     /// Stiffness of a gripper's mount (N/m).
     Stiffness: [FORCE_PER_LENGTH], "a stiffness", "N/m", "2 N/mm";
     /// Temperature (K).
@@ -214,16 +310,6 @@ impl<M: Measure> Quantity<M> {
         ))
     }
 
-    /// A value above zero, a plain number near what is usual, and within bounds, both in SI units.
-    pub fn within(
-        &self,
-        document: &Document,
-        bounds: [f64; 2],
-        usual: &Usual,
-    ) -> Result<f64, Error> {
-        self.within_for(document, bounds, "a ply", usual)
-    }
-
     /// Refuses a plain number that is far from what is usual.
     fn believed(&self, document: &Document, usual: &Usual) -> Result<(), Error> {
         let number = match self.value.raw {
@@ -314,29 +400,118 @@ fn plain(number: f64) -> String {
     }
 }
 
-/// Smallest and largest size of anything in a scene (m).
-const SIZES: [f64; 2] = [1e-6, 1e4];
+/// A default (SI) as one would write it in a scene, `"0.2 mm"`.
+pub(super) fn written(value: f64, unit: &str) -> Value {
+    let size = units::unit(unit).map_or(1.0, |(size, _)| size);
+    match (value / size * 1e9).round() / 1e9 {
+        0.0 => 0.into(),
+        number => format!("{number} {unit}").into(),
+    }
+}
 
-impl Quantity<Length> {
-    /// A size between 1 µm and 10 km (m).
-    pub fn size(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.positive(document, &usual.within(SIZES))?;
-        if (SIZES[0]..=SIZES[1]).contains(&value) {
-            return Ok(value);
+/// A key whose type says which values it may have.
+pub(super) trait Read {
+    /// What is read (SI).
+    type Value;
+
+    /// The value in SI units, of those that are allowed; a plain number near what is usual.
+    fn read(&self, document: &Document) -> Result<Self::Value, Error>;
+}
+
+/// The value of a key, or another one where it is left out.
+pub(super) fn read_or<K: Read>(
+    key: &Option<K>,
+    other: K::Value,
+    document: &Document,
+) -> Result<K::Value, Error> {
+    key.as_ref().map_or(Ok(other), |key| key.read(document))
+}
+
+/// The value of a key, `None` where it is left out.
+pub(super) fn read_given<K: Read>(
+    key: &Option<K>,
+    document: &Document,
+) -> Result<Option<K::Value>, Error> {
+    key.as_ref().map(|key| key.read(document)).transpose()
+}
+
+impl<K: Read, const N: usize> Read for Fixed<K, N>
+where
+    K::Value: Copy + Default,
+{
+    type Value = [K::Value; N];
+
+    fn read(&self, document: &Document) -> Result<Self::Value, Error> {
+        let mut values = [K::Value::default(); N];
+        for (value, written) in values.iter_mut().zip(&self.0) {
+            *value = written.read(document)?;
         }
-        Err(self.out_of_scale(document, value))
+        Ok(values)
     }
+}
 
-    /// A size that may be zero, up to 10 km (m).
-    pub fn size_or_zero(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.not_negative(document, usual)?;
-        if value == 0.0 { Ok(value) } else { self.size(document, usual) }
+impl<K: Read, const N: usize> Read for Located<Fixed<K, N>>
+where
+    K::Value: Copy + Default,
+{
+    type Value = [K::Value; N];
+
+    fn read(&self, document: &Document) -> Result<Self::Value, Error> {
+        self.value.read(document)
     }
+}
 
-    /// A coordinate of at most 10 km to either side (m).
-    pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
-        let value = self.si(document, &usual.within([0.0, SIZES[1]]))?;
-        if value.abs() <= SIZES[1] {
+impl<M: Measure> Read for Quantity<M> {
+    type Value = f64;
+
+    fn read(&self, document: &Document) -> Result<f64, Error> {
+        let usual = &M::usual().within(M::ALLOWED.sizes());
+        match M::ALLOWED {
+            Allowed::Finite => self.si(document, usual),
+            Allowed::NotNegative => self.not_negative(document, usual),
+            Allowed::Positive => self.positive(document, usual),
+            Allowed::Size => self.size(document, usual),
+            Allowed::SizeOrZero => match self.not_negative(document, usual)? {
+                0.0 => Ok(0.0),
+                _ => self.size(document, usual),
+            },
+            Allowed::Coordinate => match self.si(document, usual)? {
+                value if value.abs() <= SIZES[1] => Ok(value),
+                value => Err(self.out_of_scale(document, value)),
+            },
+            Allowed::PartOf(whole) => match self.positive(document, usual)? {
+                share if share <= 1.0 => Ok(share),
+                _ => Err(document.error(
+                    self.span.clone(),
+                    format!("{} is more than {whole}", document.quoted(&self.span)),
+                    "expected a share above 0, up to 1, e.g. \"95 %\"",
+                )),
+            },
+            Allowed::Within(bounds, of) => self.within_for(document, bounds, of, usual),
+            Allowed::ZeroOrWithin(bounds, of) => match self.not_negative(document, usual)? {
+                0.0 => Ok(0.0),
+                _ => self.within_for(document, bounds, of, usual),
+            },
+            Allowed::InfiniteOrWithin(bounds, of) => match self.si_or_infinite(document, usual)? {
+                f64::INFINITY => Ok(f64::INFINITY),
+                _ => self.within_for(document, bounds, of, usual),
+            },
+            Allowed::Turn => self.turn(document, usual),
+            Allowed::BelowRightAngle => self.below_right_angle(document),
+            Allowed::Acute => {
+                self.below_right_angle(document)?;
+                self.positive(document, usual)
+            }
+            Allowed::ShearAngle => self.shear_angle(document, usual),
+        }
+    }
+}
+
+impl<M: Measure> Quantity<M> {
+    /// A size between 1 µm and 10 km (m).
+    fn size(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
+        let value = self.positive(document, usual)?;
+        if (SIZES[0]..=SIZES[1]).contains(&value) {
             return Ok(value);
         }
         Err(self.out_of_scale(document, value))
@@ -354,26 +529,25 @@ impl Quantity<Length> {
             "sizes go from 1 um to 10 km: is the unit right?",
         )
     }
-}
 
-/// Three digits, by powers of ten.
-pub(super) fn rounded(value: f64) -> String {
-    let short: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    format!("{short:e}")
-}
-
-impl Quantity<Angle> {
-    /// An angle above zero and below a right angle (rad).
-    pub fn acute(&self, document: &Document) -> Result<f64, Error> {
-        self.below_right_angle(document)?;
-        self.positive(document, &usual::ANGLE)
+    /// A heading of at most one turn to either side (rad).
+    fn turn(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
+        let value = self.si(document, usual)?;
+        if value.abs() <= TAU * (1.0 + 1e-9) {
+            return Ok(value);
+        }
+        Err(document.error(
+            self.span.clone(),
+            format!("{} is more than a whole turn", document.quoted(&self.span)),
+            "plain numbers are radians; write degrees as \"90 deg\"",
+        ))
     }
 
     /// An angle from zero to below a right angle (rad): a plain number beyond is asked about as degrees.
     pub fn below_right_angle(&self, document: &Document) -> Result<f64, Error> {
         // what is usual is what is possible
         let value = self.not_negative(document, &usual::ANY)?;
-        if value < std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9) {
+        if value < FRAC_PI_2 * (1.0 - 1e-9) {
             return Ok(value);
         }
         let shown = document.quoted(&self.span);
@@ -389,6 +563,28 @@ impl Quantity<Angle> {
         };
         Err(document.error(self.span.clone(), message, help))
     }
+
+    /// A shear angle to either side, below a right angle (rad).
+    fn shear_angle(&self, document: &Document, usual: &Usual) -> Result<f64, Error> {
+        let value = self.si(document, usual)?;
+        if value >= 0.0 {
+            return self.below_right_angle(document);
+        }
+        if value > -FRAC_PI_2 * (1.0 - 1e-9) {
+            return Ok(value);
+        }
+        Err(document.error(
+            self.span.clone(),
+            format!("{} shears the ply by a right angle or more", document.quoted(&self.span)),
+            "expected an angle between -90 deg and 90 deg; write degrees as \"20 deg\"",
+        ))
+    }
+}
+
+/// Three digits, by powers of ten.
+pub(super) fn rounded(value: f64) -> String {
+    let short: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    format!("{short:e}")
 }
 
 /// Reads a number or a text of the quantity `name`, as in `example`.
@@ -442,9 +638,11 @@ impl<M: Measure> JsonSchema for Unchecked<M> {
             "" => M::NAME.to_string(),
             unit => format!("{} in {unit}", M::NAME),
         };
+        let mut plain = json_schema!({ "type": "number", "description": number });
+        describe(plain.ensure_object(), M::ALLOWED.range(), &M::usual());
         json_schema!({
             "anyOf": [
-                { "type": "number", "description": number },
+                plain,
                 { "type": "string", "description": format!("{} with its unit", M::NAME), "examples": [M::EXAMPLE] }
             ]
         })

@@ -3,18 +3,13 @@
 use super::choice::Curve;
 use super::file::{RelaxationTable, ShearRateTable};
 use super::located::Located;
-use super::quantity::{Quantity, Temperature};
+use super::quantity::{Quantity, Read};
 use super::source::Document;
 use super::units::FREEZING;
-use super::usual;
+use super::usual::PlyTemperature;
 use crate::Error;
 use plydrape::material::{Material, Relaxation, ShearRate};
 
-/// Largest stiffness against fast shear (N/m per rad), and smallest and largest relaxation time (s).
-const STIFFNESS: f64 = 1e6;
-const TIMES: [f64; 2] = [1e-9, 1e9];
-/// Smallest and largest temperature of a ply (K).
-const TEMPERATURES: [f64; 2] = [50.0, 2000.0];
 /// Temperature of a relaxation that is known at one alone (K): no number depends on it.
 const ROOM: f64 = FREEZING + 20.0;
 
@@ -24,11 +19,11 @@ pub(super) fn shear(
     document: &Document,
 ) -> Result<ShearRate, Error> {
     let ShearRateTable { stiffness, relaxation } = &table.value;
-    let stiffness = stiffness.within(document, [f64::MIN_POSITIVE, STIFFNESS], &usual::SHEAR)?;
+    let stiffness = stiffness.read(document)?;
     let relaxation = match &relaxation.value {
         Curve::Slope(time) => {
             let time = Located { value: time.clone(), span: relaxation.span.clone() };
-            let time = time.within(document, TIMES, &usual::RELAXATION)?;
+            let time = time.read(document)?;
             Relaxation { temperature: vec![ROOM], time: vec![time] }
         }
         Curve::Table(table) => over_temperatures(table, document)?,
@@ -49,8 +44,8 @@ fn over_temperatures(table: &RelaxationTable, document: &Document) -> Result<Rel
     }
     let mut known = Relaxation { temperature: Vec::new(), time: Vec::new() };
     for (temperature, time) in temperature.value.iter().zip(&time.value) {
-        let kelvin = temperature.within(document, TEMPERATURES, &usual::TEMPERATURE)?;
-        let seconds = time.within(document, TIMES, &usual::RELAXATION)?;
+        let kelvin = temperature.read(document)?;
+        let seconds = time.read(document)?;
         let (at, fault) = match (known.temperature.last(), known.time.last()) {
             (Some(last), _) if kelvin <= *last => {
                 (&temperature.span, "the temperatures of the relaxation do not rise")
@@ -73,10 +68,10 @@ fn over_temperatures(table: &RelaxationTable, document: &Document) -> Result<Rel
 /// Gives the ply of a material its temperature.
 pub(super) fn set_temperature(
     material: &mut Material,
-    temperature: &Quantity<Temperature>,
+    temperature: &Quantity<PlyTemperature>,
     document: &Document,
 ) -> Result<(), Error> {
-    let kelvin = temperature.within(document, TEMPERATURES, &usual::TEMPERATURE)?;
+    let kelvin = temperature.read(document)?;
     let rate = material.shear_rate.as_mut().filter(|rate| rate.relaxation.temperature.len() > 1);
     let Some(rate) = rate else {
         return Err(document.error(

@@ -2,13 +2,10 @@
 
 use super::file::{OrderKey, ReleaseTable};
 use super::located::Located;
+use super::quantity::read_or;
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::layup::{Model, Release, ReleaseOrder};
-
-/// Shortest and longest dwell (s).
-const DWELLS: [f64; 2] = [1e-6, 3600.0];
 
 /// Checks the table `[release]` of a scene that this model drapes; `on_mold` says whether it has a mold.
 pub(super) fn release(
@@ -32,12 +29,6 @@ pub(super) fn release(
             "say what the mold is in [mold], or leave out [release]",
         ));
     }
-    let dwell = match dwell {
-        None => 0.0,
-        Some(dwell) => match dwell.not_negative(document, &usual::DWELL)? {
-            0.0 => 0.0,
-            _ => dwell.within_for(document, DWELLS, "a dwell", &usual::DWELL)?,
-        },
-    };
+    let dwell = read_or(dwell, 0.0, document)?;
     Ok(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell))
 }

@@ -1,12 +1,11 @@
 //! The arm of a robot, from a shipped file, a URDF file or a table, and the bodies of its links.
 
 use super::file::{DhTable, RobotTable};
-use super::located::{Fixed, Located};
+use super::located::Located;
 use super::mold::{Purpose, mesh_file};
-use super::quantity::{Angle, Length, Quantity};
+use super::quantity::{Read, read_given, read_or};
 use super::read;
 use super::source::{Document, excerpt};
-use super::usual;
 use crate::Error;
 use crate::read::urdf::{self, UrdfBody, UrdfShape};
 use plydrape::arm::{Arm, JOINTS, Joint, LEAST_MARGIN, LEAST_SINGULAR};
@@ -20,10 +19,6 @@ const SHIPPED: [(&str, &str); 3] = [
     ("kuka_kr16_2", include_str!("../../robots/kuka_kr16_2.urdf")),
     ("ur20", include_str!("../../robots/ur20.urdf")),
 ];
-/// Smallest and largest angular acceleration of a joint (rad/s²).
-const ACCELERATIONS: [f64; 2] = [1e-3, 1e4];
-/// Smallest and largest angular speed of a joint (rad/s).
-const SPEEDS: [f64; 2] = [1e-4, 1e3];
 /// Sides of the prism around a round link.
 const SIDES: u32 = 24;
 
@@ -59,24 +54,10 @@ pub(super) fn robot(
             ("arm".into(), joints, flange, Vec::new())
         }
     };
-    let start = match start {
-        Some(start) => Some(angles(&start.value, document)?),
-        None => None,
-    };
-    let margin = match joint_margin {
-        Some(margin) => margin.not_negative(document, &usual::ANGLE)?,
-        None => LEAST_MARGIN,
-    };
-    let singular = match singularity {
-        Some(least) => least.not_negative(document, &usual::ANY)?,
-        None => LEAST_SINGULAR,
-    };
-    let acceleration = match joint_acceleration {
-        Some(most) => {
-            Some(most.within_for(document, ACCELERATIONS, "a joint", &usual::JOINT_ACCELERATION)?)
-        }
-        None => None,
-    };
+    let start = read_given(start, document)?;
+    let margin = read_or(joint_margin, LEAST_MARGIN, document)?;
+    let singular = read_or(singularity, LEAST_SINGULAR, document)?;
+    let acceleration = read_given(joint_acceleration, document)?;
     Ok((Arm { name, joints, flange, start, acceleration, margin, singular }, bodies))
 }
 
@@ -130,18 +111,6 @@ fn from_file(
         }
     }
     Ok((read.name, read.joints, read.flange, bodies))
-}
-
-/// Angles of joints (rad).
-fn angles<const N: usize>(
-    values: &Fixed<Quantity<Angle>, N>,
-    document: &Document,
-) -> Result<[f64; N], Error> {
-    let mut angles = [0.0; N];
-    for (angle, value) in angles.iter_mut().zip(&values.0) {
-        *angle = value.si(document, &usual::JOINT)?;
-    }
-    Ok(angles)
 }
 
 /// The shape of a link as triangles in the frame of its joint; around what is round.
@@ -199,15 +168,7 @@ fn from_table(
     let mut joints = Vec::with_capacity(JOINTS);
     let mut before = Pose::ORIGIN;
     for (n, row) in table.iter().enumerate() {
-        let length = |key: &Option<Quantity<Length>>| match key {
-            Some(length) => length.coordinate(document, &usual::PLACE),
-            None => Ok(0.0),
-        };
-        let angle = |key: &Option<Quantity<Angle>>| match key {
-            Some(angle) => angle.si(document, &usual::ANGLE),
-            None => Ok(0.0),
-        };
-        let range = angles(&row.range.value, document)?;
+        let range = row.range.read(document)?;
         if range[0] >= range[1] {
             return Err(document.error(
                 row.range.span.clone(),
@@ -215,7 +176,7 @@ fn from_table(
                 "give its smallest angle first, as in range = [\"-180 deg\", \"180 deg\"]",
             ));
         }
-        let speed = row.speed.within_for(document, SPEEDS, "a joint", &usual::JOINT_RATE)?;
+        let speed = row.speed.read(document)?;
         joints.push(Joint {
             name: format!("joint {}", n + 1),
             pose: before,
@@ -224,8 +185,14 @@ fn from_table(
             speed,
         });
         // what comes behind the turn of the joint
-        let turn = Pose::new([0.0, 0.0, length(&row.d)?], [0.0, 0.0, angle(&row.theta)?]);
-        let along = Pose::new([length(&row.a)?, 0.0, 0.0], [angle(&row.alpha)?, 0.0, 0.0]);
+        let turn = Pose::new(
+            [0.0, 0.0, read_or(&row.d, 0.0, document)?],
+            [0.0, 0.0, read_or(&row.theta, 0.0, document)?],
+        );
+        let along = Pose::new(
+            [read_or(&row.a, 0.0, document)?, 0.0, 0.0],
+            [read_or(&row.alpha, 0.0, document)?, 0.0, 0.0],
+        );
         before = turn.compose(&along);
     }
     let joints = <[Joint; JOINTS]>::try_from(joints);

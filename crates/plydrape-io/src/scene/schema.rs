@@ -14,6 +14,25 @@ pub fn schema() -> String {
     format!("{:#}\n", schema.as_value())
 }
 
+/// Says the default of a key in its description, behind the first sentence; those of whole tables are empty.
+fn with_default(schema: &mut Schema) {
+    let shown = match schema.get("default") {
+        Some(Value::String(text)) if !text.starts_with(|c: char| c.is_ascii_digit()) => {
+            format!("\"{text}\"")
+        }
+        Some(Value::String(text)) => text.clone(),
+        Some(value @ (Value::Number(_) | Value::Bool(_))) => value.to_string(),
+        _ => {
+            schema.remove("default");
+            return;
+        }
+    };
+    if let Some(Value::String(text)) = schema.get_mut("description") {
+        let sentence = text.find(". ").or(text.find(".\n")).unwrap_or(text.len() - 1);
+        text.insert_str(sentence, &format!(", {shown} unless given"));
+    }
+}
+
 /// Removes the choice `null`: an optional key of a TOML file is left out, never null.
 #[derive(Debug, Clone)]
 struct WithoutNull;
@@ -21,7 +40,7 @@ struct WithoutNull;
 impl Transform for WithoutNull {
     fn transform(&mut self, schema: &mut Schema) {
         transform_subschemas(self, schema);
-        schema.remove("default");
+        with_default(schema);
         if let Some(Value::Array(types)) = schema.get_mut("type") {
             types.retain(|name| name != "null");
             if let [only] = types.as_slice() {

@@ -2,12 +2,12 @@
 
 use super::choice::FrictionChoice;
 use super::file::{
-    EndKey, GrippersTable, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey, TimeKey,
+    EndKey, GrippersTable, MountTable, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey,
+    TimeKey,
 };
 use super::located::{Located, Whole};
-use super::quantity::{Force, Quantity, Stiffness};
+use super::quantity::{Read, read_given, read_or};
 use super::source::Document;
-use super::usual;
 use crate::Error;
 use plydrape::layup::{
     ContactEnd, ContactSettings, Friction, PadSettings, Settings, SheetSettings, SheetTime,
@@ -16,14 +16,6 @@ use plydrape::layup::{
 use plydrape::ply::Ply;
 use plydrape::scene::Cell;
 
-/// Smallest and largest finite axial stiffness (N).
-const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
-/// Smallest and largest gravity (m/s²).
-const GRAVITY: [f64; 2] = [1e-3, 1e3];
-/// Smallest and largest stiffness of a gripper's mount (N/m).
-const MOUNTS: [f64; 2] = [1e-3, 1e9];
-/// Smallest and largest force that a pad holds (N).
-const PAD_FORCES: [f64; 2] = [1e-6, 1e9];
 /// Fewest and most states that a sheet keeps.
 const KEPT: [usize; 2] = [2, 100_000];
 
@@ -36,17 +28,8 @@ pub(super) fn settings(
     document: &Document,
 ) -> Result<Settings, Error> {
     let (model, usual) = (&file.model, Settings::default());
-    let axial_stiffness = match &model.axial_stiffness {
-        Some(stiffness) if stiffness.si_or_infinite(document, &usual::AXIAL)? == f64::INFINITY => {
-            f64::INFINITY
-        }
-        Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS, &usual::AXIAL)?,
-        None => usual.axial_stiffness,
-    };
-    let gravity = match &model.gravity {
-        Some(gravity) => gravity.within(document, GRAVITY, &usual::GRAVITY)?,
-        None => usual.gravity,
-    };
+    let axial_stiffness = read_or(&model.axial_stiffness, usual.axial_stiffness, document)?;
+    let gravity = read_or(&model.gravity, usual.gravity, document)?;
     if let Some(Located { value: TheoryKey::Exact, span }) = &model.theory {
         return Err(document.error(
             span.clone(),
@@ -58,10 +41,7 @@ pub(super) fn settings(
         Some(table) => held(&table.value, cell, document)?,
         None => *cell,
     };
-    let overhang = match &file.ply.value.overhang {
-        Some(overhang) => overhang.size_or_zero(document, &usual::OVERHANG)?,
-        None => usual.sheet.overhang,
-    };
+    let overhang = read_or(&file.ply.value.overhang, usual.sheet.overhang, document)?;
     Ok(Settings {
         slopes: match model.slopes {
             Some(Slopes::MinForce) => SlopeRule::MinForce,
@@ -86,7 +66,7 @@ pub(super) fn contact(
     let (contact, usual) = (&file.contact, ContactSettings::default());
     let tolerance = match &contact.tolerance {
         Some(tolerance) => {
-            let value = tolerance.size(document, &usual::TOLERANCE)?;
+            let value = tolerance.read(document)?;
             let cell = ply.cell[0].min(ply.cell[1]);
             if value > 0.1 * cell {
                 return Err(document.error(
@@ -114,21 +94,18 @@ pub(super) fn contact(
             Some(Located { value: FrictionChoice::StickForEver, .. }) => Friction::StickForEver,
             Some(Located { value: FrictionChoice::Coefficient(coefficient), span }) => {
                 let coefficient = Located { value: coefficient.clone(), span: span.clone() };
-                Friction::Coulomb(coefficient.not_negative(document, &usual::FRICTION)?)
+                Friction::Coulomb(coefficient.read(document)?)
             }
             None => usual.friction,
         },
-        tack: match &contact.tack {
-            Some(tack) => tack.not_negative(document, &usual::TACK)?,
-            None => usual.tack,
-        },
+        tack: read_or(&contact.tack, usual.tack, document)?,
     })
 }
 
 fn sheet(table: &SheetTable, overhang: f64, document: &Document) -> Result<SheetSettings, Error> {
     let usual = SheetSettings::default();
     Ok(SheetSettings {
-        mesh: table.mesh.as_ref().map(|mesh| mesh.size(document, &usual::MESH)).transpose()?,
+        mesh: read_given(&table.mesh, document)?,
         overhang,
         time: match table.time {
             Some(TimeKey::Real) => SheetTime::Real,
@@ -158,31 +135,19 @@ fn sheet(table: &SheetTable, overhang: f64, document: &Document) -> Result<Sheet
 /// A cell as the table `[grippers]` changes it.
 pub(super) fn held(table: &GrippersTable, cell: &Cell, document: &Document) -> Result<Cell, Error> {
     let usual = &cell.pad;
-    let mount = |key: Option<&Quantity<Stiffness>>| {
-        key.map(|key| key.within_for(document, MOUNTS, "a gripper's mount", &usual::MOUNT))
-            .transpose()
-    };
-    let force = |key: &Option<Quantity<Force>>, other: Option<f64>| match key {
-        Some(key) => key.within_for(document, PAD_FORCES, "a pad", &usual::PAD_FORCE).map(Some),
-        None => Ok(other),
-    };
     let [lateral_stiffness, axial_stiffness] = match &table.stiffness {
-        Some(keys) => [mount(keys.value.lateral.as_ref())?, mount(keys.value.axial.as_ref())?],
+        Some(Located { value: MountTable { lateral, axial }, .. }) => {
+            [read_given(lateral, document)?, read_given(axial, document)?]
+        }
         None => [usual.lateral_stiffness, usual.axial_stiffness],
     };
     let pad = PadSettings {
-        radius: match &table.pad_radius {
-            Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
-            None => usual.radius,
-        },
+        radius: read_or(&table.pad_radius, usual.radius, document)?,
         lateral_stiffness,
         axial_stiffness,
-        slip_force: force(&table.slip_force, usual.slip_force)?,
-        holding_force: force(&table.holding_force, usual.holding_force)?,
+        slip_force: read_given(&table.slip_force, document)?.or(usual.slip_force),
+        holding_force: read_given(&table.holding_force, document)?.or(usual.holding_force),
     };
-    let max_tilt = match &table.max_tilt {
-        Some(tilt) => tilt.acute(document)?,
-        None => cell.max_tilt,
-    };
+    let max_tilt = read_or(&table.max_tilt, cell.max_tilt, document)?;
     Ok(Cell { pad, max_tilt, ..*cell })
 }

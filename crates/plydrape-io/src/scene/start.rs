@@ -5,12 +5,11 @@ use super::choice::PlaceChoice;
 use crate::Error;
 
 use super::file::GrippersTable;
-use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
 use super::places::Places;
-use super::quantity::{Length, Quantity};
+use super::quantity::{Quantity, Read};
 use super::rectangle::Rectangle;
-use super::usual;
+use super::usual::{Height, Spacing};
 use plydrape::layup::Target;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;
@@ -81,19 +80,18 @@ pub(super) fn other_key(keys: &GrippersTable) -> Option<&'static str> {
 /// A rectangle of grippers: level, or parallel to the mold.
 fn rectangle(
     keys: &GrippersTable,
-    spacing: &Fixed<Quantity<Length>, 2>,
-    height: &Quantity<Length>,
+    spacing: &Fixed<Quantity<Spacing>, 2>,
+    height: &Quantity<Height>,
     around: &Surroundings,
     target: Option<&Target>,
 ) -> Result<Places, Error> {
     let &Surroundings { ply, turn, document, .. } = around;
     let place = spacing.0[0].span.start..spacing.0[1].span.end;
-    let distance = |n: usize| spacing.0[n].size(document, &usual::SPACING);
-    let distances = [distance(0)?, distance(1)?];
-    let lift = height.coordinate(document, &usual::HEIGHT)?;
+    let distances = spacing.read(document)?;
+    let lift = height.read(document)?;
     let plane = plane_below(keys, around)?;
     let direction = match (&keys.direction, target.filter(|_| is_centered(keys))) {
-        (Some(direction), _) => heading(direction, document)? + turn,
+        (Some(direction), _) => direction.read(document)? + turn,
         (None, Some(target)) => match target.drape.as_ref().filter(|_| ply.grid == Grid::NONE) {
             Some(net) => net.placement.heading,
             None => heading_of(&target.grippers, ply),
@@ -109,7 +107,7 @@ fn rectangle(
     };
     let origin = match (&keys.origin, &keys.middle) {
         (None, None) => [0.0; 2],
-        (None, Some(place)) => ply_at(coordinates(&place.value, document, &usual::PLACE)?),
+        (None, Some(place)) => ply_at(place.read(document)?),
         (Some(_), Some(place)) => {
             return Err(document.error(
                 place.span.clone(),
@@ -118,11 +116,11 @@ fn rectangle(
             ));
         }
         (Some(origin), None) => match (&origin.value, target) {
-            (PlaceChoice::At(origin), _) => coordinates(origin, document, &usual::PLACE)?,
-            (PlaceChoice::Keyword(_), Some(target)) => {
+            (PlaceChoice::At(origin), _) => origin.read(document)?,
+            (PlaceChoice::Centered, Some(target)) => {
                 shift(middle(&target.grippers), middle(&unmoved().grippers(ply, distances)))
             }
-            (PlaceChoice::Keyword(_), None) => {
+            (PlaceChoice::Centered, None) => {
                 return Err(document.error(
                     origin.span.clone(),
                     "the start shall be centered above the target, and the scene has no target",
@@ -147,7 +145,7 @@ fn rectangle(
 
 /// Whether the rectangle shall be above the middle of the target.
 fn is_centered(keys: &GrippersTable) -> bool {
-    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, PlaceChoice::Keyword(_)))
+    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, PlaceChoice::Centered))
 }
 
 /// The plane above which the rectangle lies: the mold, or z = 0.

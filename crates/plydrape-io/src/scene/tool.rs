@@ -1,24 +1,19 @@
 //! How a robot carries the grippers.
 
 use super::file::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
-use super::heading::{coordinates, pose};
+use super::heading::pose;
 use super::layup::round;
 use super::located::Located;
-use super::quantity::{AngularRate, Length, Speed};
+use super::quantity::{Measure, Read, read_given, read_or};
 use super::source::Document;
-use super::usual::{self, Usual};
 use crate::Error;
 use plydrape::geometry::Pose;
 use plydrape::layup::Layup;
-use plydrape::measure::{Limits, Name, Practice};
+use plydrape::measure::{Limits, Name};
 use plydrape::tool::{Axis, Tool};
 
-/// Smallest and largest angular speed (rad/s) and acceleration (rad/s²) of a frame.
-const TURNS: [f64; 2] = [1e-4, 1e4];
 /// Longest stroke, as a multiple of the size of the array: a longer one is a slip of the unit.
 const LONGEST: f64 = 10.0;
-/// Smallest and largest speed of an axis (m/s).
-const SPEEDS: [f64; 2] = [1e-5, 1e2];
 
 /// Checks the table `[tool]` of a layup whose grippers start at `start` (m).
 pub(super) fn tool(
@@ -42,25 +37,12 @@ pub(super) fn tool(
     }
     let usual = Tool::new(start, axes);
     Ok(Tool {
-        turn_rate: match &table.turn_rate {
-            Some(rate) => {
-                let usual = Usual::from_practice::<AngularRate>(&Practice::TURN);
-                rate.within_for(document, TURNS, "a frame", &usual)?
-            }
-            None => usual.turn_rate,
-        },
-        turn_acceleration: match &table.turn_acceleration {
-            Some(rate) => rate.within_for(document, TURNS, "a frame", &usual::TURN_ACCELERATION)?,
-            None => usual.turn_acceleration,
-        },
+        turn_rate: read_or(&table.turn_rate, usual.turn_rate, document)?,
+        turn_acceleration: read_or(&table.turn_acceleration, usual.turn_acceleration, document)?,
         fixed_pads: fixed_pads(table, layup, start, document)?,
-        residual: table
-            .residual
-            .as_ref()
-            .map(|limit| limit.size(document, &Usual::from_practice::<Length>(&Practice::GAP)))
-            .transpose()?,
-        flange: placed(table.flange.as_ref(), document, &usual::FLANGE)?,
-        world: placed(table.world.as_ref(), document, &usual::COORDINATE)?,
+        residual: read_given(&table.residual, document)?,
+        flange: placed(table.flange.as_ref(), document)?,
+        world: placed(table.world.as_ref(), document)?,
         ..usual
     })
 }
@@ -86,10 +68,10 @@ fn fixed_pads(
     Ok(Some(layup.ply.flat_axes(start)))
 }
 
-fn placed(table: Option<&PlacedTable>, document: &Document, usual: &Usual) -> Result<Pose, Error> {
+fn placed<M: Measure>(table: Option<&PlacedTable<M>>, document: &Document) -> Result<Pose, Error> {
     match table {
         Some(PlacedTable { position, rotation }) => {
-            pose(position.as_ref(), rotation.as_ref(), document, usual)
+            pose(position.as_ref(), rotation.as_ref(), document)
         }
         None => Ok(Pose::ORIGIN),
     }
@@ -102,7 +84,7 @@ fn axis(
     document: &Document,
 ) -> Result<Axis, Error> {
     let table = &written.value;
-    let stroke = coordinates(&table.stroke.value, document, &usual::STROKE)?;
+    let stroke = table.stroke.read(document)?;
     if !(stroke[0] <= 0.0 && 0.0 <= stroke[1] && stroke[0] < stroke[1]) {
         return Err(document.error(
             table.stroke.span.clone(),
@@ -128,13 +110,7 @@ fn axis(
         AxisKey::Y => ("y", [0.0, 1.0, 0.0]),
         AxisKey::Z => ("z", [0.0, 0.0, 1.0]),
     };
-    let speed = match &table.speed {
-        Some(speed) => {
-            let usual = Usual::from_practice::<Speed>(&Practice::SPEED);
-            speed.within_for(document, SPEEDS, "an axis", &usual)?
-        }
-        None => limits.most(Name::Speed),
-    };
+    let speed = read_or(&table.speed, limits.most(Name::Speed), document)?;
     Ok(Axis { name: name.into(), direction, stroke, speed })
 }
 

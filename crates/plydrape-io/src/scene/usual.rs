@@ -1,11 +1,20 @@
-//! What plies, grippers and cells physically measure, and which plain numbers are believed.
+//! What plies, grippers and cells physically measure: the kinds of keys, which values each may have, and which plain numbers are believed.
+//!
+//! A key of a scene has one of these kinds as its type. Reader, refusals, JSON Schema and the page of every key take its unit, its range and
+//! what is usual from there.
 //!
 //! A plain number is in SI units, and whoever leaves out a unit often thinks of another one: `cell = [100, 100]` would be cells of
 //! 100 m. So every value is read with what is [`Usual`] of its key, and a plain number outside of that is refused, with the unit in which it
 //! would make sense: in scenes, offsets, options of commands and arguments of Python. A value whose unit is written out is believed: `"100 m"`
 //! is 100 m.
 
-use super::quantity::{Measure, Time};
+use super::motion::DURATIONS;
+use super::quantity::{
+    Acceleration, Allowed, Angle, AngularAcceleration, AngularRate, ArealMass, BendingRigidity,
+    Coefficient, Curvature, FlexuralRigidity, Force, ForcePerLength, Frequency, Length,
+    MassPerLength, Measure, MomentPerWidth, Pressure, Ratio, ShearSlope, Speed, Stiffness,
+    Temperature, TensileStiffness, Time,
+};
 use super::units::{self, Dimension};
 use plydrape::measure::Practice;
 
@@ -35,145 +44,205 @@ pub struct Usual {
 /// The unit in which most drawings are.
 const LENGTHS: &[&str] = &["mm"];
 
+/// What has no unit, or may be of any size.
+pub const ANY: Usual = Usual {
+    what: "a value of",
+    unit: "",
+    found: [0.0, f64::INFINITY],
+    range: "numbers of any size are usual",
+    others: &[],
+    possible: [0.0, f64::INFINITY],
+};
+
+/// Smallest and largest angular speed (rad/s) and acceleration (rad/s²) of a frame.
+const TURNS: [f64; 2] = [1e-4, 1e4];
+
+/// Kinds of keys: the measure, which values are allowed, and what is usual.
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $name:ident: $measure:ident, $allowed:expr, $usual:expr;)+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy)]
+        pub struct $name;
+        impl Measure for $name {
+            const DIMENSIONS: &'static [Dimension] = $measure::DIMENSIONS;
+            const NAME: &'static str = $measure::NAME;
+            const UNIT: &'static str = $measure::UNIT;
+            const EXAMPLE: &'static str = $measure::EXAMPLE;
+            const ALLOWED: Allowed = $allowed;
+            fn usual() -> Usual {
+                $usual
+            }
+        }
+    )+};
+}
+
+/// Kinds of keys with what a value makes, what is found in practice, that in words, and units that are meant where one was left out.
 macro_rules! usual {
-    ($($(#[$doc:meta])* $name:ident: $what:literal, $unit:literal, $found:expr, $range:literal, $others:expr;)+) => {
+    ($($(#[$doc:meta])* $name:ident: $measure:ident, $allowed:expr, $what:literal, $found:expr, $range:literal, $others:expr;)+) => {
+        kinds! { $($(#[$doc])* $name: $measure, $allowed, $name::USUAL;)+ }
         $(
-            $(#[$doc])*
-            pub const $name: Usual =
-                Usual {
-                    what: $what,
-                    unit: $unit,
-                    found: $found,
-                    range: $range,
-                    others: $others,
-                    possible: [0.0, f64::INFINITY],
-                };
+            impl $name {
+                /// What is found in practice.
+                pub const USUAL: Usual =
+                    Usual { what: $what, unit: $measure::UNIT, found: $found, range: $range, others: $others, ..ANY };
+            }
         )+
         /// All of them, for the tests.
         #[cfg(test)]
-        const ALL: &[(&str, Usual)] = &[$((stringify!($name), $name)),+];
+        const ALL: &[(&str, Usual)] = &[$((stringify!($name), $name::USUAL)),+];
     };
 }
 
 usual! {
     /// Grippers are no closer than their bodies are wide, and ply hangs down to the mold between distant ones.
-    CELL: "cells of", "m", [0.02, 0.5], "cells are 20 mm to 500 mm wide", LENGTHS;
+    Cell: Length, Allowed::Size, "cells of", [0.02, 0.5], "cells are 20 mm to 500 mm wide", LENGTHS;
     /// As cells: the grippers are about as far apart as the fabric between them is long.
-    SPACING: "grippers at a distance of", "m", [0.02, 0.5], "grippers are 20 mm to 500 mm apart", LENGTHS;
+    Spacing: Length, Allowed::Size, "grippers at a distance of", [0.02, 0.5], "grippers are 20 mm to 500 mm apart", LENGTHS;
     /// From coupons of a test to plies that arrays of several robots carry.
-    PLY: "a ply of", "m", [0.02, 5.0], "plies that grippers carry are 20 mm to 5 m long", LENGTHS;
+    PlySize: Length, Allowed::Size, "a ply of", [0.02, 5.0], "plies that grippers carry are 20 mm to 5 m long", LENGTHS;
     /// What is trimmed off, or hangs beyond the outermost grippers.
-    OVERHANG: "fabric over a length of", "m", [0.0, 0.5], "such lengths are up to 500 mm", LENGTHS;
+    Overhang: Length, Allowed::SizeOrZero, "fabric over a length of", [0.0, 0.5], "such lengths are up to 500 mm", LENGTHS;
     /// From a pin to a window.
-    HOLE: "a hole of", "m", [0.001, 1.0], "holes are 1 mm to 1 m wide", LENGTHS;
+    Hole: Length, Allowed::Size, "a hole of", [0.001, 1.0], "holes are 1 mm to 1 m wide", LENGTHS;
     /// From a veil to a thick non-crimp fabric.
-    THICKNESS: "a thickness of", "m", [2e-5, 3e-3], "plies are 0.02 mm to 3 mm thick", &["mm", "um"];
+    Thickness: Length, Allowed::Size, "a thickness of", [2e-5, 3e-3], "plies are 0.02 mm to 3 mm thick", &["mm", "um"];
     /// Robots reach 3 m, and a ply is picked up near its mold.
-    HEIGHT: "grippers at a height of", "m", [0.0, 3.0], "grippers start up to 3 m high", LENGTHS;
+    Height: Length, Allowed::Coordinate, "grippers at a height of", [0.0, 3.0], "grippers start up to 3 m high", LENGTHS;
     /// The halls and molds of most cells.
-    COORDINATE: "a place at", "m", [0.0, 30.0], "halls and molds are up to 30 m long", LENGTHS;
+    Coordinate: Length, Allowed::Coordinate, "a place at", [0.0, 30.0], "halls and molds are up to 30 m long", LENGTHS;
     /// A ply is laid near the origin of its mold.
-    PLACE: "a place at", "m", [0.0, 5.0], "plies, grippers and what is near to them are up to 5 m from the origin", LENGTHS;
+    Place: Length, Allowed::Coordinate, "a place at", [0.0, 5.0], "plies, grippers and what is near to them are up to 5 m from the origin", LENGTHS;
     /// A point of a ply, in the flat.
-    FABRIC: "a point of the ply at", "m", [0.0, 5.0], "points of a ply are up to 5 m from its origin", LENGTHS;
+    FabricPoint: Length, Allowed::Coordinate, "a point of the ply at", [0.0, 5.0], "points of a ply are up to 5 m from its origin", LENGTHS;
     /// From the flange of a robot to the frame that it carries.
-    FLANGE: "a flange at", "m", [0.0, 2.0], "flanges are up to 2 m from the frame", LENGTHS;
+    Flange: Length, Allowed::Coordinate, "a flange at", [0.0, 2.0], "flanges are up to 2 m from the frame", LENGTHS;
     /// An axis of a gripper.
-    STROKE: "a stroke to", "m", [0.0, 1.0], "strokes are up to 1 m long", LENGTHS;
+    Stroke: Length, Allowed::Coordinate, "a stroke to", [0.0, 1.0], "strokes are up to 1 m long", LENGTHS;
     /// From a pin to a column.
-    CYLINDER: "a cylinder with a radius of", "m", [0.0005, 0.5], "cylinders have radii of 0.5 mm to 500 mm", LENGTHS;
+    Cylinder: Length, Allowed::Size, "a cylinder with a radius of", [0.0005, 0.5], "cylinders have radii of 0.5 mm to 500 mm", LENGTHS;
     /// How far seen points may be from one another's offset.
-    LANDED: "a tolerance of", "m", [0.0, 0.01], "tolerances of positions are up to 10 mm", LENGTHS;
+    Landed: Length, Allowed::Positive, "a tolerance of", [0.0, 0.01], "tolerances of positions are up to 10 mm", LENGTHS;
     /// How far a ply lies from where it was planned.
-    SHIFT: "a shift of", "m", [0.0, 0.05], "plies are laid down within 50 mm", LENGTHS;
+    Shift: Length, Allowed::Finite, "a shift of", [0.0, 0.05], "plies are laid down within 50 mm", LENGTHS;
     /// How far a ply is turned from where it was planned.
-    YAW: "a yaw of", "rad", [0.0, 0.175], "plies are laid down within 10 deg", &["deg"];
+    Yaw: Angle, Allowed::Finite, "a yaw of", [0.0, 0.175], "plies are laid down within 10 deg", &["deg"];
     /// Half a turn to either side.
-    ANGLE: "an angle of", "rad", [0.0, 1.0001 * std::f64::consts::PI], "angles are up to half a turn, 3.1416 rad", &["deg"];
+    AnyAngle: Angle, Allowed::NotNegative, "an angle of", [0.0, 1.0001 * std::f64::consts::PI], "angles are up to half a turn, 3.1416 rad", &["deg"];
     /// What a table of a tension test reaches.
-    STRAIN: "a strain of", "", [0.0, 0.1], "yarns stretch by up to 10 %", &["%"];
+    Strain: Ratio, Allowed::NotNegative, "a strain of", [0.0, 0.1], "yarns stretch by up to 10 %", &["%"];
     /// What a picture-frame test measures.
-    SHEAR_FORCE: "a shear force of", "N/m", [0.0, 5e3], "plies are sheared with up to 5000 N/m", &["mN/mm"];
+    ShearForce: ForcePerLength, Allowed::NotNegative, "a shear force of", [0.0, 5e3], "plies are sheared with up to 5000 N/m", &["mN/mm"];
     /// What a tension test measures.
-    TENSION_FORCE: "a tension of", "N/m", [0.0, 1e6], "plies bear up to 1e6 N/m", &["N/m"];
+    TensionForce: ForcePerLength, Allowed::NotNegative, "a tension of", [0.0, 1e6], "plies bear up to 1e6 N/m", &["N/m"];
     /// From a flat ply to a fold.
-    CURVATURE: "a curvature of", "1/m", [0.0, 1e3], "plies are bent with up to 1000 1/m", &["1/m"];
+    PlyCurvature: Curvature, Allowed::NotNegative, "a curvature of", [0.0, 1e3], "plies are bent with up to 1000 1/m", &["1/m"];
     /// What a bending test measures.
-    MOMENT: "a moment of", "N", [0.0, 10.0], "plies are bent with up to 10 N", &["mN"];
+    Moment: MomentPerWidth, Allowed::NotNegative, "a moment of", [0.0, 10.0], "plies are bent with up to 10 N", &["mN"];
     /// From the stroke of a cup to a step aside.
-    CLEAR: "a way of", "m", [0.001, 1.0], "pads come from 1 mm to 1 m above the ply", LENGTHS;
+    Clear: Length, Allowed::Size, "a way of", [0.001, 1.0], "pads come from 1 mm to 1 m above the ply", LENGTHS;
     /// How long pads press.
-    DWELL: "a dwell of", "s", [0.0, 60.0], "pads press for up to 60 s", &["ms"];
+    Dwell: Time, Allowed::ZeroOrWithin([1e-6, 3600.0], "a dwell"), "a dwell of", [0.0, 60.0], "pads press for up to 60 s", &["ms"];
     /// Points of a motion that a machine follows.
-    RATE: "a rate of", "Hz", [1.0, 1e3], "machines take 1 Hz to 1000 Hz", &["kHz"];
+    Rate: Frequency, Allowed::Within([0.1, 1e4], "a motion file"), "a rate of", [1.0, 1e3], "machines take 1 Hz to 1000 Hz", &["kHz"];
     /// From a slow frame to the wrist of a robot.
-    TURN_ACCELERATION: "an acceleration of", "rad/s^2", [1e-3, 20.0], "frames turn with 0.001 rad/s^2 to 20 rad/s^2", &["deg/s^2"];
+    TurnAcceleration: AngularAcceleration, Allowed::Within(TURNS, "a frame"), "an acceleration of", [1e-3, 20.0], "frames turn with 0.001 rad/s^2 to 20 rad/s^2", &["deg/s^2"];
     /// Joints of arms turn once round to either side at most.
-    JOINT: "an angle of", "rad", [0.0, 7.0], "joints turn by up to 7 rad, 400 deg", &["deg"];
+    JointAngle: Angle, Allowed::Finite, "an angle of", [0.0, 7.0], "joints turn by up to 7 rad, 400 deg", &["deg"];
     /// Joints of arms, from the foot of a large one to the wrist of a small one.
-    JOINT_RATE: "a rate of", "rad/s", [0.1, 15.0], "joints turn with 0.1 rad/s to 15 rad/s", &["deg/s"];
+    JointRate: AngularRate, Allowed::Within([1e-4, 1e3], "a joint"), "a rate of", [0.1, 15.0], "joints turn with 0.1 rad/s to 15 rad/s", &["deg/s"];
     /// As they come to their speed within some tenths of a second.
-    JOINT_ACCELERATION: "an acceleration of", "rad/s^2", [0.1, 100.0], "joints turn with 0.1 rad/s^2 to 100 rad/s^2", &["deg/s^2"];
+    JointAcceleration: AngularAcceleration, Allowed::Within([1e-3, 1e4], "a joint"), "an acceleration of", [0.1, 100.0], "joints turn with 0.1 rad/s^2 to 100 rad/s^2", &["deg/s^2"];
     /// Lines of ply, from a veil to a thick fabric of carbon.
-    AXIAL: "an axial stiffness of", "N", [1e4, 1e8], "lines of ply have 1e4 N to 1e8 N", &["kN", "MN"];
+    Axial: Force, Allowed::InfiniteOrWithin([1.0, 1e12], "a ply"), "an axial stiffness of", [1e4, 1e8], "lines of ply have 1e4 N to 1e8 N", &["kN", "MN"];
     /// From a dry fabric to a sticky prepreg.
-    TACK: "a tack of", "Pa", [0.0, 1e4], "plies stick with up to 1e4 Pa", &[];
+    Tack: Pressure, Allowed::NotNegative, "a tack of", [0.0, 1e4], "plies stick with up to 1e4 Pa", &[];
     /// From a needle to a large suction plate.
-    PAD_FORCE: "a pad that holds", "N", [0.01, 500.0], "pads hold 0.01 N to 500 N", &["mN"];
+    PadForce: Force, Allowed::Within([1e-6, 1e9], "a pad"), "a pad that holds", [0.01, 500.0], "pads hold 0.01 N to 500 N", &["mN"];
     /// How far a real cell is from its scene.
-    ERROR: "an error of", "m", [0.0, 0.02], "errors of cells are up to 20 mm", LENGTHS;
+    CellError: Length, Allowed::NotNegative, "an error of", [0.0, 0.02], "errors of cells are up to 20 mm", LENGTHS;
     /// How far an angle of a real cell is from its scene.
-    ANGLE_ERROR: "an error of", "rad", [0.0, 0.1], "errors of angles are up to 0.1 rad, 5.7 deg", &["deg"];
+    AngleError: Angle, Allowed::NotNegative, "an error of", [0.0, 0.1], "errors of angles are up to 0.1 rad, 5.7 deg", &["deg"];
     /// The length of one catenary, or of what hangs between two grippers.
-    SPAN: "a span of", "m", [0.002, 2.0], "spans are 2 mm to 2 m long", LENGTHS;
+    Span: Length, Allowed::Finite, "a span of", [0.002, 2.0], "spans are 2 mm to 2 m long", LENGTHS;
     /// The weight of a line of ply.
-    WEIGHT: "a line of ply of", "N/m", [1e-3, 50.0], "lines of ply weigh 0.001 N/m to 50 N/m", &["mN/m"];
+    Weight: ForcePerLength, Allowed::Finite, "a line of ply of", [1e-3, 50.0], "lines of ply weigh 0.001 N/m to 50 N/m", &["mN/m"];
     /// What a machine tests.
-    COUPON: "a coupon of", "m", [0.005, 1.0], "coupons are 5 mm to 1 m long", LENGTHS;
+    Coupon: Length, Allowed::Finite, "a coupon of", [0.005, 1.0], "coupons are 5 mm to 1 m long", LENGTHS;
     /// How far a controller may be from a motion.
-    POSITION_ERROR: "an error of", "m", [0.0, 0.01], "errors of positions are up to 10 mm", LENGTHS;
-    /// What has no unit, or may be of any size.
-    ANY: "a value of", "", [0.0, f64::INFINITY], "numbers of any size are usual", &[];
+    PositionError: Length, Allowed::Finite, "an error of", [0.0, 0.01], "errors of positions are up to 10 mm", LENGTHS;
     /// From a fillet to the barrel of a fuselage.
-    RADIUS: "a radius of", "m", [0.005, 5.0], "molds have radii of 5 mm to 5 m", LENGTHS;
+    Radius: Length, Allowed::Size, "a radius of", [0.005, 5.0], "molds have radii of 5 mm to 5 m", LENGTHS;
     /// From a needle gripper to a large suction plate.
-    PAD: "a pad with a radius of", "m", [0.0, 0.1], "pads have radii of up to 100 mm", LENGTHS;
+    Pad: Length, Allowed::SizeOrZero, "a pad with a radius of", [0.0, 0.1], "pads have radii of up to 100 mm", LENGTHS;
     /// From a cup to a robot's frame, a table or a gantry.
-    BODY: "a body of", "m", [0.001, 5.0], "bodies and obstacles are 1 mm to 5 m large", LENGTHS;
+    Body: Length, Allowed::Size, "a body of", [0.001, 5.0], "bodies and obstacles are 1 mm to 5 m large", LENGTHS;
     /// From the roughness of a mold to the thickness of a thick ply.
-    TOLERANCE: "a contact tolerance of", "m", [1e-5, 1e-3], "tolerances of contact are 0.01 mm to 1 mm", LENGTHS;
+    Tolerance: Length, Allowed::Size, "a contact tolerance of", [1e-5, 1e-3], "tolerances of contact are 0.01 mm to 1 mm", LENGTHS;
     /// How closely a curve of a drawing is followed.
-    DRAWN: "a tolerance of", "m", [1e-6, 5e-3], "tolerances of drawings are 0.001 mm to 5 mm", LENGTHS;
+    Drawn: Length, Allowed::Size, "a tolerance of", [1e-6, 5e-3], "tolerances of drawings are 0.001 mm to 5 mm", LENGTHS;
     /// A part of a cell.
-    MESH: "meshes of", "m", [0.001, 0.1], "meshes are 1 mm to 100 mm wide", LENGTHS;
+    Mesh: Length, Allowed::Size, "meshes of", [0.001, 0.1], "meshes are 1 mm to 100 mm wide", LENGTHS;
     /// From an engraved mark to a port for vacuum.
-    SPANNED: "details of", "m", [0.0, 0.05], "details that a ply spans are up to 50 mm wide", LENGTHS;
+    Spanned: Length, Allowed::SizeOrZero, "details of", [0.0, 0.05], "details that a ply spans are up to 50 mm wide", LENGTHS;
     /// How far a gripper moves in one step of a plan.
-    MOVE: "moves of", "m", [0.0005, 0.2], "grippers move 0.5 mm to 200 mm in a step", LENGTHS;
+    Move: Length, Allowed::Size, "moves of", [0.0005, 0.2], "grippers move 0.5 mm to 200 mm in a step", LENGTHS;
     /// Waves of a mold that is off its drawing.
-    WAVES: "waves of", "m", [0.005, 2.0], "waves of molds are 5 mm to 2 m long", LENGTHS;
+    Waves: Length, Allowed::Size, "waves of", [0.005, 2.0], "waves of molds are 5 mm to 2 m long", LENGTHS;
     /// From spread tow to 3D weaves and stitched stacks with their resin.
-    AREAL_MASS: "a ply of", "kg/m^2", [0.05, 10.0], "plies weigh 50 g/m^2 to 10 kg/m^2", &["g/m^2"];
+    PlyMass: ArealMass, Allowed::Finite, "a ply of", [0.05, 10.0], "plies weigh 50 g/m^2 to 10 kg/m^2", &["g/m^2"];
     /// An areal mass times the width of ply that a line stands for, at most a cell.
-    LINE_MASS: "lines of ply of", "kg/m", [1e-3, 5.0], "lines of ply weigh 1 g/m to 5 kg/m", &["g/m"];
+    LineMass: MassPerLength, Allowed::Finite, "lines of ply of", [1e-3, 5.0], "lines of ply weigh 1 g/m to 5 kg/m", &["g/m"];
     /// Up to a thick prepreg; a limp ply has none.
-    BENDING: "a bending rigidity of", "N m", [0.0, 0.1], "plies have up to 0.1 N m", &["mg cm", "uN m"];
+    Bending: BendingRigidity, Allowed::ZeroOrWithin([0.0, 1e6], "a ply"), "a bending rigidity of", [0.0, 0.1], "plies have up to 0.1 N m", &["mg cm", "uN m"];
     /// A bending rigidity times the width of ply that a line stands for.
-    FLEXURAL: "a flexural rigidity of", "N m^2", [0.0, 0.05], "lines of ply have up to 0.05 N m^2", &["N mm^2"];
+    Flexural: FlexuralRigidity, Allowed::ZeroOrWithin([0.0, 1e6], "a ply"), "a flexural rigidity of", [0.0, 0.05], "lines of ply have up to 0.05 N m^2", &["N mm^2"];
     /// From a knitted glass fabric to a heavy carbon one.
-    TENSION: "a tensile stiffness of", "N/m", [1e4, 1e8], "plies have 1e4 N/m to 1e8 N/m", &["N/mm", "MN/m"];
+    Tension: TensileStiffness, Allowed::Within([1.0, 1e10], "a ply"), "a tensile stiffness of", [1e4, 1e8], "plies have 1e4 N/m to 1e8 N/m", &["N/mm", "MN/m"];
     /// From a loose fabric to a stitched one with resin.
-    SHEAR: "a shear slope of", "N/m per radian", [0.0, 1e4], "plies have up to 1e4 N/m per radian", &[];
+    Shear: ShearSlope, Allowed::ZeroOrWithin([0.0, 1e6], "a ply"), "a shear slope of", [0.0, 1e4], "plies have up to 1e4 N/m per radian", &[];
     /// From the freezer to the debulking of a hot ply.
-    TEMPERATURE: "a temperature of", "K", [250.0, 450.0], "plies are laid at 250 K to 450 K, -23 degC to 177 degC", &["degC"];
+    PlyTemperature: Temperature, Allowed::Within([50.0, 2000.0], "a ply"), "a temperature of", [250.0, 450.0], "plies are laid at 250 K to 450 K, -23 degC to 177 degC", &["degC"];
     /// From a hot resin to a cold one.
-    RELAXATION: "a relaxation of", "s", [1e-3, 1e4], "resins relax within 1 ms to 3 h", &["ms"];
+    Relaxation: Time, Allowed::Within([1e-9, 1e9], "a ply"), "a relaxation of", [1e-3, 1e4], "resins relax within 1 ms to 3 h", &["ms"];
     /// Bellows and springs to a rigid frame.
-    MOUNT: "a mount of", "N/m", [500.0, 1e7], "mounts have 500 N/m to 1e7 N/m", &["N/mm"];
+    Mount: Stiffness, Allowed::Within([1e-3, 1e9], "a gripper's mount"), "a mount of", [500.0, 1e7], "mounts have 500 N/m to 1e7 N/m", &["N/mm"];
     /// From ice to rubber.
-    FRICTION: "a coefficient of friction of", "", [0.0, 2.0], "coefficients of friction are up to 2", &["%"];
+    Friction: Coefficient, Allowed::NotNegative, "a coefficient of friction of", [0.0, 2.0], "coefficients of friction are up to 2", &["%"];
     /// On the Moon and on Earth.
-    GRAVITY: "a gravity of", "m/s^2", [1.6, 9.9], "gravity is 1.6 m/s^2 on the Moon and 9.81 m/s^2 on Earth", &["mm/s^2"];
+    Gravity: Acceleration, Allowed::Within([1e-3, 1e3], "a ply"), "a gravity of", [1.6, 9.9], "gravity is 1.6 m/s^2 on the Moon and 9.81 m/s^2 on Earth", &["mm/s^2"];
+}
+
+kinds! {
+    /// A direction from x towards y, or a turn about an axis.
+    Heading: Angle, Allowed::Turn, AnyAngle::USUAL;
+    /// How steep something is.
+    Slope: Angle, Allowed::BelowRightAngle, AnyAngle::USUAL;
+    /// How far a joint tilts, or yarns turn against each other.
+    AcuteAngle: Angle, Allowed::Acute, AnyAngle::USUAL;
+    /// By how much a ply is sheared, to either side.
+    ShearAngle: Angle, Allowed::ShearAngle, AnyAngle::USUAL;
+    /// What a resin adds to the slope of shear.
+    ShearRate: ShearSlope, Allowed::Within([0.0, 1e6], "a ply"), Shear::USUAL;
+    /// How long pads press before a ply is lifted.
+    Grip: Time, Allowed::NotNegative, Dwell::USUAL;
+    /// How long a program waits.
+    Timeout: Time, Allowed::Positive, Dwell::USUAL;
+    /// From the first to the last step of a motion.
+    Duration: Time, Allowed::Within(DURATIONS, "a motion"), Usual::from_practice::<Time>(&Practice::DURATION);
+    /// How fast a frame turns.
+    TurnRate: AngularRate, Allowed::Within(TURNS, "a frame"), Usual::from_practice::<AngularRate>(&Practice::TURN);
+    /// How fast an axis moves.
+    AxisSpeed: Speed, Allowed::Within([1e-5, 1e2], "an axis"), Usual::from_practice::<Speed>(&Practice::SPEED);
+    /// How far a gripper may be from where it should be.
+    Residual: Length, Allowed::Size, Usual::from_practice::<Length>(&Practice::GAP);
+    /// A part of a value.
+    Share: Ratio, Allowed::NotNegative, ANY;
+    /// A factor that a value is known within.
+    Factor: Ratio, Allowed::Positive, ANY;
+    /// The part of many cells that keeps the limits.
+    CellShare: Ratio, Allowed::PartOf("all of the cells"), ANY;
+    /// By how much a pad must hold more than its load.
+    GripSafety: Ratio, Allowed::Within([1.0, 100.0], "the safety of a pad"), ANY;
 }
 
 impl Usual {
@@ -235,20 +304,6 @@ impl Usual {
         };
         let found = among(&|value| (low..=high).contains(&value));
         if found.is_empty() { among(&|value| self.holds(value)) } else { found }
-    }
-}
-
-/// What is usual of the duration of a motion.
-pub(super) fn duration() -> Usual {
-    Usual::from_practice::<Time>(&Practice::DURATION)
-}
-
-/// What is usual of an error of a cell.
-pub(super) fn error<M: Measure>() -> &'static Usual {
-    match M::UNIT {
-        "m" => &ERROR,
-        "rad" => &ANGLE_ERROR,
-        _ => &ANY,
     }
 }
 
@@ -380,14 +435,17 @@ mod tests {
         assert!(missed.is_empty(), "{}", missed.join("\n"));
     }
 
-    /// The guide has a table of all of them.
+    /// In the column of every key, or in the table of what is no key.
     #[test]
     fn the_guide_says_what_is_found_in_practice() {
-        let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/guide/scene.md");
-        let guide = std::fs::read_to_string(guide).unwrap();
+        let page = |name: &str| {
+            let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/guide");
+            std::fs::read_to_string(format!("{guide}/{name}")).unwrap()
+        };
+        let guide = page("scene.md") + &page("keys.md");
         let limits = Name::bounded().filter_map(|(_, bound)| Some(bound.practice?.words));
         for words in ALL.iter().map(|(_, usual)| usual.range).chain(limits) {
-            assert!(guide.contains(&format!("| {words} |\n")), "{words}");
+            assert!(guide.contains(&format!("| {words} |")), "{words}");
         }
     }
 

@@ -9,6 +9,7 @@ use plydrape::scene::Scene;
 use plydrape_io::Error;
 use plydrape_io::scene::{self, SceneFile};
 use proptest::prelude::*;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -428,6 +429,57 @@ fn a_scene_with_a_duration_says_why_it_is_not_planned() {
     let refusal = scene.plan_refusal.as_ref().expect("a plan would ignore the duration");
     let refusal = format!("{}; {}", refusal.message, refusal.help);
     assert!(refusal.contains("\"8 s\"") && refusal.contains("[limits]"), "{refusal}");
+}
+
+/// The schema prints what the reader takes where a key is left out.
+#[test]
+fn a_default_of_the_schema_is_what_a_scene_without_the_key_has() {
+    let schema: Value = serde_json::from_str(&scene::schema()).unwrap();
+    let mut compared = 0;
+    for (name, table) in schema["properties"].as_object().unwrap() {
+        let Some(link) = table["$ref"].as_str() else { continue };
+        let keys = &schema["$defs"][link.rsplit('/').next().unwrap().replace("%20", " ")];
+        for (key, about) in keys["properties"].as_object().into_iter().flatten() {
+            let Some(default) = about.get("default") else { continue };
+            let with = |line: &str| {
+                let tables = [
+                    ("ply", "grippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = \"prepreg_warm\"\n"),
+                    ("mold", "kind = \"cylinder\"\nradius = 1\nposition = [0, 0, -1]\n"),
+                    ("target", "seed = \"middle\"\n"),
+                    ("motion", "kind = \"straight\"\n"),
+                    ("grippers", "spacing = [0.098, 0.098]\nheight = 0.1\norigin = \"centered\"\n"),
+                ];
+                let own = match name.as_str() {
+                    "pick_up" => "height = 0\n",
+                    _ => "",
+                };
+                let mut text = String::new();
+                for (table, lines) in tables {
+                    let line = if table == name { line } else { "" };
+                    text += &format!("[{table}]\n{lines}{line}\n");
+                }
+                if tables.iter().all(|(table, _)| table != name) {
+                    text += &format!("[{name}]\n{own}{line}\n");
+                }
+                match parse(&text) {
+                    Ok(file) => format!("{:?}", file.scene),
+                    Err(fault) => panic!("{name}.{key}: {fault}\n{text}"),
+                }
+            };
+            let (set, left_out) = (with(&format!("{key} = {default}")), with(""));
+            let parts =
+                |text: &str| text.split([' ', ',', '[', ']', '(', ')']).map(String::from).collect();
+            let [set, left_out]: [Vec<String>; 2] = [parts(&set), parts(&left_out)];
+            assert_eq!(set.len(), left_out.len(), "{name}.{key}");
+            for (a, b) in set.iter().zip(&left_out).filter(|(a, b)| a != b) {
+                // a unit costs the last digit
+                let [a, b]: [f64; 2] = [a, b].map(|n| n.parse().unwrap_or(f64::NAN));
+                assert!((a / b - 1.0).abs() < 1e-12, "{name}.{key}: {a}, {b}");
+            }
+            compared += 1;
+        }
+    }
+    assert!(compared > 30, "{compared}");
 }
 
 /// `docs/scene.schema.json` is what the program prints; `UPDATE_SCHEMA=1` writes it anew.

@@ -165,10 +165,12 @@ impl Nearest {
             let inner = times.iter().copied().filter(|t| from < *t && *t < to);
             [from].into_iter().chain(inner).chain((from < to).then_some(to)).collect()
         };
+        // grippers by themselves move in straight lines between the times of the motion
         if layup.tool.is_none() {
             let times = within(motion.times());
             return along(layup, limit, &Planned { motion, attitudes }, &times, below);
         }
+        // a robot goes straight from point to point of its file, and the frame turns the shortest way
         let times = within(&motion.samples(rate).ok()?);
         let poses = |t: &f64| {
             let positions = motion.at(*t);
@@ -224,6 +226,7 @@ fn straight(
     if legs.is_empty() {
         return at(layup, limit, poses.first()?);
     }
+    // legs are counted, and the count of the nearest is a time
     let counts: Vec<f64> = (0..times.len()).map(|n| n as f64).collect();
     let nearest = along(layup, limit, &Legs(legs), &counts, below)?;
     let n = (nearest.time as usize).min(times.len() - 2);
@@ -345,6 +348,7 @@ impl<'a> Search<'a> {
     ) -> Self {
         let solids = layup.bodies.made();
         let mut judged = Vec::new();
+        // bodies on pads and stems are there once for each gripper
         for (n, body) in layup.bodies.bodies().iter().enumerate() {
             let Solid { ball, capsule, .. } = solids.bodies[n];
             let mut add = |gripper: Option<usize>, origin: Origin| {

@@ -128,6 +128,7 @@ impl<'a> OverMold<'a> {
     fn searched(&self, surface: &Surface, pose: &Pose, resolution: f64) -> Apart {
         let mut best = Apart { distance: f64::INFINITY, place: pose.position };
         let mut parts: BinaryHeap<Part> = BinaryHeap::new();
+        // how near a patch is at its middle, and how near any point of it can be
         let see = |patch: Patch, best: &mut Apart| {
             let (middle, reach, belongs) = surface.ball(&patch);
             let middle = pose.place(middle);
@@ -135,6 +136,8 @@ impl<'a> OverMold<'a> {
             if belongs && found.distance < best.distance {
                 *best = Apart { distance: found.distance, place: middle };
             }
+            // near a mold of bounded curvature the distance falls at most by the patch's extent along the normal and the bend of the
+            // mold
             let sharpness = self.hollow * (found.distance + reach).max(0.0);
             if !found.beyond && sharpness < 1.0 {
                 let bend = self.hollow / (1.0 - sharpness);
@@ -143,10 +146,12 @@ impl<'a> OverMold<'a> {
                 let done = belongs && reach <= 0.5 * resolution;
                 return Part { least: found.distance - fall, patch, done };
             }
+            // elsewhere the bound of the mold's own tree
             let least = self.gap(middle, reach) + self.raised;
             let far = reach <= TUNING.far * (least + reach).abs();
             Part { least, patch, done: belongs && (far || reach <= 0.5 * resolution) }
         };
+        // branch and bound: halve the patch that could be nearest until none could be nearer by the resolution
         parts.extend(surface.patches.iter().map(|patch| see(*patch, &mut best)));
         for _ in 0..TUNING.patches {
             let Some(Part { least, patch, done }) = parts.pop() else { break };

@@ -80,6 +80,7 @@ fn arc(h: f64, z: f64, radius: f64, face: Face) -> Arc {
                 beyond: false,
             }
         }
+        // a trough ends at its rim, half-way up
         Face::Inside if z > 0.0 => {
             let side = 1.0_f64.copysign(h);
             Arc {

@@ -32,6 +32,7 @@ impl Attitudes {
         if times.len() != quaternions.len() || !ascend || !times.iter().all(|t| t.is_finite()) {
             return Err(Error::AttitudeTimes { steps: quaternions.len(), times: times.len() });
         }
+        // q and −q are the same orientation: take the one nearer to the step before, so that interpolation goes the short way
         let mut steps: Vec<Vec<[f64; 4]>> = Vec::with_capacity(quaternions.len());
         for (k, step) in quaternions.iter().enumerate() {
             if step.len() != grippers {

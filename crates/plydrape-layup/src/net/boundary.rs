@@ -241,6 +241,7 @@ impl Walk<'_> {
     ) {
         let uv = [0, 1].map(|n| 0.5 * (a.0[n] + b.0[n]));
         let middle = (uv, self.lie_of_ply(uv));
+        // halve where the line bends over the mold, and finer where it leaves the mold
         let same = a.1.kind() == b.1.kind() && a.1.kind() == middle.1.kind();
         let most = if same { TUNING.boundary_halvings } else { TUNING.boundary_end_halvings };
         let is_straight = match (&a.1, &middle.1, &b.1) {
@@ -254,6 +255,7 @@ impl Walk<'_> {
             self.between(middle, b, depth + 1, lines);
             return;
         }
+        // what has no place on the mold is measured in the fabric
         let length = (b.0[0] - a.0[0]).hypot(b.0[1] - a.0[1]);
         match middle.1 {
             Lie::On(_) => {}

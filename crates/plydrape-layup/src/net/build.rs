@@ -98,6 +98,7 @@ impl Build<'_> {
         let inner = self.at([i - a, j - b])?;
         let [du, dv] = self.placement.mesh;
         let conditions = [Condition::Length(&along_u, du), Condition::Length(&along_v, dv)];
+        // the fourth corner of a parallelogram
         let flat = [0, 1, 2].map(|n| along_u.point[n] + along_v.point[n] - inner.point[n]);
         // the twist of the cell, extrapolated from the cells before
         let twist = |i: isize, j: isize| -> Option<[f64; 3]> {
@@ -116,6 +117,7 @@ impl Build<'_> {
         };
         let sign = (a * b) as f64;
         let mut last = None;
+        // a place with the right lengths may still be the mirrored one, or a cell that has collapsed
         for guess in twist.map(|t| along(flat, 1.0, t)).into_iter().chain([flat]) {
             match meet(&self.surface, self.rule(), conditions, guess, self.mesh()) {
                 Ok(point) => {

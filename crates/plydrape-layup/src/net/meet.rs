@@ -70,6 +70,7 @@ pub(super) fn meet(
     let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let tolerance = TUNING.gap * mesh + 4.0 * f64::EPSILON * largest;
     let gaps_at = |x: &SurfacePoint| conditions.map(|c| c.gap(x, rule));
+    // Newton on the surface: two lengths, two unknowns in the tangent plane
     let mut best = surface.under(guess);
     let mut gaps = gaps_at(&best);
     let mut part = 1.0;
@@ -85,6 +86,7 @@ pub(super) fn meet(
         let Some(delta) = step else { break };
         let trial = surface.under(along(best.point, part, delta));
         let there = gaps_at(&trial);
+        // a trial that is worse halves the step, one that is better doubles the next
         if size(there) < miss {
             (best, gaps, step) = (trial, there, None);
             part = f64::min(1.0, 2.0 * part);

@@ -109,6 +109,7 @@ impl Net {
         };
         build.run()?;
 
+        // nodes without a place on the mold, those next to the seed first: the others follow from them
         let on_mold = |point: &&SurfacePoint| point.beyond == 0.0;
         let nodes =
             build.points.iter().map(|s| s.as_ref().filter(on_mold).map(|s| s.point)).collect();
@@ -140,6 +141,7 @@ impl Net {
                 });
             }
         }
+        // shear of the whole cells, and the counts of what is missing
         let report = Report::new(&placement, coverage, &points, &shear, &missing, closest_points);
         Ok(Net { placement, outline: None, nodes, missing, shear, report, points })
     }

@@ -40,12 +40,14 @@ impl Report {
         closest_points: usize,
     ) -> Self {
         let [nu, nv] = placement.nodes;
+        // the first missing node of each reason stands for all of it
         let count = |reason: Reason| missing.iter().filter(|m| m.reason == reason).count();
         let first = [Reason::OffMold, Reason::Folded, Reason::Unreached]
             .iter()
             .filter_map(|reason| missing.iter().find(|m| m.reason == *reason).cloned())
             .collect();
 
+        // by how much edges of the net differ from the mesh
         let at = |i: usize, j: usize| {
             if i < nu && j < nv { points[j * nu + i].filter(|s| s.beyond == 0.0) } else { None }
         };
@@ -62,6 +64,7 @@ impl Report {
             }
         }
 
+        // shear of the cells that are whole
         let on_ply = (0..nu * nv).filter(|n| coverage.node([n % nu, n / nu])).count();
         let whole = || shear.iter().enumerate().filter_map(|(n, s)| Some((n, (*s)?.magnitude)));
         let largest_shear = whole()

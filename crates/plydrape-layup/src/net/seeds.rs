@@ -81,6 +81,7 @@ impl Seeds {
                 .ok()
         };
         let outline = outline.cloned().or_else(whole);
+        // the heading first, then the seed for that heading, on a coarse net
         let coarse = Search::new(mold, placement, outline.as_ref(), coarse_step(&placement));
         let mut choices: Vec<Choice> = Vec::new();
 
@@ -125,6 +126,8 @@ impl Seeds {
                 ..fine
             };
         }
+        // the least shear on the net of the scene decides; a choice that cannot keep the held point in place leaves the placement as it
+        // is
         let chosen =
             fine.best(&choices, &order, |choice| choice.largest_shear_fine).unwrap_or(held);
         let Choice { seed, at, heading, .. } = choices[chosen];
@@ -348,6 +351,7 @@ impl<'a> Search<'a> {
         let Some(best) = self.best(choices, &of_heading, |choice| choice.largest_shear) else {
             return;
         };
+        // half of a part further to each side of the best
         let [i, j] = choices[best].seed;
         let half =
             [0, 1].map(|n| ((nodes[n] - 1) as f64 / (2 * TUNING.seeds) as f64).round() as isize);

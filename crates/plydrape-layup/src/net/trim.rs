@@ -127,6 +127,7 @@ impl Boundary {
         let outer: Vec<&BoundaryLine> = self.lines.iter().filter(|line| line.ring == 0).collect();
         let own: Vec<[SurfacePoint; 2]> = outer.iter().flat_map(|line| pieces(line)).collect();
 
+        // how far each point of the own boundary is beside the target, on the surface
         let mut found: Vec<Vec<Beside>> = Vec::with_capacity(outer.len());
         for line in &outer {
             let beside = (0..line.points.len()).map(|n| beside(&surface, &point(line, n), &curve));
@@ -141,6 +142,7 @@ impl Boundary {
         }
         let sense = if sense < 0.0 { -1.0 } else { 1.0 };
 
+        // fabric beyond the target and short of it, and the mean over the length by the trapezoidal rule
         let (mut compared, mut sum, mut magnitudes) = (0.0, 0.0, 0.0);
         let (mut beyond, mut short) = (None::<TrimPlace>, None::<TrimPlace>);
         for (line, found) in outer.iter().zip(&found) {
@@ -162,6 +164,7 @@ impl Boundary {
                 magnitudes += 0.5 * length * (p.abs() + q.abs());
             }
         }
+        // from the target back to the own boundary: a piece of the target that no fabric comes near to
         let mut farthest_wanted = ([0.0; 3], -1.0);
         for point in &wanted.points {
             let away = beside(&surface, point, &own)?.left.abs();

@@ -49,6 +49,7 @@ pub(super) fn bias_cells(
         let [a, b] = pair.ends.map(|n| places[n]);
         [0, 1].map(|n| 0.5 * (a[n] + b[n]))
     };
+    // lines along v by buckets, since each line along u is near few of them
     let bucket = |place: [f64; 2]| place.map(|c| (c / (4.0 * same)).floor() as i64);
     let mut crossing: BTreeMap<[i64; 2], Vec<&Pair>> = BTreeMap::new();
     v.iter().for_each(|pair| crossing.entry(bucket(middle(pair))).or_default().push(pair));
@@ -63,6 +64,7 @@ pub(super) fn bias_cells(
         for across in near.filter(meets) {
             let ([left, right], [low, high]) = (along.ends, across.ends);
             let half = [0.5 * along.way[0], 0.5 * across.way[1]];
+            // sides of the cell are bias lines between ends of the two diagonals
             let rising = |ends| Pair { ends, way: half };
             let falling = |ends| Pair { ends, way: [-half[0], half[1]] };
             let bias = [

@@ -214,6 +214,7 @@ impl Lines {
             let way = [0, 1].map(|d| way[d] / pitch[d]);
             FabricLine { catenary: Catenary { kind, from, to }, ends, start, way, tributary: 1.0 }
         };
+        // fiber lines first; each gripper knows those that begin and end at it
         for (d, kind) in [Kind::EdgeU, Kind::EdgeV].into_iter().enumerate() {
             for pair in &edges[d] {
                 let [a, b] = pair.ends;
@@ -222,6 +223,7 @@ impl Lines {
                 lines.push(line(kind, *pair));
             }
         }
+        // lines across the yarns belong to the one or two cells beside them
         let (mut known, mut cells_of) = (BTreeMap::new(), Vec::new());
         let mut cells = Vec::with_capacity(quads.len());
         for (number, quad) in quads.into_iter().enumerate() {
@@ -384,6 +386,7 @@ fn fiber_lines(
 ) -> Vec<Pair> {
     let (along, across) = (direction, 1 - direction);
     let same = TUNING.same_yarn * pitch[0].min(pitch[1]);
+    // cups at the same place across are on one yarn
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|a, b| places[*a][across].total_cmp(&places[*b][across]));
     let mut pairs = Vec::new();
@@ -399,6 +402,7 @@ fn fiber_lines(
             }
         }
     }
+    // rows by whole widths of a yarn, so that rounding does not change their order
     let first = |pair: &Pair| places[pair.ends[0]];
     let row = |place: [f64; 2]| (place[1] / same).round();
     pairs.sort_by(|a, b| {
@@ -423,6 +427,7 @@ fn tributaries(
     let same = TUNING.same_yarn * width;
     let own = &edges[direction];
     let tributary = |pair: &Pair| {
+        // other lines beside this one begin and end anywhere: cut it where they do
         let [from, to] = reach(pair);
         let beside = |other: &&Pair| {
             let [a, b] = reach(other);
@@ -433,6 +438,7 @@ fn tributaries(
         cuts.extend([from, to]);
         cuts.retain(|cut| (from..=to).contains(cut));
         cuts.sort_by(f64::total_cmp);
+        // in each part the nearest line on either side takes half of the fabric; a line alone has the whole width
         let mut area = 0.0;
         for [a, b] in cuts.windows(2).map(|cut| [cut[0], cut[1]]) {
             let middle = 0.5 * (a + b);

@@ -273,6 +273,7 @@ fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
         place: usize,
         ends: [[f64; 2]; 2],
     }
+    // sweep over x: a side meets only those that begin before it ends
     let sides_of = |(ring, points): (usize, &Ring)| -> Vec<RingSide> {
         let number = |(place, ends)| RingSide { ring, place, ends };
         lines(points).enumerate().map(number).collect()
@@ -285,6 +286,7 @@ fn check_crossings(rings: &[Ring]) -> Result<(), Error> {
     all.sort_by(|a, b| span(a)[0].total_cmp(&span(b)[0]));
     for (n, a) in all.iter().enumerate() {
         for b in all[n + 1..].iter().take_while(|b| span(b)[0] <= span(a)[1]) {
+            // neighbors share an end, and may only not fold back
             let count = rings[a.ring].len();
             let next = |p: usize, q: usize| (p + 1) % count == q;
             let neighbors = a.ring == b.ring && (next(a.place, b.place) || next(b.place, a.place));

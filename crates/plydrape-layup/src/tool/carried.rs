@@ -115,6 +115,7 @@ impl Tool {
     /// The motion that the tool makes where one is asked for (m): one list of all grippers a step.
     #[must_use]
     pub fn carry(&self, asked: &[Vec<[f64; 3]>]) -> Carried {
+        // errors of a cell put the grippers where the tool cannot, so they stay there
         let postures: Vec<Posture> = asked.par_iter().map(|places| self.posture(places)).collect();
         let positions: Vec<Vec<[f64; 3]>> = match self.with_errors {
             true => asked.to_vec(),
@@ -130,6 +131,7 @@ impl Tool {
             arm: None,
         };
         for (k, posture) in postures.iter().enumerate() {
+            // the largest distance of a gripper from where it should be
             for (n, (a, b)) in asked[k].iter().zip(&positions[k]).enumerate() {
                 let residual = 1e3 * distance(*a, *b);
                 if residual > record.residual_mm {
@@ -139,6 +141,7 @@ impl Tool {
             for (n, (place, mount)) in asked[k].iter().zip(&self.mounts).enumerate() {
                 record.miss(sub(posture.frame.local(*place), *mount), &self.axes, n, k + 1);
             }
+            // ranges of strokes and turns that the machine must have
             for strokes in &posture.strokes {
                 for (range, stroke) in record.strokes_mm.iter_mut().zip(strokes) {
                     *range = [range[0].min(1e3 * stroke), range[1].max(1e3 * stroke)];

@@ -154,6 +154,7 @@ impl Tool {
         size: f64,
     ) -> Pose {
         let mut cost = self.cost(&frame, axes, part, places);
+        // Gauss-Newton: the step of the linear problem, halved until the rest does not grow
         for _ in 0..STEPS {
             let (matrix, slope) = self.linear(&frame, axes, part, places, size);
             let Some(step) = solved(&matrix, &slope) else { break };
@@ -170,6 +171,7 @@ impl Tool {
             }
             let Some((tried, now)) = found else { break };
             (frame, cost) = (tried, now);
+            // a step of the size of rounding ends it
             if share * step.amax() <= CONVERGED {
                 break;
             }
@@ -304,6 +306,7 @@ fn middle(places: &[[f64; 3]]) -> [f64; 3] {
 /// is the eigenvector to the largest eigenvalue).
 fn rigid(mounts: &[[f64; 3]], places: &[[f64; 3]]) -> Option<Pose> {
     let [from, to] = [mounts, places].map(middle);
+    // covariance of mounts and places about their middles, and Horn's symmetric matrix of it
     let mut s = [[0.0; 3]; 3];
     for (m, p) in mounts.iter().zip(places) {
         let [m, p] = [sub(*m, from), sub(*p, to)];
@@ -331,6 +334,7 @@ fn rigid(mounts: &[[f64; 3]], places: &[[f64; 3]]) -> Option<Pose> {
     if !matrix.iter().all(|c| c.is_finite()) {
         return None;
     }
+    // two equal eigenvalues leave a turn open, as for mounts in a row
     let parts = matrix.symmetric_eigen();
     let values = &parts.eigenvalues;
     let (best, largest) = values.argmax();

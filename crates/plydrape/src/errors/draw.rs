@@ -177,12 +177,14 @@ impl Errors {
     /// The values of a sample, which counts from 0, for a number of grippers.
     #[must_use]
     pub fn draw(&self, sample: usize, grippers: usize) -> Draw {
+        // each quantity has numbers of its own, so a term that is added changes no other draw
         let stream = Stream::new(self.seed, sample);
         let number = |term: Term, quantity: Quantity| stream.draw::<1>(term, quantity, 0)[0];
         let relative = |term: Term, quantity: Quantity| match term {
             Term::Factor(_) => RelativeError::Logarithm(number(term, quantity)),
             Term::Deviation(_) | Term::Bound(_) => RelativeError::Share(number(term, quantity)),
         };
+        // likewise each gripper: another array keeps the errors of those that it shares
         let gripper = |n: usize| GripperError {
             position: stream.draw(self.gripper.position, Quantity::GripperPosition, n),
             stroke: stream.draw(self.gripper.stroke, Quantity::GripperStroke, n),

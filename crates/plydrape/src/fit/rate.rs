@@ -72,6 +72,7 @@ struct Record {
 impl Record {
     fn new(specimen: &TimedSpecimen) -> Result<Self, Error> {
         let TimedSpecimen { name, test, points, times } = specimen;
+        // refuse what no fit could use: impossible strips, too few points, times that do not rise
         let trellis = ShearTest::Bias(*test);
         trellis.check()?;
         if points.len() < LINEAR {
@@ -85,6 +86,7 @@ impl Record {
         if let Some(n) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
             return Err(fault(n + 1, PointFault::Untimely));
         }
+        // the middle of the strip shears by the whole angle, its two triangles by half of it
         let (width, length) = (test.width, test.length);
         let (middle, ratio) = (2.0 * length - 3.0 * width, length / width - 1.0);
         let mut record = Record { rows: Vec::new(), angles: Vec::new(), times: times.clone() };
@@ -93,6 +95,7 @@ impl Record {
             let Some(angle) = angle else {
                 return Err(fault(n, PointFault::Backwards));
             };
+            // generalized force of one newton of the machine: yarns do not stretch, so its way follows from the shear angle alone
             let newton = ratio * ((0.5 * angle).cos() - (0.5 * angle).sin());
             let power = |k: usize| {
                 let degree = k as i32 + 1;

@@ -146,10 +146,12 @@ fn forth(points: &[[f64; 2]]) -> Result<(usize, Vec<Remark>), (usize, PointFault
     let way: Vec<f64> = points.iter().map(|point| point[0]).collect();
     let most = way.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = way.iter().copied().fold(f64::INFINITY, f64::min);
+    // a way that returns by less than this is noise of the machine
     let noise = TURN * (most - least);
     if let Some(n) = way.iter().position(|x| *x < -noise) {
         return Err((n, PointFault::Backwards));
     }
+    // the way rises up to its turn …
     let turn = way.iter().position(|x| *x == most).unwrap_or(0);
     if turn == 0 && most > least {
         return Err((1, PointFault::Falls));
@@ -161,6 +163,7 @@ fn forth(points: &[[f64; 2]]) -> Result<(usize, Vec<Remark>), (usize, PointFault
         }
         highest = highest.max(*x);
     }
+    // … and falls behind it, if the specimen was unloaded
     let mut lowest = turn;
     for (n, x) in way.iter().enumerate().skip(turn) {
         if *x > way[lowest] + noise {

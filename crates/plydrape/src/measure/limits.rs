@@ -4,9 +4,6 @@ use super::{ByName, Name, Preset, Scope, Verdict, slack_of_angle};
 use crate::layup::Layup;
 use crate::motion::Bounds;
 
-/// Safety of pads against slip and loss, unless a scene sets another: usual for vacuum cups that are moved slowly.
-const GRIP_SAFETY: f64 = 1.5;
-
 /// The limit of a measure unless a scene sets another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UsualLimit {
@@ -38,6 +35,9 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// Safety of pads against slip and loss, unless a scene sets another: usual for vacuum cups that are moved slowly.
+    pub const GRIP_SAFETY: f64 = 1.5;
+
     /// The limits of a layup unless a scene sets others, [`super::Measure::usual_limit`].
     #[must_use]
     pub fn of(layup: &Layup) -> Self {
@@ -46,7 +46,7 @@ impl Limits {
             preset: None,
             bounds: Name::ALL.iter().filter_map(usual).collect(),
             workspace: None,
-            grip_safety: GRIP_SAFETY,
+            grip_safety: Self::GRIP_SAFETY,
         }
     }
 

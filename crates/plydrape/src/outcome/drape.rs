@@ -218,6 +218,7 @@ pub(super) fn judge_seen(
     most_equilibria: usize,
     stop: &dyn Fn() -> bool,
 ) -> Result<(Judged, Option<sheet::Drape>), Error> {
+    // what is judged is the motion that the tool makes, not the one that was asked for
     check_catenaries(layup, layup.settings.model)?;
     let (carried, _) = layup.carried();
     let layup = &*carried;
@@ -226,6 +227,7 @@ pub(super) fn judge_seen(
     let mut judge = Judge::new(layup, limits, false);
     match layup.settings.model {
         Model::Sheet => {
+            // pads let go of a ply that lies: nodes up to the limit of the height do
             let (mut hand_over, low) =
                 (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
             let mut ended = false;
@@ -235,6 +237,7 @@ pub(super) fn judge_seen(
                 judge.see(&hand_over.state(layup, sheet, state, last), last);
                 ControlFlow::Continue(())
             })?;
+            // an interrupted sheet is judged by the last state that it reached
             if !ended {
                 judge.see(&hand_over.state(layup, &drape.sheet, &drape.last, true), true);
             }
@@ -250,6 +253,7 @@ pub(super) fn judge_seen(
             Ok((judged, Some(drape)))
         }
         Model::Catenaries => {
+            // catenaries are a statics of each step: every one is judged as it is found
             let mut stopped = false;
             let follow = Follow { most_equilibria, full: false };
             let followed = draping::follow(layup, follow, |state, _, last| {

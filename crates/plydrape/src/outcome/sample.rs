@@ -138,6 +138,7 @@ impl Errors {
         let (row, verdict) = (Mutex::new(Row::default()), OnceLock::new());
         let done = AtomicUsize::new(0);
         let open = || verdict.get().is_none();
+        // cells end in any order, but count in theirs, so that the verdict does not depend on the number of threads
         let drape = |sample: usize| {
             let stop = || !open() || (watch.stop)();
             let Some(drape) = draped(&self.cell(scene, sample, 1.0), &stop) else { return };
@@ -154,8 +155,10 @@ impl Errors {
                 }
             }
         };
+        // one cell a core; none is begun once the verdict is known
         (0..self.samples).take_while(|_| open()).par_bridge().for_each(drape);
 
+        // each limit is reported at the rank that the share of accepted cells asks for
         let ok = *verdict.get()?;
         let Row { drapes, kept, .. } = row.into_inner().unwrap_or_else(PoisonError::into_inner);
         let rank = self.needed(drapes.len());

@@ -154,6 +154,7 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
         return Err(Error::NoMold);
     }
     check_model(&scene.layup, scene.layup.settings.model)?;
+    // rolled and from a point are families of strategies, of which each is represented by its best
     let fronts = Fronts::new(scene).ok_or(Error::NoTarget)?;
     let state = SearchState::new(StrategyName::ALL.len(), watcher);
     state.begin("draping the strategies");
@@ -173,6 +174,7 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
             true => Err(Error::ComparisonInterrupted),
             false => Ok(drape),
         });
+        // progress shows the best plan so far
         if let Ok(drape) = &drape {
             state.record(&drape.with_motion(), drape.score(), true, None);
             state.set_steps(state.decisions());

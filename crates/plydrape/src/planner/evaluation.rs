@@ -106,11 +106,13 @@ pub fn with_errors(
     drape: impl Fn(Layup) -> Option<Judged> + Sync,
 ) -> Drapes {
     let mut drapes = Drapes { worst: nominal.clone(), each: vec![nominal], refused_by: None };
+    // a drape that fails far without errors is not saved by any cell
     let Some(errors) = errors.filter(Errors::is_drawn) else { return drapes };
     if score(&drapes.worst) > TUNING.far {
         return drapes;
     }
     let cell = |sample: &usize| Some((*sample, drape(planned_cell(errors, *sample, layup))?));
+    // by batches of a fixed size, so that the number of cells does not depend on the threads
     for batch in cells.chunks(TUNING.batch) {
         let judged: Vec<(usize, Judged)> = batch.par_iter().filter_map(cell).collect();
         for (sample, judged) in judged {

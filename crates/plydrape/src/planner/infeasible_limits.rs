@@ -122,6 +122,7 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
                 format!("net cell [{i},{j}] of the ideal drape, at ({x:.1}, {y:.1}, {z:.1}) mm"),
             )
         }),
+        // without a net, the shear of a cell follows from the length of its diagonals over the mold
         None => {
             let path = |n: usize| {
                 let [a, b] = lines.ends(n).map(|gripper| target.grippers[gripper]);

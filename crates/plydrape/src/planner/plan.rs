@@ -89,6 +89,7 @@ pub fn plan_without_errors(
     if let Some(checkpoint) = checkpoint {
         checkpoint.check(scene)?;
     }
+    // a plan that goes on begins with the journal of the one before
     let most = match scene.plan.method {
         PlanMethod::Path => scene.plan.evaluations,
         PlanMethod::Stepwise => scene.plan.steps,
@@ -102,6 +103,7 @@ pub fn plan_without_errors(
     };
     state.finish();
 
+    // the motion in time, with its own limits, judged as it is driven
     decision.finish(scene, own_limits, &state, true)?;
     decision.decided.drape.summary.judge_rest(&scene.layup, &scene.limits);
     let whole = decision.whole_motion()?;

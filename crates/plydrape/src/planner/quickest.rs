@@ -106,6 +106,7 @@ fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<L
 
 /// The frame of a tool, and its axes.
 fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> {
+    // differences over half of the smallest distance of times, such that no two overlap
     let times = course.times();
     let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let step = 0.5 * apart;
@@ -113,6 +114,7 @@ fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> 
         .iter()
         .map(|t| [t - step, *t, t + step].map(|t| tool.posture(&motion.at(t))))
         .collect();
+    // angular speed and acceleration of the frame, by differences of its turns
     let frame = postures.iter().map(|[before, here, after]| {
         let [first, last] = [
             crate::tool::turn_between(&before.frame.axes, &here.frame.axes),
@@ -131,6 +133,7 @@ fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> 
         names: [Name::ToolTurnRate, Name::ToolTurnAcceleration, Name::ToolTurnAcceleration],
         gripper: None,
     }];
+    // the speed of every axis at every gripper; its acceleration has no limit of its own
     for (n, axis) in tool.axes.iter().enumerate() {
         for gripper in 0..tool.mounts.len() {
             let rates = postures.iter().map(|[before, _, after]| {

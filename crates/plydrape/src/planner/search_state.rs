@@ -320,9 +320,11 @@ impl<'a> SearchState<'a> {
         if self.repeats.load(Ordering::Relaxed) {
             return ControlFlow::Continue(());
         }
+        // another thread that reports now says the same
         let Ok(mut best) = self.best.try_lock() else { return ControlFlow::Continue(()) };
         let Best { watcher, limits, decided, accepted, stage, plan, forecast, began, step, .. } =
             &mut *best;
+        // made only where the watcher asks for it, because it copies a motion
         let checkpoint = || self.checkpoint_of(plan.as_ref()?);
         let left = forecast.map(|forecast| forecast.left(began.elapsed(), *step));
         let progress = Progress {

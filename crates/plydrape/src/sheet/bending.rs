@@ -115,6 +115,7 @@ impl Element {
         curvature: [f64; 3],
         system: &mut System,
     ) {
+        // κ is linear in the three nodes, so the chain rule multiplies by their weights
         let [a, b, c] = self.weights;
         for (node, weight) in self.nodes.into_iter().zip(self.weights) {
             add(&mut system.gradient[node], stiffness * weight, curvature);
@@ -122,6 +123,7 @@ impl Element {
         if !system.wants_matrix() {
             return;
         }
+        // a stiffness that is a multiple of the identity couples coordinates with themselves alone
         let couplings = self.pairs.into_iter().zip([a * b, b * c, a * c]);
         let Some(more) = more else {
             for (node, weight) in self.nodes.into_iter().zip(self.weights) {

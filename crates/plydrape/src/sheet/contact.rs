@@ -94,6 +94,7 @@ impl<'a> Contact<'a> {
         pads: &Pads,
         system: &System,
     ) -> Self {
+        // under its own weight a node sinks in by a small share of the pitch; under a mount it must be stiff against the mount
         let pressure = penalty(sheet, tuning.contact_depth);
         let mut stiffness: Vec<f64> = sheet.fabric.areas.iter().map(|a| pressure * a).collect();
         for (gripper, nodes) in sheet.grippers.iter().zip(pads.held()) {
@@ -103,6 +104,7 @@ impl<'a> Contact<'a> {
                 stiffness[*node] = stiffness[*node].max(share);
             }
         }
+        // a point begins far from the mold, without an anchor
         let point = |node: usize, rubs: bool| Point {
             node,
             area: sheet.fabric.areas[node],
@@ -115,6 +117,8 @@ impl<'a> Contact<'a> {
             press: None,
             slips: false,
         };
+        // a node that a rigid gripper holds at a point cannot move; those of a pad on a rigid mount do not rub, because the mount is
+        // stronger than friction
         let points = (0..sheet.fabric.places.len()).filter_map(|node| match system.carrier(node) {
             Carrier::Held { .. } => None,
             Carrier::Pad { shift: None, .. } => Some(point(node, false)),

@@ -52,6 +52,7 @@ pub fn drape(
     let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
         return Err(Error::SheetNoMotion { grippers });
     };
+    // the ply begins flat and at rest in its pads
     let (flat, pads) = flat(&sheet, start);
     let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();
     let cloth = Cloth::new(&sheet, tuning, flat, pads);
@@ -65,9 +66,11 @@ pub fn drape(
         landing_step: vec![None; sheet.fabric.places.len()],
         landing_shear: vec![None; sheet.fabric.cells.len()],
     };
+    // follow the motion; the last state is that at which it ended
     let mut see = |state: &ClothState, last: bool| see(&sheet, state, last);
     let (status, last) = run.run(&placed, &mut see);
     let Run { march, landing_step, landing_shear, mut report, .. } = run;
+    // what is counted on the way belongs to the report of the whole drape
     report.end(&sheet, tuning.release * sheet.pitch, &last);
     let March { cloth, releases, time_steps, smallest_step, .. } = march;
     (report.time_steps, report.smallest_step) = (time_steps, smallest_step);

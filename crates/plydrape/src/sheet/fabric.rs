@@ -98,6 +98,7 @@ impl Fabric {
         let node = |i: usize, j: usize| (j * nu + i) as u32;
         let widths = [tributary(&lines[0], strip), tributary(&lines[1], strip)];
 
+        // each node stands for the area half-way to its neighbors
         let mut places = Vec::with_capacity(nu * nv);
         let mut areas = Vec::with_capacity(nu * nv);
         for j in 0..nv {
@@ -107,6 +108,8 @@ impl Fabric {
             }
         }
 
+        // yarns resist stretch between neighboring nodes, and bending at three nodes in a row; both for the width that a line stands
+        // for
         let mut segments = Vec::new();
         let mut bends = Vec::new();
         for direction in 0..2 {
@@ -130,6 +133,7 @@ impl Fabric {
             }
         }
 
+        // the fabric shears in the cells between four nodes
         let mut cells = Vec::with_capacity(nu.saturating_sub(1) * nv.saturating_sub(1));
         for j in 1..nv {
             for i in 1..nu {

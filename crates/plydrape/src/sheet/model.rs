@@ -211,6 +211,7 @@ impl Fabric {
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch(ply));
         let fabric = match &ply.cut {
             Some(cut) => {
+                // a pad holds the fabric under all of it, so it must lie within the outline
                 let [low, high] = cut.outline.bounds();
                 let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
                 let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius - rounding;
@@ -225,10 +226,12 @@ impl Fabric {
                 Fabric::cut(lines, &cut.outline, LEAST_SHARE)
             }
             None => {
+                // a ply that ends at its grippers is as wide around them as its overhang
                 if radius > overhang * (1.0 + 1e-9) {
                     let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
                     return Err(Error::SheetPadsOverhang { radius_mm, overhang_mm });
                 }
+                // lines of nodes meet the boundary, the middles of pads and their edges
                 let along = |count: usize, cell: f64| {
                     if count == 1 {
                         return vec![0.0];
@@ -245,6 +248,7 @@ impl Fabric {
                 Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width)
             }
         };
+        // an error of the length scales the fabric, not the places where it is held
         Ok(fabric.enlarged(ply.length_factor))
     }
 }

@@ -84,6 +84,7 @@ impl<'a> Pads<'a> {
 
     /// Takes a share of the linear step: of the pads, which place the nodes that they hold, and of all other nodes.
     pub fn take(&self, share: f64, now: &mut Configuration, system: &System) {
+        // a pad is where its carrier puts it: on its free node, on its target, or where its mount gives
         for (n, (pad, nodes)) in now.pads.iter_mut().zip(&self.held).enumerate() {
             let Some((node, _)) = nodes.first() else { continue };
             match system.carrier(*node) {
@@ -104,12 +105,14 @@ impl<'a> Pads<'a> {
                     if turn.is_some() {
                         pad.rotate(step.turn.map(|c| share * c));
                     }
+                    // its nodes lie flat in it
                     for (node, off) in nodes {
                         now.x[*node] = along(pad.position, 1.0, pad.arm(*off));
                     }
                 }
             }
         }
+        // nodes that no pad grips are unknowns of their own
         for ((x, step), gripped) in now.x.iter_mut().zip(&system.step).zip(&self.gripped) {
             if !gripped {
                 add(x, share, *step);

@@ -36,6 +36,7 @@ pub fn raised(fabric: &Fabric, mold: &Mold, x: &[[f64; 3]], clear: f64) -> Vec<O
             while last + 1 < chain.len() && lifted(chain[last + 1]) {
                 last += 1;
             }
+            // between two nodes that touch, the length of the fabric is compared with its way over the mold
             if first > 0 && last + 1 < chain.len() {
                 let run = &chain[first - 1..=last + 1];
                 let (mut length, mut way) = (0.0, 0.0);
@@ -44,6 +45,7 @@ pub fn raised(fabric: &Fabric, mold: &Mold, x: &[[f64; 3]], clear: f64) -> Vec<O
                     length += fabric.length_factor * flat;
                     way += distance(closest[pair[0]].point, closest[pair[1]].point);
                 }
+                // a node on two lines belongs to the one that is farther from fitting
                 let share = (length - way) / length;
                 for node in &chain[first..=last] {
                     if excess[*node].is_none_or(|before| share.abs() > before.abs()) {
@@ -54,6 +56,7 @@ pub fn raised(fabric: &Fabric, mold: &Mold, x: &[[f64; 3]], clear: f64) -> Vec<O
             first = last + 1;
         }
     }
+    // too long, and the fabric is a ridge; too short, and it bridges a hollow
     let kind = |excess: f64| if excess >= 0.0 { Raised::Ridge } else { Raised::Bridge };
     excess
         .into_iter()

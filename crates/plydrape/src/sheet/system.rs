@@ -72,6 +72,7 @@ impl System {
     /// The system of nodes with their carriers, of a number of blocks of unknowns and of pads, where elements couple pairs of
     /// nodes.
     pub fn new(carriers: Vec<Carrier>, blocks: usize, pads: usize, pairs: &[[u32; 2]]) -> Self {
+        // the matrix has a block where elements couple unknowns, and where a pad turns and shifts
         let unknowns = |node: u32| carriers[node as usize].blocks();
         let mut coupled = Vec::new();
         for [a, b] in pairs {
@@ -86,6 +87,7 @@ impl System {
         }
         coupled.retain(|[i, j]| i != j);
         let matrix = BlockMatrix::new(blocks, coupled).expect("carriers name blocks of unknowns");
+        // order and storage of the factor follow from the pattern alone
         let nodes = carriers.len();
         let zero = vec![[0.0; 3]; nodes];
         System {
@@ -177,16 +179,19 @@ impl System {
     /// is its transpose.
     pub fn couple(&mut self, pair: Pair, k: &Matrix3) {
         debug_assert!(self.wants_matrix(), "terms that couple nodes ask first");
+        // two free nodes are unknowns themselves
         if let Some(slot) = pair.slot {
             self.matrix.add(slot, k);
             return;
         }
         let [a, b] = pair.nodes.map(|node| node as usize);
+        // nodes that grippers move in this step pull at the others: k times the move goes to the right-hand side
         if self.moves {
             let (forth, back) = (times(k, self.moved[b]), transposed_times(k, self.moved[a]));
             add(&mut self.pulled[a], 1.0, forth);
             add(&mut self.pulled[b], 1.0, back);
         }
+        // a node on a pad moves by p + θ × r, so its block is that of the shift, and with the skew arm that of the turn
         for (side, i) in self.carriers[a].blocks().into_iter().enumerate() {
             for (other, j) in self.carriers[b].blocks().into_iter().enumerate() {
                 let (Some(i), Some(j)) = (i, j) else { continue };

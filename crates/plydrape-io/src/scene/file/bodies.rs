@@ -1,7 +1,8 @@
 //! The keys of the tables `[[bodies]]` and `[[obstacles]]`.
 
 use crate::scene::located::{Fixed, Located};
-use crate::scene::quantity::{Angle, Length, Quantity};
+use crate::scene::quantity::Quantity;
+use crate::scene::usual::{Body, Coordinate, Cylinder, Heading, Place};
 use plydrape::bodies::Mount;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -44,9 +45,9 @@ pub(in crate::scene) struct ObstacleTable {
     /// The unit in which the mesh file is written, as in "mm".
     pub unit: Option<Located<String>>,
     /// Place of its own origin (m), that of the scene unless given.
-    pub position: Option<Located<Fixed<Quantity<Length>, 3>>>,
+    pub position: Option<Located<Fixed<Quantity<Coordinate>, 3>>>,
     /// How it is turned: about the fixed axes x, then y, then z (rad).
-    pub rotation: Option<Located<Fixed<Quantity<Angle>, 3>>>,
+    pub rotation: Option<Located<Fixed<Quantity<Heading>, 3>>>,
 }
 
 /// What a body moves with.
@@ -78,11 +79,11 @@ impl From<MountKey> for Mount {
 #[schemars(rename = "Cylindrical body")]
 pub(in crate::scene) struct CylinderTable {
     /// Radius (m).
-    pub radius: Quantity<Length>,
+    pub radius: Quantity<Cylinder>,
     /// Where along z it begins (m), 0 unless given.
-    pub from: Option<Quantity<Length>>,
+    pub from: Option<Quantity<Place>>,
     /// Where it ends (m), above `from`.
-    pub to: Quantity<Length>,
+    pub to: Quantity<Place>,
 }
 
 /// A box with sides along the axes.
@@ -91,7 +92,7 @@ pub(in crate::scene) struct CylinderTable {
 #[schemars(rename = "Box")]
 pub(in crate::scene) struct BoxTable {
     /// Lengths of its sides along x, y and z (m).
-    pub size: Fixed<Quantity<Length>, 3>,
+    pub size: Fixed<Quantity<Body>, 3>,
     /// Middle (m), the origin unless given.
-    pub at: Option<Fixed<Quantity<Length>, 3>>,
+    pub at: Option<Fixed<Quantity<Place>, 3>>,
 }

@@ -1,7 +1,9 @@
 //! The keys of the table `[errors]`.
 
 use crate::scene::located::{CountOrNone, Located, Seed};
-use crate::scene::quantity::{Angle, Length, Measure, Quantity, Ratio, Unchecked};
+use crate::scene::quantity::{Measure, Quantity, Ratio, Unchecked, written};
+use crate::scene::usual::{AngleError, CellError, CellShare, Waves};
+use plydrape::errors::Errors;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -12,12 +14,15 @@ use std::borrow::Cow;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Errors")]
 pub(in crate::scene) struct ErrorsTable {
-    /// Seed of the draws, 0 unless given: the same seed, the same cells.
+    /// Seed of the draws. The same seed draws the same cells.
+    #[schemars(extend("default" = Errors::default().seed))]
     pub seed: Option<Located<Seed>>,
-    /// Cells that are drawn at most, 64 unless given; with 0 nothing is judged with errors.
+    /// Cells that are drawn at most. With 0 nothing is judged with errors.
+    #[schemars(extend("default" = Errors::default().samples))]
     pub samples: Option<Located<CountOrNone>>,
-    /// Share of the cells that must keep the limits, 95 % unless given.
-    pub share: Option<Quantity<Ratio>>,
+    /// Share of the cells that must keep the limits.
+    #[schemars(extend("default" = written(Errors::default().share, "%")))]
+    pub share: Option<Quantity<CellShare>>,
     /// Of the tool frame, common to all grippers.
     #[serde(default)]
     pub frame: FrameErrorsTable,
@@ -40,9 +45,9 @@ pub(in crate::scene) struct ErrorsTable {
 #[schemars(rename = "Errors of the tool frame")]
 pub(in crate::scene) struct FrameErrorsTable {
     /// Shift along each of x, y and z (m).
-    pub position: Option<Term<Length>>,
+    pub position: Option<Term<CellError>>,
     /// Turn about each of x, y and z through the middle of the array (rad).
-    pub angle: Option<Term<Angle>>,
+    pub angle: Option<Term<AngleError>>,
 }
 
 /// Errors of each gripper by itself.
@@ -51,7 +56,7 @@ pub(in crate::scene) struct FrameErrorsTable {
 #[schemars(rename = "Errors of a gripper")]
 pub(in crate::scene) struct GripperErrorsTable {
     /// Constant shift along each of x, y and z (m).
-    pub position: Option<Term<Length>>,
+    pub position: Option<Term<CellError>>,
     /// Shift along each axis as a share of the way gone along it since the start.
     pub stroke: Option<Term<Ratio>>,
 }
@@ -62,9 +67,9 @@ pub(in crate::scene) struct GripperErrorsTable {
 #[schemars(rename = "Errors of the pick-up")]
 pub(in crate::scene) struct PickUpErrorsTable {
     /// Shift of the array over the fabric along u and along v (m).
-    pub offset: Option<Term<Length>>,
+    pub offset: Option<Term<CellError>>,
     /// Turn of the array on the fabric about its middle (rad).
-    pub yaw: Option<Term<Angle>>,
+    pub yaw: Option<Term<AngleError>>,
 }
 
 /// Errors of the ply, each a share of the nominal value or a factor.
@@ -88,13 +93,13 @@ pub(in crate::scene) struct MaterialErrorsTable {
 #[schemars(rename = "Errors of the mold")]
 pub(in crate::scene) struct MoldErrorsTable {
     /// Shift along each of x, y and z (m).
-    pub offset: Option<Term<Length>>,
+    pub offset: Option<Term<CellError>>,
     /// Turn about x and about y through the middle of the target (rad).
-    pub tilt: Option<Term<Angle>>,
+    pub tilt: Option<Term<AngleError>>,
     /// Height of smooth random waves on its surface (m): the root of its mean square, or what no point exceeds.
-    pub waviness: Option<Term<Length>>,
+    pub waviness: Option<Term<CellError>>,
     /// Length of these waves (m); needed where there is waviness.
-    pub wavelength: Option<Quantity<Length>>,
+    pub wavelength: Option<Quantity<Waves>>,
 }
 
 /// One term, with its place.

@@ -2,8 +2,9 @@
 
 use crate::scene::bound::Kind;
 use crate::scene::located::{Fixed, Located, LocatedSeed};
-use crate::scene::quantity::{Length, Quantity, Ratio, Raw, RawSeed};
-use plydrape::measure::{Name, Preset};
+use crate::scene::quantity::{Quantity, Raw, RawSeed};
+use crate::scene::usual::{Coordinate, GripSafety};
+use plydrape::measure::{Limits, Name, Preset};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -16,9 +17,9 @@ pub(in crate::scene) struct LimitsTable {
     /// A named set of limits.
     pub preset: Option<Located<Preset>>,
     /// Box that the grippers must stay in: [from, to] in x, y and z (m).
-    pub workspace: Option<Fixed<Fixed<Quantity<Length>, 2>, 3>>,
+    pub workspace: Option<Fixed<Fixed<Quantity<Coordinate>, 2>, 3>>,
     /// By how much the grippers' `slip_force` and `holding_force` must exceed the loads.
-    pub grip_safety: Option<Quantity<Ratio>>,
+    pub grip_safety: Option<Quantity<GripSafety>>,
     /// Bounds of measures as they are written.
     pub bounds: Vec<(Name, Located<Raw>)>,
     /// Measures that are bounded by a name of before version 0.1.0, and that name.
@@ -123,6 +124,8 @@ impl JsonSchema for LimitsTable {
                 crate::scene::bound::schema(name, &bound, generator),
             );
         }
+        let mut safety = generator.subschema_for::<Quantity<GripSafety>>();
+        safety.insert("default".into(), Limits::GRIP_SAFETY.into());
         let mut own = |key: &str, mut schema: Schema, about: &str| {
             schema.insert("description".into(), about.into());
             properties.insert(key.into(), schema.into());
@@ -139,13 +142,13 @@ impl JsonSchema for LimitsTable {
         );
         own(
             "workspace",
-            generator.subschema_for::<Fixed<Fixed<Quantity<Length>, 2>, 3>>(),
+            generator.subschema_for::<Fixed<Fixed<Quantity<Coordinate>, 2>, 3>>(),
             "Box that the grippers must stay in: [from, to] in x, y and z (m); none unless given.",
         );
         own(
             "grip_safety",
-            generator.subschema_for::<Quantity<Ratio>>(),
-            "By how much the grippers' `slip_force` and `holding_force` must exceed the loads, 1.5 unless given.",
+            safety,
+            "By how much the grippers' `slip_force` and `holding_force` must exceed the loads.",
         );
         json_schema!({
             "type": "object",

@@ -29,15 +29,18 @@ pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 
-use super::choice::{Centered, Curve, FrictionChoice, MaterialChoice, PlaceChoice, Positions};
-use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
+use super::choice::{Curve, FrictionChoice, MaterialChoice, PlaceChoice, Positions, WarpChoice};
+use super::drawing::{HoleChoice, OutlineChoice, Polygon};
 use super::located::{Count, Fixed, Located};
-use super::quantity::{
-    Acceleration, Angle, BendingRigidity, Curvature, FlexuralRigidity, Force, ForcePerLength,
-    Length, Mass, MomentPerWidth, Pressure, Quantity, Ratio, ShearSlope, Temperature,
-    TensileStiffness, Time,
+use super::quantity::{Mass, Quantity, Ratio, written};
+use super::usual::{
+    AcuteAngle, AnyAngle, Axial, Bending, Cell, Drawn, Duration, FabricPoint, Factor, Flexural,
+    Gravity, Heading, Height, Hole, Moment, Overhang, Pad, PadForce, Place, PlyCurvature, PlySize,
+    PlyTemperature, Relaxation, Share, Shear, ShearForce, ShearRate, Spacing, Tack, Tension,
+    Thickness, Tolerance,
 };
-use plydrape::layup::Model;
+use crate::scene::{dxf, motion};
+use plydrape::layup::{ContactSettings, Model, PadSettings, Settings, SheetSettings};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -113,14 +116,14 @@ pub(super) struct PlyTable {
     /// cups.
     pub grippers: Option<Located<Fixed<Located<Count>, 2>>>,
     /// Fabric length between neighboring grippers along u and along v (m); of a ply that is cut, the pitch of the array.
-    pub cell: Option<Fixed<Quantity<Length>, 2>>,
+    pub cell: Option<Fixed<Quantity<Cell>, 2>>,
     /// Boundary: points [x, y] of a drawing (m), or a DXF file. Unless given, the ply is the rectangle between its
     /// outermost grippers and its `overhang`.
     pub outline: Option<Located<OutlineChoice>>,
     /// Which piece of the drawing it is, where that has several, as a nest for a cutter has.
     pub piece: Option<Located<PieceTable>>,
     /// A rectangle from the drawing's origin (m), in place of an `outline`.
-    pub size: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub size: Option<Located<Fixed<Quantity<PlySize>, 2>>>,
     /// Holes of the ply: each points [x, y] of the drawing (m), or a circle.
     pub holes: Option<Located<Vec<Located<HoleChoice>>>>,
     /// Where the array of cups picks up a ply that is cut, and which of its cups hold.
@@ -130,15 +133,17 @@ pub(super) struct PlyTable {
     /// A shipped material by name, a .toml file relative to the scene, or a table.
     pub material: Located<MaterialChoice>,
     /// Temperature of the ply in the cell (K), of a material whose resin is known at several; the lowest of those unless given.
-    pub temperature: Option<Quantity<Temperature>>,
-    /// The grid direction along which the warp runs, "u" unless given. Of a ply that is cut, the angle from the drawing's x
+    pub temperature: Option<Quantity<PlyTemperature>>,
+    /// The grid direction along which the warp runs. Of a ply that is cut, the angle from the drawing's x
     /// axis to the warp (rad), or "u" for its x axis and "v" for its y axis.
+    #[schemars(extend("default" = "u"))]
     pub warp: Option<Located<WarpChoice>>,
-    /// Fabric beyond the outermost grippers, on all sides (m), 0 unless given. Catenaries end at the grippers: the
+    /// Fabric beyond the outermost grippers, on all sides (m). Catenaries end at the grippers: the
     /// sheet alone has it.
-    pub overhang: Option<Quantity<Length>>,
+    #[schemars(extend("default" = written(SheetSettings::default().overhang, "mm")))]
+    pub overhang: Option<Quantity<Overhang>>,
     /// Thickness of the ply once it lies (m). A plybook needs it where another ply lies on this one; nothing else uses it.
-    pub thickness: Option<Quantity<Length>>,
+    pub thickness: Option<Quantity<Thickness>>,
 }
 
 /// A DXF file and what of it is the ply.
@@ -153,9 +158,9 @@ pub(super) struct DrawingTable {
     pub layers: Option<Located<Vec<Located<String>>>>,
     /// The unit of its coordinates, as "mm"; that of the file unless given.
     pub unit: Option<Located<String>>,
-    /// How far a curve may be from the lines that stand for it, and the widest gap between ends of lines that is closed (m), 0.1 mm
-    /// unless given.
-    pub tolerance: Option<Quantity<Length>>,
+    /// How far a curve may be from the lines that stand for it, and the widest gap between ends of lines that is closed (m).
+    #[schemars(extend("default" = written(dxf::TOLERANCE, "mm")))]
+    pub tolerance: Option<Quantity<Drawn>>,
 }
 
 /// A piece of a drawing, by one of its keys.
@@ -168,7 +173,7 @@ pub(super) struct PieceTable {
     /// A text inside it or in its block, in small or capital letters.
     pub label: Option<Located<String>>,
     /// A point [x, y] of the drawing inside it (m).
-    pub point: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub point: Option<Located<Fixed<Quantity<FabricPoint>, 2>>>,
 }
 
 /// A round hole.
@@ -177,9 +182,9 @@ pub(super) struct PieceTable {
 #[schemars(rename = "Circle")]
 pub(super) struct CircleTable {
     /// Middle in the drawing (m).
-    pub middle: Located<Fixed<Quantity<Length>, 2>>,
+    pub middle: Located<Fixed<Quantity<FabricPoint>, 2>>,
     /// Diameter (m).
-    pub diameter: Quantity<Length>,
+    pub diameter: Quantity<Hole>,
 }
 
 /// Where an array of cups picks up a ply that is cut.
@@ -188,15 +193,16 @@ pub(super) struct CircleTable {
 #[schemars(rename = "Array")]
 pub(super) struct ArrayTable {
     /// The middle of the array in the drawing (m); the middle of the ply unless given, that of the box around the drawing.
-    pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub middle: Option<Located<Fixed<Quantity<FabricPoint>, 2>>>,
     /// Angle from the drawing's x axis to the rows of the array (rad), 0 unless given.
-    pub direction: Option<Quantity<Angle>>,
+    pub direction: Option<Quantity<Heading>>,
     /// Fabric that there must be around the pad of a cup that holds (m), 0 unless given.
-    pub margin: Option<Quantity<Length>>,
+    pub margin: Option<Quantity<Overhang>>,
     /// Which cups hold: a text for each row along v, "#" for a cup that holds and "." for one that does not. All that are on
     /// the ply unless given.
     pub holds: Option<Located<Vec<Located<String>>>>,
-    /// What becomes of a cup whose pad is only partly on the ply, "refuse" unless given.
+    /// What becomes of a cup whose pad is only partly on the ply.
+    #[schemars(extend("default" = "refuse"))]
     pub partly: Option<PartlyKey>,
 }
 
@@ -227,24 +233,25 @@ pub(super) struct MaterialTable {
     /// Mass per length (kg/m) or per area (kg/m²).
     pub mass: Quantity<Mass>,
     /// Flexural rigidity EI of a line of ply (N·m²); goes with a mass per length.
-    pub flexural_rigidity: Option<Quantity<FlexuralRigidity>>,
+    pub flexural_rigidity: Option<Quantity<Flexural>>,
     /// Bending rigidity per width along the warp (N·m), or the moment over the curvature as a table; goes with a mass per
     /// area.
-    pub bending_rigidity_warp: Option<Located<Curve<BendingRigidity, MomentTable>>>,
+    pub bending_rigidity_warp: Option<Located<Curve<Bending, MomentTable>>>,
     /// Bending rigidity per width along the weft (N·m), or the moment over the curvature as a table; goes with a mass per
     /// area.
-    pub bending_rigidity_weft: Option<Located<Curve<BendingRigidity, MomentTable>>>,
+    pub bending_rigidity_weft: Option<Located<Curve<Bending, MomentTable>>>,
     /// Tension per width over the strain of the yarns: a stiffness (N/m) or a table. The sheet needs it.
-    pub tension: Option<Located<Curve<TensileStiffness, TensionTable>>>,
+    pub tension: Option<Located<Curve<Tension, TensionTable>>>,
     /// Picture-frame shear force per length over the shear angle: a slope (N/m per rad) or a table. The sheet needs it.
-    pub shear_curve: Option<Located<Curve<ShearSlope, ShearCurveTable>>>,
+    pub shear_curve: Option<Located<Curve<Shear, ShearCurveTable>>>,
     /// What resin adds to the shear force while the ply is sheared. Only a sheet with `time = "real"` knows it.
     pub shear_rate: Option<Located<ShearRateTable>>,
     /// Shear angle at which the weave locks (rad).
-    pub locking_angle: Option<Quantity<Angle>>,
+    pub locking_angle: Option<Quantity<AcuteAngle>>,
     /// The test that found the locking angle.
     pub locking_test: Option<Located<String>>,
-    /// How its fibers are held together: "woven" (the default), or "unidirectional", which is refused so far.
+    /// How its fibers are held together. "unidirectional" is refused so far.
+    #[schemars(extend("default" = "woven"))]
     pub fabric: Option<Located<FabricKey>>,
 }
 
@@ -254,9 +261,9 @@ pub(super) struct MaterialTable {
 #[schemars(rename = "ShearRate")]
 pub(super) struct ShearRateTable {
     /// Stiffness against a shear that is much faster than the relaxation (N/m per rad).
-    pub stiffness: Quantity<ShearSlope>,
+    pub stiffness: Quantity<ShearRate>,
     /// Time in which the force falls to its 1/e-th part where the ply is at rest (s), or a table of such times over temperatures.
-    pub relaxation: Located<Curve<Time, RelaxationTable>>,
+    pub relaxation: Located<Curve<Relaxation, RelaxationTable>>,
 }
 
 /// Relaxation times over temperatures; between them the law of Arrhenius holds.
@@ -265,9 +272,9 @@ pub(super) struct ShearRateTable {
 #[schemars(rename = "Relaxation")]
 pub(super) struct RelaxationTable {
     /// Temperatures, ascending (K).
-    pub temperature: Located<Vec<Quantity<Temperature>>>,
+    pub temperature: Located<Vec<Quantity<PlyTemperature>>>,
     /// Relaxation time at each temperature, falling (s).
-    pub time: Located<Vec<Quantity<Time>>>,
+    pub time: Located<Vec<Quantity<Relaxation>>>,
 }
 
 /// How the fibers of a ply are held together.
@@ -287,9 +294,9 @@ pub(super) enum FabricKey {
 #[schemars(rename = "Moment")]
 pub(super) struct MomentTable {
     /// Curvatures, ascending from 0 (1/m).
-    pub curvature: Located<Vec<Quantity<Curvature>>>,
+    pub curvature: Located<Vec<Quantity<PlyCurvature>>>,
     /// Bending moment per width at each curvature, rising from 0 (N, that is N m per m). Its first slope is the rigidity at rest.
-    pub moment: Located<Vec<Quantity<MomentPerWidth>>>,
+    pub moment: Located<Vec<Quantity<Moment>>>,
 }
 
 /// Standard deviation of measured properties between specimens, as a share of their value.
@@ -298,17 +305,17 @@ pub(super) struct MomentTable {
 #[schemars(rename = "Scatter")]
 pub(super) struct ScatterTable {
     /// Of the mass.
-    pub mass: Option<Quantity<Ratio>>,
+    pub mass: Option<Quantity<Share>>,
     /// Of the flexural rigidity of a line.
-    pub flexural_rigidity: Option<Quantity<Ratio>>,
+    pub flexural_rigidity: Option<Quantity<Share>>,
     /// Of the bending rigidity or moment along the warp.
-    pub bending_rigidity_warp: Option<Quantity<Ratio>>,
+    pub bending_rigidity_warp: Option<Quantity<Share>>,
     /// Of the bending rigidity or moment along the weft.
-    pub bending_rigidity_weft: Option<Quantity<Ratio>>,
+    pub bending_rigidity_weft: Option<Quantity<Share>>,
     /// Of the tension.
-    pub tension: Option<Quantity<Ratio>>,
+    pub tension: Option<Quantity<Share>>,
     /// Of the shear force: a share, or a table with a factor.
-    pub shear_curve: Option<Located<Curve<Ratio, FactorTable>>>,
+    pub shear_curve: Option<Located<Curve<Share, FactorTable>>>,
 }
 
 /// A value that is known within a factor.
@@ -317,7 +324,7 @@ pub(super) struct ScatterTable {
 #[schemars(rename = "Factor")]
 pub(super) struct FactorTable {
     /// The factor f, 1 or more: from 1/f to f times the value, every logarithm in between as likely.
-    pub factor: Quantity<Ratio>,
+    pub factor: Quantity<Factor>,
 }
 
 /// Measured points (`angle` and `force`), or a `polynomial`.
@@ -326,9 +333,9 @@ pub(super) struct FactorTable {
 #[schemars(rename = "ShearCurve")]
 pub(super) struct ShearCurveTable {
     /// Shear angles, ascending from 0 (rad).
-    pub angle: Option<Located<Vec<Quantity<Angle>>>>,
+    pub angle: Option<Located<Vec<Quantity<AnyAngle>>>>,
     /// Shear force per length at each angle, never falling (N/m).
-    pub force: Option<Located<Vec<Quantity<ForcePerLength>>>>,
+    pub force: Option<Located<Vec<Quantity<ShearForce>>>>,
     /// Coefficients of γ, γ², … (N/m, γ in rad).
     pub polynomial: Option<Located<Vec<Quantity<Ratio>>>>,
 }
@@ -341,32 +348,33 @@ pub(super) struct ShearCurveTable {
 #[schemars(rename = "Grippers")]
 pub(super) struct GrippersTable {
     /// Distance of neighbors along u and along v (m).
-    pub spacing: Option<Fixed<Quantity<Length>, 2>>,
+    pub spacing: Option<Fixed<Quantity<Spacing>, 2>>,
     /// Height z of all grippers; above the mold, with `parallel_to_mold` (m).
-    pub height: Option<Quantity<Length>>,
+    pub height: Option<Quantity<Height>>,
     /// Place x, y of gripper g0_0 (m), the origin unless given; with `parallel_to_mold`, of the mold point
     /// below it. Or "centered": the rectangle's middle is above the middle of the target.
-    pub origin: Option<Located<PlaceChoice<Centered>>>,
+    pub origin: Option<Located<PlaceChoice>>,
     /// Place x, y of the middle of the ply (m), of one that is cut the middle of its drawing, instead of the `origin`: where the ply
     /// is picked up.
-    pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub middle: Option<Located<Fixed<Quantity<Place>, 2>>>,
     /// Heading at the start (rad), from x towards y, 0 unless given; that of the target where the origin is "centered". It is
     /// that of u, or that of the warp where `warp` is an angle.
-    pub direction: Option<Quantity<Angle>>,
+    pub direction: Option<Quantity<Heading>>,
     /// True turns the rectangle parallel to the mold, `height` along its normal.
     pub parallel_to_mold: Option<Located<bool>>,
     /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
     pub positions: Option<Located<Positions>>,
     /// Limit of the ball joints: largest gripper tilt (rad), that of the cell or 40 deg unless given.
-    pub max_tilt: Option<Quantity<Angle>>,
-    /// Radius of the pads that hold the sheet flat (m); 0 unless given, which holds one point.
-    pub pad_radius: Option<Quantity<Length>>,
+    pub max_tilt: Option<Quantity<AcuteAngle>>,
+    /// Radius of the pads that hold the sheet flat (m). A radius of 0 holds one point.
+    #[schemars(extend("default" = written(PadSettings::default().radius, "mm")))]
+    pub pad_radius: Option<Quantity<Pad>>,
     /// How far the mounts of the pads yield; that of the cell or rigid unless given.
     pub stiffness: Option<Located<MountTable>>,
     /// Largest load along the ply that a pad holds before the fabric slides under it (N); that of the cell or any unless given.
-    pub slip_force: Option<Quantity<Force>>,
+    pub slip_force: Option<Quantity<PadForce>>,
     /// Largest load across the ply that a pad holds (N); that of the cell or any unless given.
-    pub holding_force: Option<Quantity<Force>>,
+    pub holding_force: Option<Quantity<PadForce>>,
 }
 
 /// How the grippers move. `plydrape plan` finds a motion of its own and takes only the start from here: the
@@ -377,11 +385,12 @@ pub(super) struct GrippersTable {
 pub(super) struct MotionTable {
     /// Straight to the target, held still, or from a file.
     pub kind: MotionKind,
-    /// Number of steps of a straight motion, 30 unless given; step 1 is the start.
+    /// Number of steps of a straight motion; step 1 is the start.
+    #[schemars(extend("default" = motion::STEPS))]
     pub steps: Option<Located<Count>>,
     /// Time from the first to the last step of a straight motion (s), a second a step unless given. `plydrape plan`
     /// refuses it: what a plan keeps is the `duration` of [limits].
-    pub duration: Option<Quantity<Time>>,
+    pub duration: Option<Quantity<Duration>>,
     /// CSV file with columns t, gripper ("g2_0"), x, y, z, relative to the scene.
     pub file: Option<Located<String>>,
 }
@@ -403,19 +412,24 @@ pub(super) enum MotionKind {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Model")]
 pub(super) struct ModelTable {
-    /// The whole ply as a sheet of cloth, or a net of catenaries; "sheet" unless given.
+    /// The whole ply as a sheet of cloth, or a net of catenaries.
+    #[schemars(extend("default" = "sheet"))]
     pub kind: Option<Located<ModelKey>>,
     /// The other model, to be draped beside the one that decides; it is shown and judges nothing. Unless given, none.
     pub also: Option<Located<ModelKey>>,
-    /// How shared slopes are found, "moment-balance" unless given.
+    /// How shared slopes are found.
+    #[schemars(extend("default" = "moment-balance"))]
     pub slopes: Option<Slopes>,
-    /// How one span hangs, "small-sag" unless given. "exact" is refused so far: nets have the closed form of small sag, and
+    /// How one span hangs. "exact" is refused so far: nets have the closed form of small sag, and
     /// `plydrape span --theory exact` solves one span.
+    #[schemars(extend("default" = "small-sag"))]
     pub theory: Option<Located<TheoryKey>>,
-    /// Axial stiffness EA of a line of ply (N), 100 kN unless given; inf for an inextensible ply.
-    pub axial_stiffness: Option<Quantity<Force>>,
-    /// Acceleration of gravity (m/s²), 9.81 unless given.
-    pub gravity: Option<Quantity<Acceleration>>,
+    /// Axial stiffness EA of a line of ply (N), inf for an inextensible ply.
+    #[schemars(extend("default" = written(Settings::default().axial_stiffness, "kN")))]
+    pub axial_stiffness: Option<Quantity<Axial>>,
+    /// Acceleration of gravity (m/s²).
+    #[schemars(extend("default" = written(Settings::default().gravity, "m/s^2")))]
+    pub gravity: Option<Quantity<Gravity>>,
 }
 
 /// The model of the ply.
@@ -473,17 +487,22 @@ pub(super) enum Slopes {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Contact")]
 pub(super) struct ContactTable {
-    /// Distance that counts as touching (m), 0.2 mm unless given.
-    pub tolerance: Option<Quantity<Length>>,
-    /// Once per step, or with steps cut so that none penetrates deeper than the tolerance ("cut", the default).
+    /// Distance that counts as touching (m).
+    #[schemars(extend("default" = written(ContactSettings::default().tolerance, "mm")))]
+    pub tolerance: Option<Quantity<Tolerance>>,
+    /// Once per step, or with steps cut so that none penetrates deeper than the tolerance.
+    #[schemars(extend("default" = "cut"))]
     pub stepping: Option<SteppingKey>,
-    /// Slope of a span where it leaves the mold, "free" unless given.
+    /// Slope of a span where it leaves the mold.
+    #[schemars(extend("default" = "free"))]
     pub end: Option<EndKey>,
-    /// What holds the sheet along the mold: "stick" (the default) until it is lifted off, "stick-for-ever", or a
-    /// coefficient of friction. Catenaries always stick.
+    /// What holds the sheet along the mold: it sticks until it is lifted off, "stick-for-ever", or a coefficient of friction. Catenaries
+    /// always stick.
+    #[schemars(extend("default" = "stick"))]
     pub friction: Option<Located<FrictionChoice>>,
-    /// Shear stress that the sheet's tack bears besides friction (Pa), 0 unless given.
-    pub tack: Option<Quantity<Pressure>>,
+    /// Shear stress that the sheet's tack bears besides friction (Pa).
+    #[schemars(extend("default" = written(ContactSettings::default().tack, "Pa")))]
+    pub tack: Option<Quantity<Tack>>,
 }
 
 /// When contact is evaluated.

@@ -1,7 +1,8 @@
 //! The keys of the table `[mold]`.
 
 use crate::scene::located::{Fixed, Located};
-use crate::scene::quantity::{Angle, Length, Quantity, Ratio};
+use crate::scene::quantity::{Quantity, Ratio};
+use crate::scene::usual::{Coordinate, Heading, Radius, Slope, Spanned};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,33 +14,34 @@ pub(in crate::scene) struct MoldTable {
     /// Shape of the mold.
     pub kind: Located<MoldKind>,
     /// Of a plane: a point of it (m); the origin unless given.
-    pub point: Option<Located<Fixed<Quantity<Length>, 3>>>,
+    pub point: Option<Located<Fixed<Quantity<Coordinate>, 3>>>,
     /// Of a plane: direction out of the mold towards the ply, of any length, upwards; or give `tilt`.
     pub normal: Option<Located<Fixed<Quantity<Ratio>, 3>>>,
     /// Of a plane: angle between it and the horizontal (rad).
-    pub tilt: Option<Quantity<Angle>>,
+    pub tilt: Option<Quantity<Slope>>,
     /// Of a plane: heading in which it climbs (rad), from x towards y.
-    pub tilt_direction: Option<Quantity<Angle>>,
+    pub tilt_direction: Option<Quantity<Heading>>,
     /// Place of the mold's own origin (m), that of the scene unless given. Not of a plane.
-    pub position: Option<Located<Fixed<Quantity<Length>, 3>>>,
+    pub position: Option<Located<Fixed<Quantity<Coordinate>, 3>>>,
     /// How the mold is turned: about the fixed axes x, then y, then z (rad). Not of a plane.
-    pub rotation: Option<Located<Fixed<Quantity<Angle>, 3>>>,
+    pub rotation: Option<Located<Fixed<Quantity<Heading>, 3>>>,
     /// Radius of a cylinder, whose axis is its x axis, or of a sphere (m).
-    pub radius: Option<Quantity<Length>>,
+    pub radius: Option<Quantity<Radius>>,
     /// Of a torus: radius of the ring that its tube follows, in its xy plane (m).
-    pub ring_radius: Option<Quantity<Length>>,
+    pub ring_radius: Option<Quantity<Radius>>,
     /// Of a torus: radius of the tube (m), smaller than that of the ring.
-    pub tube_radius: Option<Quantity<Length>>,
-    /// Of a cylinder, sphere or torus: the side on which the ply lies, "outside" unless given.
+    pub tube_radius: Option<Quantity<Radius>>,
+    /// Of a cylinder, sphere or torus: the side on which the ply lies.
+    #[schemars(extend("default" = "outside"))]
     pub side: Option<Located<SideKey>>,
     /// Of a saddle: radii of curvature at its middle, upwards along x and downwards along y (m).
-    pub radii: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub radii: Option<Located<Fixed<Quantity<Radius>, 2>>>,
     /// Of a formula: the height over x and y, all in meters, as in "0.1*x^2 - y^2".
     pub z: Option<Located<String>>,
     /// Of a saddle or a formula: from where to where it reaches along its x axis (m); goes with `y`.
-    pub x: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub x: Option<Located<Fixed<Quantity<Coordinate>, 2>>>,
     /// Of a saddle or a formula: from where to where it reaches along its y axis (m); goes with `x`.
-    pub y: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    pub y: Option<Located<Fixed<Quantity<Coordinate>, 2>>>,
     /// Of a height grid: a CSV file with the columns x, y, z. Of a mesh: a file .stl, .obj or .inp. Relative
     /// to the scene.
     pub file: Option<Located<String>>,
@@ -47,7 +49,7 @@ pub(in crate::scene) struct MoldTable {
     pub unit: Option<Located<String>>,
     /// Of a mesh: width up to which the ply spans pits and holes, which are then taken as filled (m), a tenth of a cell unless
     /// given; 0 for none.
-    pub spanned: Option<Quantity<Length>>,
+    pub spanned: Option<Quantity<Spanned>>,
 }
 
 /// Shape of the mold.

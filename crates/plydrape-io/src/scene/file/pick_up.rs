@@ -1,7 +1,9 @@
 //! The keys of the table `[pick_up]`.
 
 use crate::scene::located::Located;
-use crate::scene::quantity::{Length, Quantity, Time};
+use crate::scene::pick_up;
+use crate::scene::quantity::{Quantity, written};
+use crate::scene::usual::{Clear, Grip, Place, Timeout};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,16 +13,19 @@ use serde::Deserialize;
 #[schemars(rename = "Pick-up")]
 pub(in crate::scene) struct PickUpTable {
     /// Height z of the table or the stack on which the ply lies (m); the top of the obstacle `table` unless given.
-    pub height: Option<Quantity<Length>>,
+    pub height: Option<Quantity<Place>>,
     /// Name of the obstacle on which the ply lies. Pads stand on it, so bodies on pads are not judged against it.
     pub table: Option<Located<String>>,
-    /// How far above the ply the pads come from, and go to when they have let go of it (m), 50 mm unless given.
-    pub clearance: Option<Quantity<Length>>,
-    /// How long the pads stand on the ply with the vacuum on before they lift it (s), 0.5 s unless given.
-    pub grip: Option<Quantity<Time>>,
+    /// How far above the ply the pads come from, and go to when they have let go of it (m).
+    #[schemars(extend("default" = written(pick_up::CLEARANCE, "mm")))]
+    pub clearance: Option<Quantity<Clear>>,
+    /// How long the pads stand on the ply with the vacuum on before they lift it (s).
+    #[schemars(extend("default" = written(pick_up::GRIP, "s")))]
+    pub grip: Option<Quantity<Grip>>,
     /// How long programs wait at most for an input of each pad that says that its vacuum is there, before they stop and hold (s). Unless given
     /// they do not look.
-    pub vacuum_timeout: Option<Quantity<Time>>,
-    /// How far the pads go back along the normals of the mold when they have let go (m), 20 mm unless given.
-    pub retreat: Option<Quantity<Length>>,
+    pub vacuum_timeout: Option<Quantity<Timeout>>,
+    /// How far the pads go back along the normals of the mold when they have let go (m).
+    #[schemars(extend("default" = written(pick_up::RETREAT, "mm")))]
+    pub retreat: Option<Quantity<Clear>>,
 }

@@ -1,7 +1,9 @@
 //! The keys of the table `[plan]`.
 
 use crate::scene::located::{Count, Located, Seed};
-use crate::scene::quantity::{Frequency, Length, Quantity};
+use crate::scene::quantity::{Quantity, written};
+use crate::scene::usual::{Move, Rate};
+use plydrape::scene::PlanSettings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -10,23 +12,29 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Plan")]
 pub(in crate::scene) struct PlanTable {
-    /// The planner, "path" unless given.
+    /// The planner.
+    #[schemars(extend("default" = "path"))]
     pub method: Option<MethodKey>,
-    /// Steps of the planned motion, step 1 being the start; of "stepwise" the most it may take. Unless given 90, or as many as
-    /// keep the positions of all grippers in all steps below fifty million.
+    /// Steps of the planned motion, step 1 being the start; of "stepwise" the most it may take. Fewer where the positions of all grippers
+    /// in all steps would be more than fifty million.
+    #[schemars(extend("default" = PlanSettings::default().steps))]
     pub steps: Option<Located<Count>>,
     /// Farthest that a gripper may move in one step (m). Without it "path" is free, and "stepwise" takes a share
     /// of its way.
-    pub move_limit: Option<Quantity<Length>>,
-    /// Seed of the search, 0 unless given: the same seed, the same plan.
+    pub move_limit: Option<Quantity<Move>>,
+    /// Seed of the search. The same seed gives the same plan.
+    #[schemars(extend("default" = PlanSettings::default().seed))]
     pub seed: Option<Located<Seed>>,
-    /// Most candidates that the search may drape, 100 unless given; those on which it decides are draped once more.
+    /// Most candidates that the search may drape. Those on which it decides are draped once more.
+    #[schemars(extend("default" = PlanSettings::default().evaluations))]
     pub evaluations: Option<Located<Count>>,
-    /// Whether the search goes on improving a plan that keeps every limit with a margin, false unless given. The planner
+    /// Whether the search goes on improving a plan that keeps every limit with a margin. The planner
     /// "stepwise" improves nothing.
+    #[schemars(extend("default" = PlanSettings::default().improve))]
     pub improve: Option<bool>,
-    /// Samples a second of the file motion.csv (Hz), 100 unless given.
-    pub rate: Option<Quantity<Frequency>>,
+    /// Samples a second of the file motion.csv (Hz).
+    #[schemars(extend("default" = written(PlanSettings::default().rate, "Hz")))]
+    pub rate: Option<Quantity<Rate>>,
 }
 
 /// The planner of a motion.

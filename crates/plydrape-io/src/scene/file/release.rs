@@ -1,6 +1,7 @@
 //! The keys of the table `[release]`.
 
-use crate::scene::quantity::{Quantity, Time};
+use crate::scene::quantity::Quantity;
+use crate::scene::usual::Dwell;
 use plydrape::layup::ReleaseOrder;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,10 +11,12 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Release")]
 pub(in crate::scene) struct ReleaseTable {
-    /// All after the motion, or each when the ply around it lies; "end" unless given.
+    /// All after the motion, or each when the ply around it lies.
+    #[schemars(extend("default" = "end"))]
     pub order: Option<OrderKey>,
-    /// How long a pad presses before it lets go (s), 0 unless given. With "landed" the ply around it lies for that long.
-    pub dwell: Option<Quantity<Time>>,
+    /// How long a pad presses before it lets go (s). With "landed" the ply around it lies for that long.
+    #[schemars(extend("default" = 0))]
+    pub dwell: Option<Quantity<Dwell>>,
 }
 
 /// The order in which pads let go of the ply.

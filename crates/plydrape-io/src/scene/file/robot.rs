@@ -1,7 +1,11 @@
 //! The keys of the table `[robot]`.
 
 use crate::scene::located::{Fixed, Located};
-use crate::scene::quantity::{Angle, AngularAcceleration, AngularRate, Length, Quantity, Ratio};
+use crate::scene::quantity::{Quantity, written};
+use crate::scene::usual::{
+    AnyAngle, Heading, JointAcceleration, JointAngle, JointRate, Place, Share,
+};
+use plydrape::arm::{LEAST_MARGIN, LEAST_SINGULAR};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,16 +23,19 @@ pub(in crate::scene) struct RobotTable {
     pub foot: Option<Located<String>>,
     /// Name of the link at the flange of a URDF file; `tool0`, or the only link that carries none, unless given.
     pub flange: Option<Located<String>>,
-    /// Whether the links of a URDF file are bodies; true unless given.
+    /// Whether the links of a URDF file are bodies.
+    #[schemars(extend("default" = true))]
     pub bodies: Option<bool>,
     /// Angles of the joints (rad): the motion begins in the configuration nearest to them, and in the best one unless given.
-    pub start: Option<Located<Fixed<Quantity<Angle>, 6>>>,
-    /// Least distance of a joint from the ends of its range (rad), 5 deg unless given.
-    pub joint_margin: Option<Quantity<Angle>>,
-    /// Least singular value of the flange's motion by the joints, with lengths in units of the arm's reach, 0.05 unless given.
-    pub singularity: Option<Quantity<Ratio>>,
+    pub start: Option<Located<Fixed<Quantity<JointAngle>, 6>>>,
+    /// Least distance of a joint from the ends of its range (rad).
+    #[schemars(extend("default" = written(LEAST_MARGIN, "deg")))]
+    pub joint_margin: Option<Quantity<AnyAngle>>,
+    /// Least singular value of the flange's motion by the joints, with lengths in units of the arm's reach.
+    #[schemars(extend("default" = LEAST_SINGULAR))]
+    pub singularity: Option<Quantity<Share>>,
     /// Largest angular acceleration of a joint (rad/s²); no limit unless given, because makers publish none.
-    pub joint_acceleration: Option<Quantity<AngularAcceleration>>,
+    pub joint_acceleration: Option<Quantity<JointAcceleration>>,
 }
 
 /// A joint after Denavit and Hartenberg: a turn about z by its angle and `theta`, `d` along z, `a` along the new x, and a turn about that by `alpha`.
@@ -37,15 +44,15 @@ pub(in crate::scene) struct RobotTable {
 #[schemars(rename = "Joint")]
 pub(in crate::scene) struct DhTable {
     /// Distance along the new x (m), 0 unless given.
-    pub a: Option<Quantity<Length>>,
+    pub a: Option<Quantity<Place>>,
     /// Turn about the new x (rad), 0 unless given.
-    pub alpha: Option<Quantity<Angle>>,
+    pub alpha: Option<Quantity<Heading>>,
     /// Distance along z (m), 0 unless given.
-    pub d: Option<Quantity<Length>>,
+    pub d: Option<Quantity<Place>>,
     /// What is added to the joint's angle (rad), 0 unless given.
-    pub theta: Option<Quantity<Angle>>,
+    pub theta: Option<Quantity<Heading>>,
     /// Smallest and largest angle (rad).
-    pub range: Located<Fixed<Quantity<Angle>, 2>>,
+    pub range: Located<Fixed<Quantity<JointAngle>, 2>>,
     /// Largest angular speed (rad/s).
-    pub speed: Quantity<AngularRate>,
+    pub speed: Quantity<JointRate>,
 }

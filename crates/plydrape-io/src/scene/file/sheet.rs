@@ -1,7 +1,9 @@
 //! The keys of the table `[sheet]`, and of what only the sheet knows of grippers and material.
 
 use crate::scene::located::{Count, Located};
-use crate::scene::quantity::{ForcePerLength, Length, Quantity, Ratio, Stiffness};
+use crate::scene::quantity::Quantity;
+use crate::scene::usual::{Mesh, Mount, Strain, TensionForce};
+use plydrape::layup::SheetSettings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,10 +13,12 @@ use serde::Deserialize;
 #[schemars(rename = "Sheet")]
 pub(in crate::scene) struct SheetTable {
     /// Largest distance between neighboring lines of nodes (m), a tenth of the shorter side of a cell unless given.
-    pub mesh: Option<Quantity<Length>>,
-    /// Which time the motion takes, "quasi-static" unless given.
+    pub mesh: Option<Quantity<Mesh>>,
+    /// Which time the motion takes.
+    #[schemars(extend("default" = "quasi-static"))]
     pub time: Option<TimeKey>,
-    /// Most states that are kept, the first and the last among them, 100 unless given.
+    /// Most states that are kept, the first and the last among them.
+    #[schemars(extend("default" = SheetSettings::default().keep))]
     pub keep: Option<Located<Count>>,
 }
 
@@ -35,9 +39,9 @@ pub(in crate::scene) enum TimeKey {
 #[schemars(rename = "Mount")]
 pub(in crate::scene) struct MountTable {
     /// Stiffness along the ply (N/m).
-    pub lateral: Option<Quantity<Stiffness>>,
+    pub lateral: Option<Quantity<Mount>>,
     /// Stiffness across the ply (N/m).
-    pub axial: Option<Quantity<Stiffness>>,
+    pub axial: Option<Quantity<Mount>>,
 }
 
 /// Measured points of a tensile test, the same along warp and weft.
@@ -46,7 +50,7 @@ pub(in crate::scene) struct MountTable {
 #[schemars(rename = "Tension")]
 pub(in crate::scene) struct TensionTable {
     /// Strains, ascending from 0.
-    pub strain: Located<Vec<Quantity<Ratio>>>,
+    pub strain: Located<Vec<Quantity<Strain>>>,
     /// Tension per width at each strain, from 0 and never falling (N/m).
-    pub force: Located<Vec<Quantity<ForcePerLength>>>,
+    pub force: Located<Vec<Quantity<TensionForce>>>,
 }

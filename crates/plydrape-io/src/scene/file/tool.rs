@@ -1,7 +1,11 @@
 //! The keys of the table `[tool]`.
 
 use crate::scene::located::{Fixed, Located};
-use crate::scene::quantity::{Angle, AngularAcceleration, AngularRate, Length, Quantity, Speed};
+use crate::scene::quantity::{Measure, Quantity, written};
+use crate::scene::usual::{
+    AxisSpeed, Coordinate, Flange, Heading, Residual, Stroke, TurnAcceleration, TurnRate,
+};
+use plydrape::tool::Tool;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,18 +17,21 @@ use serde::Deserialize;
 pub(in crate::scene) struct ToolTable {
     /// Linear axes between the frame and each gripper, one for a direction; without them the grippers are fixed in the frame.
     pub axes: Option<Located<Vec<Located<AxisTable>>>>,
-    /// What lets the pads tilt: "ball" joints, by which each follows the ply, unless given; with "none" they turn with the frame alone.
+    /// What lets the pads tilt. By "ball" joints each follows the ply; with "none" they turn with the frame alone.
+    #[schemars(extend("default" = "ball"))]
     pub joints: Option<Located<JointsKey>>,
-    /// Largest angular speed of the frame (rad/s), 45 deg/s unless given.
-    pub turn_rate: Option<Quantity<AngularRate>>,
-    /// Largest angular acceleration of the frame (rad/s²), 180 deg/s^2 unless given.
-    pub turn_acceleration: Option<Quantity<AngularAcceleration>>,
+    /// Largest angular speed of the frame (rad/s).
+    #[schemars(extend("default" = written(Tool::new(&[], Vec::new()).turn_rate, "deg/s")))]
+    pub turn_rate: Option<Quantity<TurnRate>>,
+    /// Largest angular acceleration of the frame (rad/s²).
+    #[schemars(extend("default" = written(Tool::new(&[], Vec::new()).turn_acceleration, "deg/s^2")))]
+    pub turn_acceleration: Option<Quantity<TurnAcceleration>>,
     /// Farthest that the tool may bring a gripper from where it should be (m); no limit unless given.
-    pub residual: Option<Quantity<Length>>,
+    pub residual: Option<Quantity<Residual>>,
     /// Where the flange of the robot is in the frame, for programs; in the frame's origin unless given.
-    pub flange: Option<PlacedTable>,
+    pub flange: Option<PlacedTable<Flange>>,
     /// Where the origin of the scene is in the world of the robot, for programs; in its origin unless given.
-    pub world: Option<PlacedTable>,
+    pub world: Option<PlacedTable<Coordinate>>,
 }
 
 /// A linear axis of each gripper.
@@ -35,9 +42,9 @@ pub(in crate::scene) struct AxisTable {
     /// Direction in the frame in which its stroke grows.
     pub direction: Located<AxisKey>,
     /// Smallest and largest stroke (m), from where the gripper is at the start.
-    pub stroke: Located<Fixed<Quantity<Length>, 2>>,
+    pub stroke: Located<Fixed<Quantity<Stroke>, 2>>,
     /// Largest speed (m/s), that of [limits] unless given.
-    pub speed: Option<Quantity<Speed>>,
+    pub speed: Option<Quantity<AxisSpeed>>,
 }
 
 /// A direction of the frame.
@@ -66,11 +73,11 @@ pub(in crate::scene) enum JointsKey {
 
 /// A place and a turn.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
-#[schemars(rename = "Placed")]
-pub(in crate::scene) struct PlacedTable {
+#[serde(deny_unknown_fields, bound = "M: Measure", expecting = "a table of keys and values")]
+#[schemars(inline, bound = "M: Measure")]
+pub(in crate::scene) struct PlacedTable<M: Measure> {
     /// Origin (m).
-    pub position: Option<Located<Fixed<Quantity<Length>, 3>>>,
+    pub position: Option<Located<Fixed<Quantity<M>, 3>>>,
     /// How it is turned: about the fixed axes x, then y, then z (rad).
-    pub rotation: Option<Located<Fixed<Quantity<Angle>, 3>>>,
+    pub rotation: Option<Located<Fixed<Quantity<Heading>, 3>>>,
 }

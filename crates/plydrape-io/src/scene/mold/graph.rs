@@ -4,12 +4,10 @@ use super::Keys;
 use super::heights::heights;
 use crate::Error;
 use crate::read::formula;
-use crate::scene::heading::coordinates;
 use crate::scene::layup::extent;
 use crate::scene::located::Located;
-use crate::scene::quantity::{Length, Quantity};
+use crate::scene::quantity::Read;
 use crate::scene::source::Document;
-use crate::scene::usual;
 use plydrape::mold::{Graph, Mold, Saddle, Surface};
 use plydrape::ply::Ply;
 use std::ops::Range;
@@ -18,9 +16,7 @@ use std::path::Path;
 /// Checks the keys of a saddle.
 pub(super) fn saddle(keys: &Keys) -> Result<Mold, Error> {
     let radii = keys.required(&keys.table.radii, "radii", "[\"800 mm\", \"500 mm\"]")?;
-    let [along, across] = &radii.value.0;
-    let radius = |side: &Quantity<Length>| side.size(keys.document, &usual::RADIUS);
-    let radii = [radius(along)?, radius(across)?];
+    let radii = radii.read(keys.document)?;
     let domain = range(keys)?;
     let pose = keys.upward_pose()?;
     Ok(Mold::Graph(Graph { pose, surface: Surface::Saddle(Saddle { radii }), domain }))
@@ -83,7 +79,7 @@ fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, Error> {
     };
     let mut ranges = [[0.0; 2]; 2];
     for (found, written) in ranges.iter_mut().zip([x, y]) {
-        let [low, high] = coordinates(&written.value, keys.document, &usual::COORDINATE)?;
+        let [low, high] = written.read(keys.document)?;
         if low >= high {
             return Err(keys.document.error(
                 written.span.clone(),

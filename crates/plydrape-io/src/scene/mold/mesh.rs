@@ -5,10 +5,10 @@ use crate::Error;
 use crate::read::mesh;
 use crate::scene::layup::{MESH, round};
 use crate::scene::located::Located;
+use crate::scene::quantity::Read;
 use crate::scene::read;
 use crate::scene::source::Document;
 use crate::scene::units::{self, Dimension};
-use crate::scene::usual;
 use plydrape::mold::{Mesh, MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::path::Path;
@@ -43,7 +43,7 @@ pub(super) fn mesh(
 /// Width up to which the ply spans pits and holes (m).
 fn spanned(keys: &Keys, ply: &Ply) -> Result<f64, Error> {
     let Some(width) = &keys.table.spanned else { return Ok(usual_width(ply)) };
-    let value = width.size_or_zero(keys.document, &usual::SPANNED)?;
+    let value = width.read(keys.document)?;
     let cell = ply.cell[0].min(ply.cell[1]);
     if value > cell {
         return Err(keys.document.error(

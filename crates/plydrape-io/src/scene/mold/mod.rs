@@ -11,7 +11,6 @@ use super::heading::pose;
 use super::located::Located;
 use super::source::Document;
 use crate::Error;
-use crate::scene::usual;
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::ops::Range;
@@ -131,7 +130,7 @@ impl Keys<'_> {
     /// Position and rotation of the mold.
     fn pose(&self) -> Result<Pose, Error> {
         let MoldTable { position, rotation, .. } = self.table;
-        pose(position.as_ref(), rotation.as_ref(), self.document, &usual::COORDINATE)
+        pose(position.as_ref(), rotation.as_ref(), self.document)
     }
 
     /// A pose that leaves the mold's z axis pointing upwards.

@@ -3,18 +3,13 @@
 use super::UPWARD;
 use crate::Error;
 use crate::scene::file::MoldTable;
-use crate::scene::heading::{coordinates, heading};
-use crate::scene::quantity::{Quantity, Ratio};
+use crate::scene::quantity::{Quantity, Ratio, Read, read_or};
 use crate::scene::source::Document;
-use crate::scene::usual;
 use plydrape::mold::{Mold, Plane};
 
 /// Checks the keys of a plane.
 pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Error> {
-    let point = match &table.point {
-        Some(point) => coordinates(&point.value, document, &usual::COORDINATE)?,
-        None => [0.0; 3],
-    };
+    let point = read_or(&table.point, [0.0; 3], document)?;
     let normal = match (&table.normal, &table.tilt) {
         (Some(normal), None) => {
             if let Some(direction) = &table.tilt_direction {
@@ -34,7 +29,7 @@ pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Erro
             })?
         }
         (None, Some(tilt)) => {
-            let angle = tilt.below_right_angle(document)?;
+            let angle = tilt.read(document)?;
             if angle.cos() < UPWARD {
                 return Err(document.error(
                     tilt.span.clone(),
@@ -42,10 +37,7 @@ pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Erro
                     "expected a tilt below 89.9 deg",
                 ));
             }
-            let climb = match &table.tilt_direction {
-                Some(direction) => heading(direction, document)?,
-                None => 0.0,
-            };
+            let climb = read_or(&table.tilt_direction, 0.0, document)?;
             [-angle.sin() * climb.cos(), -angle.sin() * climb.sin(), angle.cos()]
         }
         (Some(_), Some(tilt)) => {
@@ -74,7 +66,7 @@ fn unit_normal(
     [x, y, z]: &[Quantity<Ratio>; 3],
     document: &Document,
 ) -> Result<Option<[f64; 3]>, Error> {
-    let [x, y, z] = [x, y, z].map(|n| n.si(document, &usual::ANY));
+    let [x, y, z] = [x, y, z].map(|n| n.read(document));
     let [x, y, z] = [x?, y?, z?];
     // Scaled by the largest component first, so that no square overflows.
     let largest = x.abs().max(y.abs()).max(z.abs());

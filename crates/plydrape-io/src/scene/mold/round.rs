@@ -4,7 +4,7 @@ use super::Keys;
 use crate::Error;
 
 use crate::scene::file::SideKey;
-use crate::scene::usual;
+use crate::scene::quantity::Read;
 use plydrape::mold::{Cylinder, Face, Mold, Pose, Sphere, Torus};
 
 /// Most upward part of the axis of a cylinder: one this steep or steeper is a pillar (89.9°).
@@ -12,9 +12,7 @@ const UPRIGHT: f64 = 0.999_998;
 
 /// Checks the keys of a cylinder.
 pub(super) fn cylinder(keys: &Keys) -> Result<Mold, Error> {
-    let radius = keys
-        .required(&keys.table.radius, "radius", "\"500 mm\"")?
-        .size(keys.document, &usual::RADIUS)?;
+    let radius = keys.required(&keys.table.radius, "radius", "\"500 mm\"")?.read(keys.document)?;
     let (pose, face) = turned(keys)?;
     match &keys.table.rotation {
         Some(rotation) if pose.axes[0][2].abs() > UPRIGHT => Err(keys.document.error(
@@ -28,9 +26,7 @@ pub(super) fn cylinder(keys: &Keys) -> Result<Mold, Error> {
 
 /// Checks the keys of a sphere.
 pub(super) fn sphere(keys: &Keys) -> Result<Mold, Error> {
-    let radius = keys
-        .required(&keys.table.radius, "radius", "\"500 mm\"")?
-        .size(keys.document, &usual::RADIUS)?;
+    let radius = keys.required(&keys.table.radius, "radius", "\"500 mm\"")?.read(keys.document)?;
     let (pose, face) = turned(keys)?;
     Ok(Mold::Sphere(Sphere { pose, radius, face }))
 }
@@ -40,8 +36,7 @@ pub(super) fn torus(keys: &Keys) -> Result<Mold, Error> {
     let (table, document) = (keys.table, keys.document);
     let ring = keys.required(&table.ring_radius, "ring_radius", "\"500 mm\"")?;
     let tube = keys.required(&table.tube_radius, "tube_radius", "\"200 mm\"")?;
-    let [ring_radius, tube_radius] =
-        [ring.size(document, &usual::RADIUS)?, tube.size(document, &usual::RADIUS)?];
+    let [ring_radius, tube_radius] = [ring.read(document)?, tube.read(document)?];
     if tube_radius >= ring_radius {
         return Err(document.error(
             tube.span.clone(),

@@ -38,6 +38,7 @@ impl Polynomial {
     /// The sum that a list of operations is, if it is written out as one.
     pub fn from_program(program: &[Operation]) -> Option<Self> {
         let mut stack: Vec<Vec<Term>> = Vec::new();
+        // the operations in reverse Polish order, with sums of terms in place of numbers
         for operation in program {
             let terms = match *operation {
                 Operation::Number(factor) => vec![Term { factor, powers: [0, 0] }],
@@ -68,6 +69,7 @@ impl Polynomial {
                 }
                 Operation::Real(_) | Operation::Power | Operation::Call(_) => return None,
             };
+            // large sums are left to the program itself
             let is_small =
                 terms.len() <= TERMS && terms.iter().all(|t| t.powers.iter().all(|p| *p <= DEGREE));
             if !is_small {

@@ -29,6 +29,7 @@ pub(super) fn boundaries(
 ) -> Vec<Boundary> {
     let mut done = vec![[false; 3]; triangles.len()];
     let mut boundaries: Vec<Boundary> = Vec::new();
+    // follow edges without a neighbor until they close
     for start in 0..triangles.len() {
         for side in 0..3 {
             if neighbors[start][side] != NONE || done[start][side] {
@@ -44,6 +45,7 @@ pub(super) fn boundaries(
             boundaries.push(boundary(vertices, line, component[start] as usize));
         }
     }
+    // the longest boundary of a surface is its outer one
     let mut outer: Vec<Option<usize>> = vec![None; components.len()];
     for (n, boundary) in boundaries.iter().enumerate() {
         let best = &mut outer[boundary.surface];

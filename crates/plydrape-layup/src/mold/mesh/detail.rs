@@ -113,6 +113,7 @@ impl Mesh {
         let mut details = Vec::new();
         let mut left_out: HashSet<usize> = HashSet::new();
         let mut caps: Vec<Vec<u32>> = Vec::new();
+        // holes of an open surface: level boundaries that are narrow enough
         for boundary in self.boundaries.iter().filter(|boundary| boundary.hole) {
             let points: Vec<[f64; 3]> =
                 boundary.vertices.iter().map(|n| self.vertices[*n as usize]).collect();
@@ -130,6 +131,7 @@ impl Mesh {
                 details.push(size.detail(DetailKind::Hole, 0.0, place, is_spanned));
             }
         }
+        // pits and studs: what lies off the surface around it; a pit is capped unless another cap has taken its triangles
         for part in self.parts(self.off_surface(width, tolerance), tolerance) {
             let Some(mut detail) = self.detail(&part).filter(|detail| detail.width <= width) else {
                 continue;
@@ -149,6 +151,7 @@ impl Mesh {
         if caps.is_empty() {
             return (None, details);
         }
+        // the surface without the pits, and with the caps
         let mut soup = Soup::new("triangle");
         soup.points.clone_from(&self.vertices);
         for (n, corners) in self.triangles.iter().enumerate() {
@@ -337,6 +340,7 @@ impl Mesh {
     /// over whose middle there is nothing.
     fn through_holes(&self, width: f64, tolerance: f64) -> Vec<Detail> {
         let mut next: BTreeMap<u32, u32> = BTreeMap::new();
+        // edges between a wall and what is seen from above
         let rough = self.rough(width);
         for triangle in rough.into_iter().take(TUNING.most_rough) {
             if self.triangle_normals[triangle][2] >= TUNING.wall {
@@ -350,6 +354,7 @@ impl Mesh {
                 }
             }
         }
+        // chained to closed lines; with nothing over their middle they are holes
         let mut out = Vec::new();
         while let Some((start, mut vertex)) = next.pop_first() {
             let mut points = vec![self.vertices[start as usize]];

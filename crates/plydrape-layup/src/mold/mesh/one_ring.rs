@@ -42,6 +42,7 @@ pub(super) fn split(mesh: &mut Joined, neighbors: &Neighbors) -> Vec<Corner> {
             if done[t][k] {
                 continue;
             }
+            // around the vertex back to a boundary, or once around
             let mut start = (t, k);
             while let Some(before) = previous(&mesh.triangles, neighbors, start) {
                 start = before;
@@ -49,6 +50,7 @@ pub(super) fn split(mesh: &mut Joined, neighbors: &Neighbors) -> Vec<Corner> {
                     break;
                 }
             }
+            // and forth over all triangles of this ring
             let mut corners = Vec::with_capacity(8);
             let mut corner = Some(start);
             while let Some((t, k)) = corner.filter(|&(t, k)| !done[t][k]) {
@@ -56,6 +58,7 @@ pub(super) fn split(mesh: &mut Joined, neighbors: &Neighbors) -> Vec<Corner> {
                 corners.push((t, k));
                 corner = next(&mesh.triangles, neighbors, (t, k));
             }
+            // a vertex with a ring already is doubled for the further one
             let vertex = mesh.triangles[t][k] as usize;
             if first[vertex] == unknown {
                 first[vertex] = start;

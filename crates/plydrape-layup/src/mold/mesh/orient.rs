@@ -68,6 +68,7 @@ pub(super) fn orient(
         if component[seed] != NONE {
             continue;
         }
+        // over each edge the neighbor must run the other way, else it is turned; a surface that asks for both has one side only
         let id = components.len() as u32;
         component[seed] = id;
         members.clear();
@@ -98,6 +99,7 @@ pub(super) fn orient(
                 }
             }
         }
+        // a closed surface has its volume inside; an open one faces upwards, unless it stands on edge
         let sides = Sides::new(mesh, &members, &turn);
         let over = if closed {
             sides.volume < 0.0
@@ -118,6 +120,7 @@ pub(super) fn orient(
         }
         components.push(Component { closed });
     }
+    // turning swaps two corners, and with them two neighbors
     for t in 0..count {
         if turn[t] {
             mesh.triangles[t].swap(1, 2);

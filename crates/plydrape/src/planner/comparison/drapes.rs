@@ -64,6 +64,7 @@ pub fn best_front(
     strategies: &[Strategy],
     state: &SearchState,
 ) -> Result<ComparedDrape, Error> {
+    // ranking costs a coarse drape, which a single strategy does not need
     let ranked = |strategy: &Strategy| {
         let positions = fronts.positions(*strategy)?;
         let score = match strategies {
@@ -78,6 +79,7 @@ pub fn best_front(
     let ranked: Result<Vec<_>, Error> = strategies.par_iter().filter_map(ranked).collect();
     let mut ranked = ranked?;
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // only the best few get the mesh of the scene, because ranks of a coarse sheet are not exact
     let mut best: Result<ComparedDrape, Error> = Err(Error::ComparisonInterrupted);
     for (_, strategy, positions) in ranked.into_iter().take(TUNING.search.batch) {
         let drape = planned(scene, Some(strategy), positions, Vec::new(), state);

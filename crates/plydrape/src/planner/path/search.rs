@@ -111,6 +111,7 @@ pub fn search(
         idle: 0,
         left: scene.plan.evaluations.max(1),
     };
+    // infeasible limits are not searched for: no motion could keep them
     search.first(checkpoint);
     if infeasible_limits(scene).is_empty() {
         search.improve(checkpoint);
@@ -125,6 +126,7 @@ pub fn search(
     if let Some(fault) = lock(&shared.fault).take() {
         return Err(fault);
     }
+    // a decision that an earlier search made is only known by its score, so it is draped again
     match (best, fault) {
         (None, Some(fault)) => Err(fault),
         (Some(Choice { decision: None, strategy, positions, known }), _) => {
@@ -249,12 +251,14 @@ impl Search<'_, '_> {
     /// Evolution about the best until no more than this many drapes are left; a search that continues an earlier one takes other
     /// samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>, left: usize) {
+        // start from the best that is known, whether it was ranked on the coarse sheet or decided on the whole one
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
         let decided = self.best.as_ref().map(|best| (best.score(), best.strategy));
         let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
         let Some((_, start)) = start else { return };
         let shared = self.shared;
         shared.state.begin("improving the best by evolution");
+        // a seed of its own for each call, so that a continued search does not draw the same samples
         let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations as u64);
         let found: Mutex<Vec<Candidate>> = Mutex::new(Vec::new());
         let objective = |unit: &DVector<f64>| -> f64 {
@@ -264,6 +268,7 @@ impl Search<'_, '_> {
             lock(&found).push(candidate);
             score
         };
+        // the first step of the evolution depends on the mesh; where mounts are rigid, the parameters of mounts are left out
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
         let on_mounts = shared.scene.layup.settings.pad.gives();
         let step = TUNING.search.steps[usize::from(fine && !on_mounts)];
@@ -275,6 +280,7 @@ impl Search<'_, '_> {
             .population_size(TUNING.search.generation)
             .seed(shared.scene.plan.seed.wrapping_add(before + left as u64));
         let Ok(mut evolution) = options.build(objective) else { return };
+        // each generation is ranked, and its best is decided on the whole sheet
         while !self.is_done() && self.left >= left + TUNING.search.generation {
             self.left -= TUNING.search.generation;
             let ended = evolution.next_parallel().is_some();
@@ -354,6 +360,7 @@ impl Search<'_, '_> {
         let before = state.begin(stage);
         let positions = candidate.positions.clone();
         let ranked = candidate.drapes.as_ref().and_then(|drapes| drapes.worst.effort);
+        // what was decided before is read from the journal, and counts as if it were draped now
         let key = journal::key(&positions, None, &state.cells());
         let strategy = candidate.strategy;
         let choice = match state.decided(key) {
@@ -380,6 +387,7 @@ impl Search<'_, '_> {
                 self.candidates.push(candidate);
             }
             Ok(choice) => {
+                // later candidates are draped with the cell that refused this one
                 if let Some(cell) = choice.known.refused_by {
                     state.add_cell(cell);
                 }
@@ -395,6 +403,7 @@ impl Search<'_, '_> {
             }
             Err(fault) => self.fault = self.fault.take().or(Some(fault)),
         }
+        // coarse scores of all that wait are corrected by what was learned
         let bias = lock(&self.shared.ranking).bias.clone();
         for candidate in &mut self.candidates {
             if let Some(drapes) = &candidate.drapes {

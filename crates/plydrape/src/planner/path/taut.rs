@@ -75,6 +75,7 @@ impl Lines {
         front: f64,
         stretch: f64,
     ) {
+        // only what the front has not passed can slacken
         let free = self.free(&radius, front, stretch);
         for _ in 0..TUNING.front.tightenings {
             let mut worst = 0.0_f64;
@@ -83,6 +84,7 @@ impl Lines {
                     End::Gripper(other) => grippers[other],
                     End::Mold(place) => place,
                 };
+                // what has landed stays; of two free grippers each goes half of the way
                 let moves = [
                     !landed[part.gripper],
                     matches!(part.other, End::Gripper(other) if !landed[other]),
@@ -100,6 +102,7 @@ impl Lines {
                 if run <= 0.0 {
                     continue;
                 }
+                // the run that a taut line of this length has at its rise
                 let rise = here[2] - other[2];
                 let error = (part.length * part.length - rise * rise).max(0.0).sqrt() - run;
                 worst = worst.max(error.abs() / part.length);
@@ -113,6 +116,7 @@ impl Lines {
                     }
                 }
             }
+            // lines share grippers, so tightening one slackens others: repeat until all are taut
             if worst < TUNING.front.taut {
                 break;
             }

@@ -158,6 +158,7 @@ impl<'a> Replanner<'a> {
         if summary.steps != summary.steps_planned || steps.len() != count || count < 2 {
             return Err(Error::ReplanUnfinished { steps: steps.len(), planned: count });
         }
+        // an offset must be taken out before the ply lands; events get their times in the motion of the drape alone
         let first = summary.first_contact_step();
         let last_free = summary.last_free(count);
         let (mut steps, mut summary) = (steps.to_vec(), summary.clone());
@@ -182,6 +183,7 @@ impl<'a> Replanner<'a> {
             [0, 1].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / places.len() as f64)
         };
         let middles = motion.positions().iter().map(middle).collect();
+        // bodies come no nearer than they did from the last free step on, where nothing is corrected any more
         let landing = match scene.layup.bodies.is_empty() {
             true => None,
             false => {

@@ -75,6 +75,7 @@ struct Nearest {
 impl Shapes {
     /// The shapes of the steps up to `last` (from 0), of the catenaries and of a sheet.
     pub fn new(scene: &Scene, steps: &[Step], sheet: Option<&SheetShapes>, last: usize) -> Self {
+        // points of the free curves of catenaries at each step
         let hanging = |step: &Step| match &step.catenaries {
             Some(catenaries) => {
                 let places: Vec<Point> = step.grippers.iter().map(|g| g.position).collect();
@@ -88,6 +89,7 @@ impl Shapes {
             None => Vec::new(),
         };
         let curves: Vec<_> = steps.iter().take(last + 1).map(hanging).collect();
+        // steps compare point by point, so those whose catenaries have other free parts are left out
         let numbers = |curves: &[(usize, Vec<Point>)]| -> Vec<usize> {
             curves.iter().flat_map(|(n, points)| vec![*n; points.len()]).collect()
         };
@@ -101,6 +103,7 @@ impl Shapes {
         if steps.iter().any(|step| step.catenaries.is_some()) {
             series.push(catenaries);
         }
+        // nodes of a sheet are the same in all states of the same mesh
         if let Some(SheetShapes { places, states }) = sheet {
             let known =
                 |(k, points): &&(usize, Vec<Point>)| *k <= last && points.len() == places.len();

@@ -91,11 +91,13 @@ impl<'a> Clearance<'a> {
     pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
         let ply = &scene.layup.ply;
         let overhang = scene.layup.settings.sheet.overhang;
+        // the array is carried as a rigid body about its center, with its points and those of the overhang
         let middle = center(start);
         let lines = points(ply, start, overhang);
         let line = lines.first().map_or(0, Vec::len);
         let points: Vec<Point> = lines.into_iter().flatten().map(|p| sub(p, middle)).collect();
         let reach = points.iter().map(|p| norm(*p)).fold(0.0, f64::max);
+        // boundaries count where the array can come between start and end, whichever way it turns
         let way = [0, 1].map(|n| {
             let [a, b] = [middle[n], end[n]];
             [a.min(b) - reach, a.max(b) + reach]
@@ -118,9 +120,11 @@ impl<'a> Clearance<'a> {
                 TUNING.transport.sampling * scene.layup.ply.shorter_side(),
             ),
         };
+        // at its start it has the distance from the mold that it has
         let places: Vec<Point> = clearance.points.iter().map(|p| along(middle, 1.0, *p)).collect();
         clearance.own = clearance.over_mold(&places);
         clearance.bodies = Carried::new(scene, start, clearance.margin);
+        // where it starts beside the mold, it starts over a table as high as the ply hangs
         if places.iter().any(|place| clearance.above(*place).is_none()) {
             let lowest = start.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
             clearance.table = Some(lowest - clearance.hang);
@@ -229,10 +233,12 @@ fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
         });
         [x, y, 0.0]
     };
+    // which nodes of a grid see the mold from above
     let line = |j: usize| -> Vec<bool> {
         (0..=nx).map(|i| mold.highest_point([at(i, j)[0], at(i, j)[1]]).is_some()).collect()
     };
     let lines: Vec<Vec<bool>> = (0..=ny).map(line).collect();
+    // a boundary passes between neighbors of which only one sees it: bisect there
     let mut highest = f64::NEG_INFINITY;
     for j in 0..=ny {
         for i in 0..=nx {
@@ -257,6 +263,7 @@ fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
 fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
     let [low, high] = ply.bounds(overhang);
     let [inner_low, inner_high] = ply.held_bounds();
+    // coordinates divide cells evenly, and the overhang adds one at each end
     let axis = |n: usize| -> Vec<f64> {
         let size = inner_high[n] - inner_low[n];
         let parts = (size / ply.cell[n] * TUNING.transport.divisions as f64).round();
@@ -271,6 +278,7 @@ fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
         axis
     };
     let (u, v) = (axis(0), axis(1));
+    // cups without a grid only say where the array as a whole is and how it is turned
     let at: Box<dyn Fn(f64, f64) -> Point> = match ply.grid {
         Grid::NONE => {
             let (middle, [along_u, along_v]) = (center(places), directions(ply, places));

@@ -87,11 +87,13 @@ fn turned(from: Point, to: Point, share: f64, lengthened: f64) -> Point {
 
 /// The moves of the grippers, zero on the average, whose differences along the edges fit the given ones best.
 fn fitted(edges: &[[usize; 2]], count: usize, differences: &[Point]) -> Vec<Point> {
+    // normal equations of a graph: right-hand side from the differences along edges
     let mut residual = vec![[0.0; 3]; count];
     for (&[a, b], difference) in edges.iter().zip(differences) {
         residual[a] = sub(residual[a], *difference);
         residual[b] = along(residual[b], 1.0, *difference);
     }
+    // conjugate gradients; all directions sum to zero, which fixes the free constant
     let (mut moves, mut direction) = (vec![[0.0; 3]; count], residual.clone());
     let square = |v: &[Point]| v.iter().map(|p| dot(*p, *p)).sum::<f64>();
     let mut now = square(&residual);
@@ -100,6 +102,7 @@ fn fitted(edges: &[[usize; 2]], count: usize, differences: &[Point]) -> Vec<Poin
         if now <= enough {
             break;
         }
+        // Laplacian of the graph times the direction
         let mut image = vec![[0.0; 3]; count];
         for &[a, b] in edges {
             let along_edge = sub(direction[b], direction[a]);
