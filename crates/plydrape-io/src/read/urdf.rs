@@ -369,3 +369,86 @@ impl<'a, 'i> Reader<'a, 'i> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A robot with joints of these kinds in a row.
+    fn robot(kinds: &[&str]) -> String {
+        let mut text = String::from("<robot name=\"r\"><link name=\"base\"/>");
+        let mut before = "base".to_string();
+        for (n, kind) in kinds.iter().enumerate() {
+            text += &format!(
+                "<link name=\"l{n}\"><collision><geometry><sphere radius=\"0.1\"/></geometry></collision></link>\
+                 <joint name=\"j{n}\" type=\"{kind}\"><origin xyz=\"0 0 0.{n}\"/><parent link=\"{before}\"/><child link=\"l{n}\"/>\
+                 <axis xyz=\"0 0 2\"/><limit lower=\"-1\" upper=\"1\" velocity=\"3\"/></joint>"
+            );
+            before = format!("l{n}");
+        }
+        text + "</robot>"
+    }
+
+    /// What is fixed between two joints is part of the way, and what is fixed behind the last one is the flange's; axes have unit length.
+    #[test]
+    fn what_is_fixed_is_on_the_way() {
+        let kinds = [
+            "revolute",
+            "fixed",
+            "revolute",
+            "revolute",
+            "revolute",
+            "continuous",
+            "revolute",
+            "fixed",
+        ];
+        let arm = parse("r.urdf", &robot(&kinds), None, None).unwrap();
+        // after the first joint at 0.0 m a fixed one of 0.1 m and the next of 0.2 m
+        assert!((arm.joints[1].pose.position[2] - 0.3).abs() < 1e-15);
+        assert!((arm.flange.position[2] - 0.7).abs() < 1e-15);
+        assert_eq!(arm.joints[0].axis, [0.0, 0.0, 1.0]);
+        assert!(arm.joints[4].range[1] > 100.0);
+        let links: Vec<usize> = arm.bodies.iter().map(|body| body.link).collect();
+        assert_eq!(links, [1, 1, 2, 3, 4, 5, 6, 6]);
+    }
+
+    /// What is no arm of six turning joints, or no URDF, is refused with what it is and what to do.
+    #[test]
+    fn what_is_no_arm_is_refused() {
+        let refused = |text: &str| {
+            let error = parse("r.urdf", text, None, None).unwrap_err();
+            assert!(!error.help().is_empty(), "{error}");
+            error.to_string()
+        };
+        assert!(refused("no XML at all").contains("no XML"));
+        assert!(refused("<model/>").contains("<model>"));
+        assert!(refused(&robot(&["revolute"; 5])).contains("5 turning joints"));
+        let sliding = ["revolute", "prismatic", "revolute", "revolute", "revolute", "revolute"];
+        assert!(refused(&robot(&sliding)).contains("prismatic"));
+        let formula = robot(&["revolute"; 6]).replace("0 0 0.3", "0 0 ${d}");
+        assert!(refused(&formula).contains("line 1"));
+        let still = robot(&["revolute"; 6]).replace("velocity=\"3\"", "velocity=\"0\"");
+        assert!(refused(&still).contains("cannot move"));
+        let round =
+            robot(&["revolute"; 6]).replace("<parent link=\"base\"/>", "<parent link=\"l5\"/>");
+        assert!(refused(&round).contains("r.urdf"));
+        // a text that would grow without end
+        let bomb = "<!DOCTYPE r [<!ENTITY a \"aa\"><!ENTITY b \"&a;&a;\">]><robot>&b;</robot>";
+        assert!(refused(bomb).contains("no XML"));
+    }
+
+    /// The foot is the link `base` where there is one, whatever it is fixed to, unless another is named.
+    #[test]
+    fn links_that_are_fixed_to_a_foot_are_no_joints() {
+        let six = robot(&["revolute"; 6]);
+        let mounted = six.replace(
+            "<link name=\"base\"/>",
+            "<link name=\"world\"/><link name=\"base\"/><joint name=\"w\" type=\"fixed\"><origin xyz=\"1 2 3\"/>\
+             <parent link=\"world\"/><child link=\"base\"/></joint>",
+        );
+        let [plain, own, world] = [(&six, None), (&mounted, None), (&mounted, Some("world"))]
+            .map(|(text, foot)| parse("r.urdf", text, foot, None).unwrap());
+        assert_eq!(plain.joints, own.joints);
+        assert_eq!(world.joints[0].pose.position, [1.0, 2.0, 3.0]);
+    }
+}

@@ -1,6 +1,7 @@
 //! What is impossible in what a result that was read says of its tool.
 
 use super::ResultFile;
+use plydrape::arm::{Arm, Joint};
 use plydrape::geometry::vector::dot;
 use plydrape::tool::{MissingStroke, Tool};
 
@@ -18,6 +19,14 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     if !is_sound(tool) {
         return Some("the axes and rates of its tool are none".into());
     }
+    if let Some(arm) = &tool.arm {
+        let finite = |angles: &[f64; 6]| angles.iter().all(|angle| angle.is_finite());
+        let starts =
+            arm.start.iter().chain(record.and_then(|r| r.arm.as_ref()).map(|a| &a.start_deg));
+        if !(is_whole(arm) && starts.into_iter().all(finite)) {
+            return Some("the joints of its arm are none".into());
+        }
+    }
     let record = record?;
     let steps = 1..=result.summary.steps_planned.max(1);
     let is_known = |missing: &MissingStroke| {
@@ -30,6 +39,15 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
         && record.strokes_mm.len() == tool.axes.len()
         && record.missing.as_ref().is_none_or(is_known);
     (!known).then(|| "what its motion takes of the tool is not of this tool".into())
+}
+
+/// Whether the joints of an arm turn, each about an axis within a range, and its limits are some.
+fn is_whole(arm: &Arm) -> bool {
+    let turns = |joint: &Joint| {
+        let length = dot(joint.axis, joint.axis);
+        (length - 1.0).abs() < 1e-6 && joint.range[0] < joint.range[1] && joint.speed > 0.0
+    };
+    arm.joints.iter().all(turns) && arm.reach() > 0.0 && arm.margin >= 0.0 && arm.singular >= 0.0
 }
 
 /// Whether strokes hold their start, all rates are above zero, and axes of pads are at right angles.

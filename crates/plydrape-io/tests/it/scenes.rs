@@ -451,12 +451,16 @@ fn a_default_of_the_schema_is_what_a_scene_without_the_key_has() {
                 ];
                 let own = match name.as_str() {
                     "pick_up" => "height = 0\n",
+                    "robot" => "arm = \"ur20\"\n",
                     _ => "",
                 };
                 let mut text = String::new();
                 for (table, lines) in tables {
                     let line = if table == name { line } else { "" };
                     text += &format!("[{table}]\n{lines}{line}\n");
+                }
+                if name == "robot" {
+                    text += "[tool]\n";
                 }
                 if tables.iter().all(|(table, _)| table != name) {
                     text += &format!("[{name}]\n{own}{line}\n");

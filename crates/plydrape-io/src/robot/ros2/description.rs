@@ -2,16 +2,21 @@
 //!
 //! Each axis is a sliding joint of the name that it has in the trajectory, and each gripper a `gpio` whose interface `vacuum` is that of the
 //! commands. The axes of a gripper are a chain of links from the carrier of the array: the tool's center, or the mold of grippers that are
-//! gantries of their own. A launch file reads the other two beside itself, so a folder can be copied.
+//! gantries of their own. Where the arm is known, its joints are between its foot and the tool's center. A launch file reads the other two beside itself, so a folder can be copied.
 
-use super::{FRAME, TOOL};
+use super::{FRAME, PREFIX, TOOL};
 use crate::result::ResultFile;
 use crate::robot::program::Program;
+use crate::robot::program::pose::euler_zyx;
 use crate::store::folder::Files;
+use plydrape::arm::{Arm, Joint};
+use plydrape::geometry::Pose;
 use std::fmt::Write;
 
 /// Name of the controller of the axes.
 pub const AXES: &str = "ply_controller";
+/// The link of the foot of an arm.
+const FOOT: &str = "ply_foot";
 /// Name of the controller of the vacuum.
 pub const OUTPUTS: &str = "ply_vacuum";
 
@@ -47,7 +52,7 @@ def generate_launch_description():
 
 /// The files `array.urdf`, `controllers.yaml` and `array.launch.py` of a program and of the result that it is made of.
 pub(super) fn files(result: &ResultFile, program: &Program) -> Files {
-    let moves = !program.axes.is_empty();
+    let moves = !program.axes.is_empty() || program.arm.is_some();
     let controllers: Vec<&str> = ["joint_state_broadcaster", AXES, OUTPUTS]
         .into_iter()
         .skip(if moves { 0 } else { 2 })
@@ -67,6 +72,12 @@ fn description(result: &ResultFile, program: &Program) -> String {
     let each = tool.map_or(3, |tool| tool.axes.len());
     let mut links = format!("  <link name=\"{base}\"/>\n");
     let mut joints = String::new();
+    if let Some(known) = &program.arm {
+        links += &arm(&known.arm, &program.frames.tool);
+        for (joint, initial) in known.arm.joints.iter().zip(known.angles[0]) {
+            joints += &controlled(&joint.name, initial);
+        }
+    }
     for (n, axis) in program.axes.iter().enumerate() {
         let (gripper, own) = (n / each, n % each);
         let (home, direction) = match tool {
@@ -96,16 +107,7 @@ fn description(result: &ResultFile, program: &Program) -> String {
   </joint>
 "#
         );
-        let initial = axis.values[0];
-        let _ = write!(
-            joints,
-            r#"    <joint name="{name}">
-      <command_interface name="position"/>
-      <state_interface name="position"><param name="initial_value">{initial}</param></state_interface>
-      <state_interface name="velocity"/>
-    </joint>
-"#
-        );
+        joints += &controlled(name, axis.values[0]);
     }
     for gripper in program.grippers() {
         let _ = write!(
@@ -137,6 +139,56 @@ fn description(result: &ResultFile, program: &Program) -> String {
     )
 }
 
+/// A joint whose position is commanded, from an initial one.
+fn controlled(name: &str, initial: f64) -> String {
+    format!(
+        r#"    <joint name="{name}">
+      <command_interface name="position"/>
+      <state_interface name="position"><param name="initial_value">{initial}</param></state_interface>
+      <state_interface name="velocity"/>
+    </joint>
+"#
+    )
+}
+
+/// The joints of the arm from its foot to the tool's center, which is at a pose in the frame of the flange.
+fn arm(arm: &Arm, tool: &Pose) -> String {
+    let mut text = format!("  <link name=\"{FOOT}\"/>\n");
+    let origin = |pose: &Pose| {
+        let ([x, y, z], [yaw, pitch, roll]) = (pose.position, euler_zyx(pose));
+        format!("<origin xyz=\"{x} {y} {z}\" rpy=\"{roll} {pitch} {yaw}\"/>")
+    };
+    let mut parent = FOOT.to_owned();
+    for joint in &arm.joints {
+        let Joint { name, axis: [x, y, z], range: [lower, upper], speed, pose } = joint;
+        let place = origin(pose);
+        let _ = write!(
+            text,
+            r#"  <link name="{PREFIX}{name}"/>
+  <joint name="{name}" type="revolute">
+    <parent link="{parent}"/>
+    <child link="{PREFIX}{name}"/>
+    {place}
+    <axis xyz="{x} {y} {z}"/>
+    <limit lower="{lower}" upper="{upper}" velocity="{speed}" effort="1000"/>
+  </joint>
+"#
+        );
+        parent = format!("{PREFIX}{name}");
+    }
+    let place = origin(&arm.flange.compose(tool));
+    let _ = write!(
+        text,
+        r#"  <joint name="{PREFIX}tool_at_flange" type="fixed">
+    <parent link="{parent}"/>
+    <child link="{TOOL}"/>
+    {place}
+  </joint>
+"#
+    );
+    text
+}
+
 /// The parameters of the controllers.
 fn parameters(program: &Program, controllers: &[&str]) -> String {
     let mut text = "controller_manager:\n  ros__parameters:\n    update_rate: 500\n".to_owned();
@@ -148,8 +200,11 @@ fn parameters(program: &Program, controllers: &[&str]) -> String {
         };
         let _ = write!(text, "    {name}:\n      type: {kind}\n");
     }
-    if !program.axes.is_empty() {
-        let names: Vec<&str> = program.axes.iter().map(|axis| axis.name.as_str()).collect();
+    if !program.axes.is_empty() || program.arm.is_some() {
+        let arm = program.arm.iter().flat_map(|known| &known.arm.joints);
+        let arm = arm.map(|joint| joint.name.as_str());
+        let names: Vec<&str> =
+            arm.chain(program.axes.iter().map(|axis| axis.name.as_str())).collect();
         let _ = write!(
             text,
             "{AXES}:\n  ros__parameters:\n    joints: [{}]\n    command_interfaces: [position]\n    \

@@ -57,6 +57,7 @@ pub fn cell(axes: usize, samples: usize) -> Program {
     Program {
         name: "Cell of the tést".into(),
         book_ply: None,
+        arm: None,
         accepted: true,
         verdict: "accepted: tilt 12° against 40°".into(),
         flange: Some(times.iter().map(|t| flange(*t)).collect()),
