@@ -2046,6 +2046,8 @@ class Scene:
         What holds the ply and how far it may be off, where `grippers` and `errors` do not say so.
     errors : dict, optional
         How far a real cell may be from the scene.
+    robot : dict, optional
+        The arm that carries the tool.
     pick_up : dict, optional
         How the ply is picked up from a table.
     release : dict, optional
@@ -2093,6 +2095,7 @@ class Scene:
         plan: dict[str, typing.Any] | None = None,
         cell: dict[str, typing.Any] | None = None,
         errors: dict[str, typing.Any] | None = None,
+        robot: dict[str, typing.Any] | None = None,
         pick_up: dict[str, typing.Any] | None = None,
         release: dict[str, typing.Any] | None = None,
         tool: dict[str, typing.Any] | None = None,
@@ -2219,6 +2222,23 @@ class Scene:
         --------
         >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
         'plane'
+        """
+    def placed(self, /) -> Scene:
+        """
+        This scene where the arm of its robot follows the motion best.
+
+        Places of the scene in the robot's world are tried, on a grid in units of the arm's reach, with the motion that the scene has; the bodies of the
+        arm stay clear of mold and obstacles.
+
+        Returns
+        -------
+        scene : Scene
+            The same scene with another `world` in its `tool`.
+
+        Raises
+        ------
+        ValueError
+            If no arm is known, or it follows from no place.
         """
     @property
     def ply(self, /) -> Ply:
