@@ -569,7 +569,7 @@ class Measure:
     --------
     >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
     >>> [(measure.label, measure.shown) for measure in shares]
-    [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm'), ('table gap', 'mm')]
+    [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm'), ('table gap', 'mm'), ('joint margin', '°'), ('distance from a singularity', '1')]
     """
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
@@ -2239,6 +2239,15 @@ class Scene:
         ------
         ValueError
             If no arm is known, or it follows from no place.
+
+        Examples
+        --------
+        >>> tables = dict(ply=dict(grippers=[2, 2], cell=[0.1, 0.1], material="prepreg_warm"))
+        >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+        >>> tables |= dict(motion=dict(kind="hold"), tool=dict(world=dict(position=[9, 0, 0])))
+        >>> scene = plydrape.Scene(**tables, robot=dict(arm="ur20"))
+        >>> [plydrape.simulate(at).limits["arm_miss"].kept for at in (scene, scene.placed())]
+        [False, True]
         """
     @property
     def ply(self, /) -> Ply:

@@ -173,6 +173,7 @@ MESH = {"kind": "mesh", "file": "mold.stl", "unit": "mm"}
 # what a table or a key needs beside it
 BESIDE: dict[str, dict[str, Any]] = {
     "pick_up": {"height": 0},
+    "robot": {"arm": "ur20"},
     "ply.warp": {"size": ["350 mm", "260 mm"]},
 }
 MOLDS = {
@@ -203,6 +204,8 @@ def test_what_is_beyond_the_range_of_a_key_is_refused(path: str, limits: str) ->
     tables = copy.deepcopy(BASE)
     if table == "mold":
         tables["mold"] = dict(MOLDS.get(key, tables["mold"]))
+    if table == "robot":
+        tables["tool"] = {}
     tables.setdefault(table, {}).update(BESIDE.get(table, {}) | BESIDE.get(path, {}))
     for value, words in BEYOND[limits]:
         tables[table][key] = value

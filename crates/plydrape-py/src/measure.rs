@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 /// --------
 /// >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
 /// >>> [(measure.label, measure.shown) for measure in shares]
-/// [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm'), ('table gap', 'mm')]
+/// [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm'), ('table gap', 'mm'), ('joint margin', '°'), ('distance from a singularity', '1')]
 #[pyclass(frozen, eq, hash, module = "plydrape")]
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Measure(Name);

@@ -590,6 +590,15 @@ impl Scene {
     /// ------
     /// ValueError
     ///     If no arm is known, or it follows from no place.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tables = dict(ply=dict(grippers=[2, 2], cell=[0.1, 0.1], material="prepreg_warm"))
+    /// >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    /// >>> tables |= dict(motion=dict(kind="hold"), tool=dict(world=dict(position=[9, 0, 0])))
+    /// >>> scene = plydrape.Scene(**tables, robot=dict(arm="ur20"))
+    /// >>> [plydrape.simulate(at).limits["arm_miss"].kept for at in (scene, scene.placed())]
+    /// [False, True]
     fn placed(&self, py: Python<'_>) -> PyResult<Scene> {
         let scene = &self.0;
         let Some(tool) = scene.layup.tool.as_ref().filter(|tool| tool.arm.is_some()) else {

@@ -162,7 +162,7 @@ fn a_course_finds_the_angles_of_its_motion() {
     assert_eq!(course.keeping, 1);
 }
 
-/// A joint of several turns is wound so that it stays within its range, and one that cannot is told by how much it is beyond its end.
+/// A joint of several turns is wound so that it stays within its range, and one that cannot says how far it is beyond its end.
 #[test]
 fn joints_are_wound_into_their_range() {
     let mut arm = arm();
