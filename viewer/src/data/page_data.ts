@@ -92,6 +92,8 @@ export interface CellData {
   obstacles: Solid[];
   /** Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange; null without a tool. */
   mounts: number[] | null;
+  /** How many links of an arm there are, its foot among them; 0 where it is not known. */
+  links: number;
 }
 
 /** What the vacuum of some grippers does at a time (s). */
@@ -372,8 +374,14 @@ function checkDrape(data: PageData, drape: Partial<DrapeData> | undefined): void
   if (!whole || steps > count || (pictures!.length > 0 && pictures!.length !== steps)) {
     throw new BrokenData(`the grippers of the ${model} do not fit its steps`);
   }
-  const bodies = 2 * data.ids.length + ((data.cell?.mounts ?? null) === null ? 0 : 1);
-  if ((data.cell === null) !== (drape.origins === null) || !fits(drape.origins, steps, bodies)) {
+  const links = data.cell?.links ?? 0;
+  const bodies = 2 * data.ids.length + ((data.cell?.mounts ?? null) === null ? 0 : 1) + links;
+  const known = ({ on }: { on: unknown }) => typeof on !== "object" || (on as { link: number }).link < links;
+  if (
+    (data.cell === null) !== (drape.origins === null) ||
+    !fits(drape.origins, steps, bodies) ||
+    data.cell?.bodies.every(known) === false
+  ) {
     throw new BrokenData("the bodies of its cell do not fit its grippers and steps");
   }
   if (drape.catenaries) checkCatenaries(drape.catenaries, drawn!.length);

@@ -61,13 +61,14 @@ export class Cell {
   private readonly moving: Solids | null;
   private readonly standing: Solids | null;
   private readonly tool: Lines | null;
+  private readonly arm: Lines | null;
 
   constructor(
     private readonly cell: CellData,
     private readonly grippers: number,
     push: number,
   ) {
-    const { bodies, obstacles, mounts } = cell;
+    const { bodies, obstacles, mounts, links } = cell;
     const every = Array.from({ length: grippers }, (_, n) => n);
     const origins = {
       pad: every,
@@ -82,10 +83,16 @@ export class Cell {
     this.standing = fixed.length === 0 ? null : new Solids(fixed, OPACITY.standing, push);
     this.standing?.place(() => STANDS);
     this.tool = mounts === null ? null : new Lines(new Array<number>(grippers).fill(3), 1.2, 0.5 * push);
+    // from link to link, and to the flange
+    this.arm = links === 0 ? null : new Lines([links + 1], 2.4, 0.5 * push);
     for (const solids of [this.standing, this.moving]) if (solids !== null) this.group.add(solids.group);
     if (this.tool !== null) {
       this.tool.mesh.renderOrder = 7;
       this.group.add(this.tool.mesh);
+    }
+    if (this.arm !== null) {
+      this.arm.mesh.renderOrder = 7;
+      this.group.add(this.arm.mesh);
     }
   }
 
@@ -93,13 +100,14 @@ export class Cell {
     this.moving?.ink(color, line);
     this.standing?.ink(color, line);
     this.tool?.ink(line);
+    this.arm?.ink(line);
   }
 
   /** Places what moves, by the origins of a step. */
   moveTo(all: Int32Array): void {
     const origin = (n: number) => all.subarray(7 * n, 7 * n + 7);
     this.moving?.place(origin);
-    const { mounts } = this.cell;
+    const { mounts, links } = this.cell;
     if (this.tool === null || mounts === null) return;
     // from the flange to where the frame holds a gripper, and along its axes to the gripper
     const flange = origin(2 * this.grippers);
@@ -109,6 +117,11 @@ export class Cell {
       write(this.tool.points, 9 * n + 6, [0, 0, 0], 0, origin(this.grippers + n));
     }
     this.tool.changed();
+    if (this.arm === null) return;
+    for (let n = 0; n <= links; n++) {
+      write(this.arm.points, 3 * n, [0, 0, 0], 0, n < links ? origin(2 * this.grippers + 1 + n) : flange);
+    }
+    this.arm.changed();
   }
 }
 

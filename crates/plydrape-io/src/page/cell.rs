@@ -4,6 +4,7 @@ use super::Form;
 use super::block::Block;
 use super::packing::{micrometers, short};
 use crate::result::{ResultFile, SceneEcho};
+use plydrape::arm::JOINTS;
 use plydrape::bodies::{Body, Mount, Obstacle, Shape};
 use plydrape::geometry::Pose;
 use plydrape::outcome::Step;
@@ -24,6 +25,8 @@ pub(super) struct Cell<'a> {
     obstacles: Vec<Solid<'a>>,
     /// Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange (m); `None` without a tool.
     mounts: Option<Vec<f64>>,
+    /// How many links of an arm there are, its foot among them; 0 where it is not known.
+    links: usize,
 }
 
 /// A body, in the coordinates of what it is mounted on.
@@ -73,6 +76,7 @@ pub(super) fn cell(scene: &SceneEcho) -> Option<Cell<'_>> {
         bodies: scene.bodies.bodies().iter().map(carried).collect(),
         obstacles: scene.bodies.obstacles().iter().map(standing).collect(),
         mounts,
+        links: if scene.tool.as_ref().is_some_and(|t| t.arm.is_some()) { JOINTS + 1 } else { 0 },
     })
 }
 
