@@ -21,6 +21,8 @@ axes = [
 ]
 flange = { position = [0, 0, "300 mm"], rotation = ["180 deg", 0, 0] }
 world = { position = ["1.4 m", 0, "0.5 m"] }
+[robot]
+arm = "abb_irb4600_60_205"
 """
 
 
@@ -32,7 +34,7 @@ def needs(module: str) -> pytest.MarkDecorator:
 
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """The folders of the programs of a drape with more axes than a controller moves."""
+    """The programs of a drape by a known arm with more axes than a controller moves."""
     result = made("simulate", tmp_path_factory.mktemp("programs"), SCENE + TOOL)
     return {kind: result.export(kind) for kind in ("rapid", "krl")}
 
@@ -50,6 +52,7 @@ def test_rapidchecker_finds_no_error(programs: dict[str, Path], tmp_path: Path) 
     """Neither in the program nor in the file of the cell, and an error in a broken copy."""
     files = sorted(programs["rapid"].glob("*.mod"))
     assert len(files) == 2
+    assert any("MoveAbsJ" in file.read_text() for file in files)
     for file in files:
         assert "No RAPID format errors found" in run("rapidchecker", str(file)), file
     broken = tmp_path / "broken.mod"
@@ -62,6 +65,7 @@ def test_krllint_finds_no_error(programs: dict[str, Path]) -> None:
     """It warns of indentation alone."""
     files = [*programs["krl"].glob("*.src"), *programs["krl"].glob("*.dat")]
     assert len(files) == 2
+    assert any("E6AXIS" in file.read_text() for file in files)
     for file in files:
         said = run("krllint", str(file))
         assert "0 found errors" in said and "0 fatal errors" in said, said
