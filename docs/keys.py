@@ -259,10 +259,11 @@ def bounds(schema: Json, key: Json) -> str:
     """The range of a number: > 0, < 90 deg."""
     plain = number(schema, key)
     above, below = plain.get("exclusiveMinimum"), plain.get("exclusiveMaximum")
-    least, most = plain.get("minimum", above), plain.get("maximum", below)
+    least: float | None = plain.get("minimum", above)
+    most: float | None = plain.get("maximum", below)
     if least is None or (least < 0 and not is_angle(plain)):
         return ""
-    if least == -most if most else False:
+    if most and least == -most:
         return f"{math.degrees(least):g} to {math.degrees(most):g} deg"
     if (least, most, above) == (0, 1, None):
         return "0 to 1"

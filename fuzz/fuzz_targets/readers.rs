@@ -7,7 +7,7 @@
 use libfuzzer_sys::{Corpus, fuzz_target};
 use plydrape::mold::Pose;
 use plydrape_io::export::{self, Format, Options};
-use plydrape_io::read::{formula, mesh, outline};
+use plydrape_io::read::{formula, mesh, outline, urdf};
 use plydrape_io::robot::program::{Program, Robot, Template, Tolerance, template};
 use plydrape_io::scene::{self, Reading, SceneFile, read_fit};
 use plydrape_io::result::SceneEcho;
@@ -44,6 +44,7 @@ static READER: LazyLock<fn(&[u8]) -> Corpus> = LazyLock::new(|| {
         "stl" => |bytes| of_mesh("a.stl", bytes),
         "obj" => |bytes| of_mesh("a.obj", bytes),
         "inp" => |bytes| of_mesh("a.inp", bytes),
+        "urdf" => of_robot,
         "result" => of_result,
         "plan" => of_plan,
         "picks" => of_picks,
@@ -53,6 +54,18 @@ static READER: LazyLock<fn(&[u8]) -> Corpus> = LazyLock::new(|| {
 });
 
 fuzz_target!(|bytes: &[u8]| -> Corpus { READER(bytes) });
+
+/// A robot whose joints are numbers.
+fn of_robot(bytes: &[u8]) -> Corpus {
+    let Some(text) = text(bytes) else { return Corpus::Reject };
+    if let Ok(robot) = urdf::parse("a.urdf", text, None, None) {
+        for joint in &robot.joints {
+            let numbers = joint.range.iter().chain(&joint.axis).chain(&joint.pose.position);
+            assert!(numbers.chain([&joint.speed]).all(|number| number.is_finite()));
+        }
+    }
+    Corpus::Keep
+}
 
 /// Text alone; what is none is refused before it is read.
 fn text(bytes: &[u8]) -> Option<&str> {

@@ -4,6 +4,7 @@
 //! follows no reference to another file and bounds its entities.
 
 use crate::Error;
+use crate::store::shown;
 use plydrape::arm::{JOINTS, Joint};
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::unit;
@@ -12,6 +13,8 @@ use std::collections::BTreeMap;
 
 /// The largest file that is read (bytes).
 pub const LARGEST: u64 = 4 << 20;
+/// Letters of a name at most.
+const LONGEST_NAME: usize = 80;
 /// The range of a joint that turns without end (rad).
 const ENDLESS: f64 = 1e3;
 
@@ -98,10 +101,30 @@ pub fn parse(
             format!("{file} begins with <{}> and not with <robot>", robot.tag_name().name());
         return Err(Error::file(file, message, "name a URDF file, which describes a robot"));
     }
+    for node in robot.descendants().chain([robot]).filter(|node| {
+        node.has_tag_name("joint") || node.has_tag_name("link") || node.has_tag_name("robot")
+    }) {
+        if let Some(name) = node.attribute("name").filter(|name| !is_plain(name)) {
+            let line = document.text_pos_at(node.range().start).row;
+            let message = format!(
+                "{file}, line {line}: the name \"{}\" has other characters than letters, digits and . _ - /",
+                shown::escaped(&shown::excerpt(name, 40))
+            );
+            return Err(Error::file(
+                file,
+                message,
+                "rename it: names of joints go into programs of robots",
+            ));
+        }
+    }
     let mut reader = Reader { file, document: &document, carried: BTreeMap::new() };
     for node in children(robot, "joint") {
         let joint = reader.any_joint(node)?;
         let child = reader.link_of(node, "child")?;
+        if reader.carried.values().any(|other| other.name == joint.name) {
+            let message = format!("two joints have the name {}", joint.name);
+            return Err(reader.fault(node, message, "give each a name of its own"));
+        }
         if reader.carried.insert(child, joint).is_some() {
             return Err(reader.fault(
                 node,
@@ -144,6 +167,12 @@ pub fn parse(
     reader.arm(robot.attribute("name").unwrap_or("robot"), foot, flange)
 }
 
+/// Whether a name has what names of joints have: letters, digits and a few signs, and no more than a line of them.
+pub(crate) fn is_plain(name: &str) -> bool {
+    let sign = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
+    !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(sign)
+}
+
 fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
     node.children().filter(move |child| child.has_tag_name(name))
 }
@@ -172,10 +201,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let numbers =
             <[f64; N]>::try_from(numbers).ok().filter(|all| all.iter().all(|x| x.is_finite()));
         numbers.filter(|all| text.split_whitespace().count() == all.len()).ok_or_else(|| {
-            let message = format!(
-                "{name} = \"{}\" are not {N} numbers",
-                crate::store::shown::excerpt(text, 40)
-            );
+            let message = format!("{name} = \"{}\" are not {N} numbers", shown::excerpt(text, 40));
             self.fault(
                 node,
                 message,
@@ -432,6 +458,10 @@ mod tests {
         let round =
             robot(&["revolute"; 6]).replace("<parent link=\"base\"/>", "<parent link=\"l5\"/>");
         assert!(refused(&round).contains("r.urdf"));
+        let quoted = robot(&["revolute"; 6]).replace("\"j3\"", "'j3\"/&gt;'");
+        assert!(refused(&quoted).contains("other characters"));
+        let twice = robot(&["revolute"; 6]).replace("\"j3\"", "\"j2\"");
+        assert!(refused(&twice).contains("two joints"));
         // a text that would grow without end
         let bomb = "<!DOCTYPE r [<!ENTITY a \"aa\"><!ENTITY b \"&a;&a;\">]><robot>&b;</robot>";
         assert!(refused(bomb).contains("no XML"));

@@ -1,6 +1,7 @@
 //! What is impossible in what a result that was read says of its tool.
 
 use super::ResultFile;
+use crate::read::urdf::is_plain;
 use plydrape::arm::{Arm, Joint};
 use plydrape::geometry::vector::dot;
 use plydrape::tool::{MissingStroke, Tool};
@@ -41,13 +42,18 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     (!known).then(|| "what its motion takes of the tool is not of this tool".into())
 }
 
-/// Whether the joints of an arm turn, each about an axis within a range, and its limits are some.
+/// Whether the joints of an arm have names and turn, each about an axis within a range, and its limits are some.
 fn is_whole(arm: &Arm) -> bool {
     let turns = |joint: &Joint| {
         let length = dot(joint.axis, joint.axis);
         (length - 1.0).abs() < 1e-6 && joint.range[0] < joint.range[1] && joint.speed > 0.0
     };
-    arm.joints.iter().all(turns) && arm.reach() > 0.0 && arm.margin >= 0.0 && arm.singular >= 0.0
+    let named = [&arm.name].into_iter().chain(arm.joints.iter().map(|joint| &joint.name));
+    arm.joints.iter().all(turns)
+        && named.into_iter().all(|name| is_plain(name))
+        && arm.reach() > 0.0
+        && arm.margin >= 0.0
+        && arm.singular >= 0.0
 }
 
 /// Whether strokes hold their start, all rates are above zero, and axes of pads are at right angles.

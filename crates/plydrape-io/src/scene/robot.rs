@@ -178,7 +178,7 @@ fn from_table(
         }
         let speed = row.speed.read(document)?;
         joints.push(Joint {
-            name: format!("joint {}", n + 1),
+            name: format!("joint_{}", n + 1),
             pose: before,
             axis: [0.0, 0.0, 1.0],
             range,
