@@ -186,7 +186,7 @@ def test_robot_programs_grip_where_the_arm_stands_on_the_ply(plan: Path, tmp_pat
             if f.suffix in (".mod", ".src", ".script") and "_cell" not in f.stem
         ]
         places: list[int] = []
-        begin = text.index("MoveJ") if robot == "rapid" else 0
+        begin = text.index("MoveAbsJ") if robot == "rapid" else 0
         for pattern in expected:
             found = re.compile(pattern).search(text, places[-1] if places else begin)
             assert found, (robot, pattern)
