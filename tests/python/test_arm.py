@@ -10,6 +10,7 @@ import json
 import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -211,11 +212,7 @@ def test_programs_begin_with_the_joints_of_the_record(plan: Path, tmp_path: Path
     )
 
 
-def test_an_arm_that_is_too_far_away_is_refused_with_how_far(tmp_path: Path) -> None:
-    """A ply at four meters, which no configuration reaches: the verdict says how far it misses."""
-    scene = tmp_path / "scene.toml"
-    scene.write_text(
-        """
+SMALL = """
 [ply]
 grippers = [2, 2]
 cell = ["100 mm", "100 mm"]
@@ -225,16 +222,46 @@ spacing = ["98 mm", "98 mm"]
 height = "75 mm"
 [motion]
 kind = "hold"
-[tool]
-world = { position = ["4 m", 0, "0.5 m"] }
 [robot]
 arm = "ur20"
+[tool]
+flange = { position = [0, 0, "0.2 m"], rotation = ["180 deg", 0, 0] }
 """
+
+
+def simulated(scene: str, folder: Path) -> Any:
+    """What ``simulate`` prints of a scene."""
+    (folder / "scene.toml").write_text(scene)
+    return json.loads(
+        run("simulate", str(folder / "scene.toml"), "-o", str(folder / "out"), "--json").stdout
     )
-    told = json.loads(run("simulate", str(scene), "-o", str(tmp_path / "out"), "--json").stdout)
+
+
+def test_an_arm_that_is_too_far_away_is_refused_with_how_far(tmp_path: Path) -> None:
+    """A ply at four meters, which no configuration reaches: the verdict says how far it misses."""
+    told = simulated(SMALL + 'world = { position = ["4 m", 0, "0.5 m"] }\n', tmp_path)
     limits = {verdict["name"]: verdict for verdict in told["limits"]}
     assert not told["accepted"]
     assert not limits["arm_miss"]["ok"]
-    # the links from shoulder to flange, one behind the other, are shorter than two meters
+    # the links from shoulder to flange, one behind the other, are shorter than 2.3 meters
     assert limits["arm_miss"]["value"] > 1000 * (np.hypot(4.0, 0.5 - 0.2363) - 2.3)
     assert told["tool"]["arm"]["configurations"] == 0
+
+
+def test_links_of_the_arm_keep_clear_of_what_stands_in_the_cell(tmp_path: Path) -> None:
+    """A plate where the upper arm begins is hit by it, and five meters beside it is not."""
+    world = 'world = { position = ["0.9 m", 0, "0.3 m"] }\n'
+    plate = """
+[[obstacles]]
+name = "plate"
+box = { size = ["400 mm", "400 mm", "20 mm"] }
+position = ["-0.9 m", "SIDE", "-0.0637 m"]
+"""
+    for side, hits in (("0 m", True), ("5 m", False)):
+        folder = tmp_path / side.replace(" ", "")
+        folder.mkdir()
+        told = simulated(SMALL + world + plate.replace("SIDE", side), folder)
+        (verdict,) = (v for v in told["limits"] if v["name"] == "clearance")
+        assert "arm's" in verdict["where"] and "plate" in verdict["where"]
+        assert verdict["ok"] != hits
+        assert (verdict["value"] < 0) == hits

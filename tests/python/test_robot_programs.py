@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 import pytest
@@ -26,12 +25,6 @@ arm = "abb_irb4600_60_205"
 """
 
 
-def needs(module: str) -> pytest.MarkDecorator:
-    """A test that a package from elsewhere makes."""
-    missing = find_spec(module) is None
-    return pytest.mark.skipif(missing, reason=f"NOT RUN: `pip install {module}` first")
-
-
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """The programs of a drape by a known arm with more axes than a controller moves."""
@@ -47,7 +40,6 @@ def run(*command: str) -> str:
     return found.stdout + found.stderr
 
 
-@needs("rapidchecker")
 def test_rapidchecker_finds_no_error(programs: dict[str, Path], tmp_path: Path) -> None:
     """Neither in the program nor in the file of the cell, and an error in a broken copy."""
     files = sorted(programs["rapid"].glob("*.mod"))
@@ -60,7 +52,6 @@ def test_rapidchecker_finds_no_error(programs: dict[str, Path], tmp_path: Path) 
     assert "No RAPID format errors found" not in run("rapidchecker", str(broken))
 
 
-@needs("krllint")
 def test_krllint_finds_no_error(programs: dict[str, Path]) -> None:
     """It warns of indentation alone."""
     files = [*programs["krl"].glob("*.src"), *programs["krl"].glob("*.dat")]

@@ -10,7 +10,6 @@ use crate::{error, table};
 use plydrape::errors::{Draw, Errors};
 use plydrape::measure::Name;
 use plydrape::motion::Motion;
-use plydrape::tool::Tool;
 use plydrape_io::scene::{self, SceneFile, slow_in_seconds};
 use plydrape_io::store::{shown, size};
 use pyo3::exceptions::{PyFutureWarning, PyTypeError, PyValueError};
@@ -599,25 +598,32 @@ impl Scene {
     /// >>> scene = plydrape.Scene(**tables, robot=dict(arm="ur20"))
     /// >>> [plydrape.simulate(at).limits["arm_miss"].kept for at in (scene, scene.placed())]
     /// [False, True]
-    fn placed(&self, py: Python<'_>) -> PyResult<Scene> {
-        let scene = &self.0;
-        let Some(tool) = scene.layup.tool.as_ref().filter(|tool| tool.arm.is_some()) else {
+    /// >>> scene.placed().to_dict()["tool"]["world"]["position"] == [9, 0, 0]
+    /// False
+    #[pyo3(signature = () -> "Scene")]
+    fn placed<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let scene = &slf.get().0;
+        if scene.layup.tool.as_ref().is_none_or(|tool| tool.arm.is_none()) {
             return Err(PyValueError::new_err(
                 "no arm is known: say it in robot, as in robot=dict(arm=\"ur20\"), beside a tool",
             ));
-        };
+        }
         let clearance = scene.limits.get(Name::Clearance).unwrap_or(0.0);
-        let placement = py.detach(|| scene.layup.placement(clearance));
-        let Some(placement) = placement else {
+        let Some(placement) = py.detach(|| scene.layup.placement(clearance)) else {
             return Err(PyValueError::new_err(
                 "the arm follows from the start to the target from no place; take one with a longer reach, or ask less of it in robot",
             ));
         };
-        let tool = Tool { world: placement.world, ..tool.clone() };
-        let mut placed = (**scene).clone();
-        placed.layup.tool = Some(tool);
-        placed.input = None;
-        Ok(Scene(Arc::new(placed), Origin { motion: true, ..self.1.clone() }))
+        // as tables, so that they say where the scene stands
+        let world = PyDict::new(py);
+        world.set_item("position", placement.world.position)?;
+        world.set_item("rotation", [0.0, 0.0, placement.yaw])?;
+        let changes = PyDict::new(py);
+        let tool = PyDict::new(py);
+        tool.set_item("world", world)?;
+        changes.set_item("tool", tool)?;
+        Self::replace(slf, Some(&changes))
     }
 
     /// How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term one of

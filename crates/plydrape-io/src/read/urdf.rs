@@ -15,6 +15,8 @@ use std::collections::BTreeMap;
 pub const LARGEST: u64 = 4 << 20;
 /// Letters of a name at most.
 const LONGEST_NAME: usize = 80;
+/// The largest number that a robot has (m, rad).
+const FARTHEST: f64 = 1e4;
 /// The range of a joint that turns without end (rad).
 const ENDLESS: f64 = 1e3;
 
@@ -101,7 +103,7 @@ pub fn parse(
             format!("{file} begins with <{}> and not with <robot>", robot.tag_name().name());
         return Err(Error::file(file, message, "name a URDF file, which describes a robot"));
     }
-    for node in robot.descendants().chain([robot]).filter(|node| {
+    for node in robot.descendants().filter(|node| {
         node.has_tag_name("joint") || node.has_tag_name("link") || node.has_tag_name("robot")
     }) {
         if let Some(name) = node.attribute("name").filter(|name| !is_plain(name)) {
@@ -198,10 +200,13 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         let numbers: Vec<f64> =
             text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-        let numbers =
-            <[f64; N]>::try_from(numbers).ok().filter(|all| all.iter().all(|x| x.is_finite()));
+        let near = |x: &f64| x.abs() <= FARTHEST;
+        let numbers = <[f64; N]>::try_from(numbers).ok().filter(|all| all.iter().all(near));
         numbers.filter(|all| text.split_whitespace().count() == all.len()).ok_or_else(|| {
-            let message = format!("{name} = \"{}\" are not {N} numbers", shown::excerpt(text, 40));
+            let message = format!(
+                "{name} = \"{}\" are not {N} numbers of up to {FARTHEST}",
+                shown::excerpt(text, 40)
+            );
             self.fault(
                 node,
                 message,
@@ -371,24 +376,45 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(bodies)
     }
 
+    /// Numbers above zero of an attribute.
+    fn sizes<const N: usize>(&self, node: Node, name: &str) -> Result<[f64; N], Error> {
+        let sizes = self.numbers(node, name, None)?;
+        if sizes.iter().all(|size| *size > 0.0) {
+            return Ok(sizes);
+        }
+        let message = format!("{name} = \"{}\" is no size", node.attribute(name).unwrap_or(""));
+        Err(self.fault(node, message, "give sizes above zero in meters"))
+    }
+
     fn shape(&self, collision: Node) -> Result<Option<UrdfShape>, Error> {
         let geometry = children(collision, "geometry").next();
         let Some(node) = geometry.and_then(|node| node.children().find(Node::is_element)) else {
             return Ok(None);
         };
         Ok(match node.tag_name().name() {
-            "cylinder" | "capsule" => {
+            "cylinder" => {
                 let ([radius], [length]) =
-                    (self.numbers(node, "radius", None)?, self.numbers(node, "length", None)?);
+                    (self.sizes(node, "radius")?, self.sizes(node, "length")?);
                 Some(UrdfShape::Cylinder { radius, length })
+            }
+            // with its round ends, which are beyond the length
+            "capsule" => {
+                let ([radius], [length]) =
+                    (self.sizes(node, "radius")?, self.sizes(node, "length")?);
+                Some(UrdfShape::Cylinder { radius, length: length + 2.0 * radius })
             }
             // as the cube around it
             "sphere" => {
-                self.numbers(node, "radius", None).map(|[r]| Some(UrdfShape::Box([2.0 * r; 3])))?
+                let [radius] = self.sizes(node, "radius")?;
+                Some(UrdfShape::Box([2.0 * radius; 3]))
             }
-            "box" => Some(UrdfShape::Box(self.numbers(node, "size", None)?)),
+            "box" => Some(UrdfShape::Box(self.sizes(node, "size")?)),
             "mesh" => {
                 let scale = self.numbers(node, "scale", Some([1.0; 3]))?;
+                if scale.contains(&0.0) {
+                    let help = "give a scale of each axis, as in scale=\"0.001 0.001 0.001\"";
+                    return Err(self.fault(node, "its scale has a zero".into(), help));
+                }
                 node.attribute("filename").map(|name| UrdfShape::Mesh(name.into(), scale))
             }
             _ => None,
@@ -462,6 +488,10 @@ mod tests {
         assert!(refused(&quoted).contains("other characters"));
         let twice = robot(&["revolute"; 6]).replace("\"j3\"", "\"j2\"");
         assert!(refused(&twice).contains("two joints"));
+        let flat = robot(&["revolute"; 6]).replace("radius=\"0.1\"", "radius=\"-0.1\"");
+        assert!(refused(&flat).contains("no size"));
+        let far = robot(&["revolute"; 6]).replace("0 0 0.3", "0 0 1e300");
+        assert!(refused(&far).contains("1e300"));
         // a text that would grow without end
         let bomb = "<!DOCTYPE r [<!ENTITY a \"aa\"><!ENTITY b \"&a;&a;\">]><robot>&b;</robot>";
         assert!(refused(bomb).contains("no XML"));

@@ -141,7 +141,13 @@ fn placed(
             let (mesh, _) =
                 mesh_file(&whole, Some(&meters), &purpose, &Pose::ORIGIN, document, Path::new(""))?;
             let scaled = |p: &[f64; 3]| [0, 1, 2].map(|n| scale[n] * p[n]);
-            (mesh.vertices().iter().map(scaled).collect(), mesh.triangles().to_vec())
+            // a mirrored mesh is turned inside out
+            let turned = |[a, b, c]: &[u32; 3]| match scale.iter().product::<f64>() < 0.0 {
+                true => [*a, *c, *b],
+                false => [*a, *b, *c],
+            };
+            let triangles = mesh.triangles().iter().map(turned).collect();
+            (mesh.vertices().iter().map(scaled).collect(), triangles)
         }
     };
     let vertices = vertices.iter().map(|p| body.pose.place(*p)).collect();

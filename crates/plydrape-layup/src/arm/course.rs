@@ -109,15 +109,8 @@ impl Arm {
     /// `None` without poses.
     #[must_use]
     pub fn course(&self, times: &[f64], poses: &[Pose], apart: &[usize]) -> Option<ArmCourse> {
-        let mut starts = self.configurations(poses.first()?);
+        let starts = self.configurations(poses.first()?);
         let configurations = starts.iter().filter(|start| start.reaches()).count();
-        if let Some(wished) = &self.start {
-            let off = |found: &Found| -> f64 {
-                found.angles.iter().zip(wished).map(|(a, b)| 1.0 - (a - b).cos()).sum()
-            };
-            starts.sort_by(|a, b| off(a).total_cmp(&off(b)));
-            starts.truncate(1);
-        }
         let courses: Vec<ArmCourse> = starts
             .par_iter()
             .map(|start| {
@@ -128,7 +121,14 @@ impl Arm {
             })
             .collect();
         let keeping = courses.iter().filter(|course| course.peaks.keeps(self)).count();
-        let worth = |course: &ArmCourse| course.peaks.worth(self, &course.angles[0]);
+        // how near it begins to where it shall, and else how good it is
+        let worth = |course: &ArmCourse| match &self.start {
+            Some(start) => {
+                let turned = course.angles[0].iter().zip(start).map(|(a, b)| (a - b).cos());
+                [turned.sum(), 0.0, 0.0, 0.0]
+            }
+            None => course.peaks.worth(self, &course.angles[0]),
+        };
         // of two that are as good the first found stays
         let best = courses.into_iter().reduce(|best, next| {
             if worth(&next).partial_cmp(&worth(&best)).is_some_and(|order| order.is_gt()) {

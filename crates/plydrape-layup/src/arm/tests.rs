@@ -159,7 +159,8 @@ fn a_course_finds_the_angles_of_its_motion() {
     assert!((peaks.margin.time - 1.0).abs() < 1e-12);
     // from rest to half a radian a second within half a sample
     assert!((peaks.acceleration.value - 0.5 / 0.005).abs() < 1e-3, "{peaks:?}");
-    assert_eq!(course.keeping, 1);
+    // others that begin elsewhere are counted too
+    assert!((1..=course.configurations).contains(&course.keeping), "{}", course.keeping);
 }
 
 /// A joint of several turns is wound so that it stays within its range, and one that cannot says how far it is beyond its end.

@@ -2,6 +2,7 @@
 
 use super::Layup;
 use crate::Error;
+use crate::arm::ArmRecord;
 use crate::geometry::rotation::quaternion;
 use crate::motion::Motion;
 use crate::tool::{Carried, ToolRecord};
@@ -15,6 +16,17 @@ impl Layup {
         let Carried { positions, record, .. } = tool.carry(&self.motion.positions);
         let motion = Motion { times: self.motion.times.clone(), positions };
         (Cow::Owned(Layup { motion, ..self.clone() }), Some(record))
+    }
+
+    /// The layup whose arm begins in the configuration of a record; as it is without one.
+    #[must_use]
+    pub fn beginning_as(&self, record: Option<&ArmRecord>) -> Cow<'_, Layup> {
+        match (&self.tool, record) {
+            (Some(tool), Some(record)) => {
+                Cow::Owned(Layup { tool: Some(tool.beginning_as(record)), ..self.clone() })
+            }
+            _ => Cow::Borrowed(self),
+        }
     }
 
     /// Refuses a motion in which the frame of the tool tips over.

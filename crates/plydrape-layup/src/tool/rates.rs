@@ -51,21 +51,6 @@ impl Tool {
         Ok(self.rates(&times, &postures, &all))
     }
 
-    /// The arm along a motion as it is written, at a rate (Hz); `None` where it is not known.
-    ///
-    /// # Errors
-    /// The errors of [`TimedMotion::samples`].
-    pub fn arm_course(&self, motion: &TimedMotion, rate: f64) -> Result<Option<ArmCourse>, Error> {
-        if self.arm.is_none() {
-            return Ok(None);
-        }
-        let times = motion.samples(rate)?;
-        let postures: Vec<Posture> =
-            times.par_iter().map(|t| self.posture(&motion.at(*t))).collect();
-        let all: Vec<usize> = (0..times.len()).collect();
-        Ok(self.arm_along(&times, &postures, &all))
-    }
-
     /// The arm along postures of the tool at ascending times (s); its angular acceleration is taken between the times `apart`, by their
     /// index. `None` where the arm is not known.
     #[must_use]

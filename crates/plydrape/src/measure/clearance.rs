@@ -55,6 +55,9 @@ impl Measure for Clearance {
         if layup.bodies.is_empty() {
             return None;
         }
+        // of the arm in the configuration in which it is judged
+        let record = whole.tool.and_then(|peaks| peaks.arm_record);
+        let layup = &layup.beginning_as(record.as_ref());
         let nearest = match (motion, whole.attitudes) {
             (Course::Smooth(motion), Some(attitudes)) => {
                 Nearest::of_motion(layup, least(limits), rate, motion, attitudes)?

@@ -152,8 +152,6 @@ impl Decision {
         if let Some(cycle) = &self.cycle {
             cycle.delay(scene, &mut self.decided.drape, &whole);
             self.decided.attitudes = outcome::attitudes(&self.decided.drape.steps)?;
-            let clearance = clearance(scene, &whole, &self.decided.attitudes);
-            self.decided.drape.summary.judge_also(clearance);
         }
         let Decision { asked, decided, .. } = self;
         let motion = &whole;

@@ -190,8 +190,10 @@ impl<'a> Replanner<'a> {
                 let times = [motion.times()[last_free], motion.duration()];
                 let attitudes = attitudes(&steps).map_err(Error::ReplanMotion)?;
                 let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+                // the arm keeps the configuration of the plan
+                let arm = summary.tool.as_ref().and_then(|tool| tool.arm);
                 Nearest::of_motion_within(
-                    &scene.layup,
+                    &scene.layup.beginning_as(arm.as_ref()),
                     least,
                     scene.plan.rate,
                     &motion,

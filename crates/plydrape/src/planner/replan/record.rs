@@ -175,8 +175,9 @@ impl Outcome<'_> {
         let below = landing.map_or(f64::INFINITY, |nearest| nearest.distance);
         let times = [0.0, until];
         let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+        let arm = self.tool.and_then(|peaks| peaks.arm_record);
         let way = Nearest::of_motion_within(
-            &scene.layup,
+            &scene.layup.beginning_as(arm.as_ref()),
             least,
             self.motion.fitting_rate(scene.plan.rate),
             self.motion,
