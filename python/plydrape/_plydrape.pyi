@@ -2248,6 +2248,8 @@ class Scene:
         >>> scene = plydrape.Scene(**tables, robot=dict(arm="ur20"))
         >>> [plydrape.simulate(at).limits["arm_miss"].kept for at in (scene, scene.placed())]
         [False, True]
+        >>> scene.placed().to_dict()["tool"]["world"]["position"] == [9, 0, 0]
+        False
         """
     @property
     def ply(self, /) -> Ply:

@@ -55,7 +55,9 @@ impl Layup {
         for far in FAR {
             for high in HIGH {
                 for n in 0..TURNS {
-                    let yaw = TAU * f64::from(n) / f64::from(TURNS);
+                    // half a turn to either side
+                    let share = f64::from(n) / f64::from(TURNS);
+                    let yaw = TAU * (share - share.round());
                     let turned = Pose::new([0.0; 3], [0.0, 0.0, yaw]);
                     let origin = sub([far * reach, 0.0, high * reach], turned.turn(middle));
                     let step = 10.0_f64.powf((reach / ROUND).log10().floor());
