@@ -138,6 +138,40 @@ def ramp(draw: Draw) -> Mold:
     return draw.formula(f"{s * w:.6g}*tanh(x/{w:.6g})", lambda x, _: s * w * math.tanh(x / w))
 
 
+def hat(draw: Draw) -> Mold:
+    """A crest between two smooth steps, as a stringer has it with its fillets."""
+    s = math.tan(draw.slope)
+    w = max(0.77 * s / draw.bend, draw.rng.uniform(0.2, 0.6) * draw.reach)
+    a = w * draw.rng.uniform(1.0, 2.5)
+    k = s * w
+
+    def local(x: float, _: float) -> float:
+        return k * (math.tanh((x + a) / w) - math.tanh((x - a) / w))
+
+    return draw.formula(
+        f"{k:.6g}*(tanh((x + {a:.6g})/{w:.6g}) - tanh((x - {a:.6g})/{w:.6g}))", local
+    )
+
+
+def cone(draw: Draw) -> Mold:
+    """A cone about z; the ply is so far from its tip that no cell turns too far."""
+    s = math.tan(draw.slope)
+    r = 1.5 * draw.half + draw.rng.uniform(1.0, 3.0) * s / draw.bend
+    return draw.formula(
+        f"{s:.6g}*({r:.6g} - sqrt((x + {r:.6g})^2 + y^2))",
+        lambda x, y: s * (r - math.hypot(x + r, y)),
+    )
+
+
+def blade(draw: Draw) -> Mold:
+    """A cambered surface that turns along itself, as a blade does."""
+    k = 0.6 * draw.curvature * draw.rng.choice((-1.0, 1.0))
+    c = 0.6 * draw.curvature * draw.rng.choice((-1.0, 1.0))
+    return draw.formula(
+        f"{k:.6g}*x*y + {c / 2.0:.6g}*y^2", lambda x, y: k * x * y + c * y * y / 2.0
+    )
+
+
 def ellipsoid(draw: Draw) -> Mold:
     """The top of an ellipsoid with three axes; its square lies well within."""
     a, b = (draw.half / 0.64 * draw.rng.uniform(1.0, 1.5) for _ in range(2))
@@ -215,6 +249,9 @@ FAMILIES: dict[str, Callable[[Draw], Mold]] = {
     "waves": waves,
     "twist": twist,
     "ramp": ramp,
+    "hat": hat,
+    "cone": cone,
+    "blade": blade,
     "ellipsoid": ellipsoid,
     "torus": torus,
     "mesh": mesh,

@@ -19,8 +19,8 @@ MAX_SHEAR_DEG = 30.0
 MAX_TILT_DEG = 30.0
 """Largest tilt of a gripper at its target (degrees); its joint tilts by 40."""
 
-STEP = 0.01
-"""Step of the differences that give a slope, of the shorter side of a cell."""
+STEP = 5e-4
+"""Step of the differences that give a slope (m)."""
 
 
 class RefusedError(Exception):
@@ -63,7 +63,7 @@ class Plydrape:
         """Refuses what `check` refuses. It may warn of straight ways, which no plan follows."""
         self.run("check", str(scene))
 
-    def drape(self, scene: Path, ply: Array, height: Height) -> Drape:
+    def drape(self, scene: Path, ply: Array | None, height: Height) -> Drape:
         """The ideal drape; refused if there is none, or if it shears or tilts too much."""
         folder = scene.with_suffix(".net")
         done = self.run("net", str(scene), "-o", str(folder), "--json")
@@ -77,18 +77,24 @@ class Plydrape:
         return drape
 
 
-def read(table: Path, printed: dict[str, float], ply: Array, height: Height) -> Drape:
-    """The ideal drape from its nodes; every gripper holds one of them."""
+def read(table: Path, printed: dict[str, float], ply: Array | None, height: Height) -> Drape:
+    """The ideal drape from its nodes; every gripper of an array holds one of them.
+
+    Of a ply that is cut any node may be under a gripper.
+    """
     heights, grippers = [], []
     with table.open(newline="") as file:
         for row in csv.DictReader(file):
             heights.append(float(row["z"]))
-            cells = (float(row["u"]) / ply.cell[0], float(row["v"]) / ply.cell[1])
+            cells = [
+                float(row[axis]) / side
+                for axis, side in zip("uv", ply.cell if ply else (), strict=False)
+            ]
             if all(abs(share - round(share)) < 1e-6 for share in cells):
                 grippers.append((float(row["x"]), float(row["y"])))
-    assert len(grippers) == ply.grippers[0] * ply.grippers[1]
+    assert ply is None or len(grippers) == ply.grippers[0] * ply.grippers[1]
     x, y = (sum(axis) / len(grippers) for axis in zip(*grippers, strict=True))
-    step = STEP * min(ply.cell)
+    step = STEP
     return Drape(
         shear_deg=printed["max_shear_deg"],
         tilt_deg=max(slope(height, place, step) for place in grippers),

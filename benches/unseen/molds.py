@@ -1,8 +1,7 @@
 """Molds of random scenes: what every family draws, and the pose of a mold.
 
 A family draws the slope that its surface shall have near the array's corners and takes its
-curvature from it, bounded by how far a mold may turn along one cell. All lengths follow from the
-array, so that a scaled array has a scaled mold.
+curvature from it, bounded by how far a mold may turn along one cell.
 """
 
 from __future__ import annotations
@@ -130,7 +129,7 @@ class Draw:
 
     def place(self) -> Vector:
         """Position of a mold (m)."""
-        x, y, z = (self.near(size * self.array.scale) for size in PLACE)
+        x, y, z = (self.near(size) for size in PLACE)
         return x, y, z
 
     def posed(

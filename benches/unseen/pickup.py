@@ -66,7 +66,7 @@ class PickUp:
     def keys(self, ply: Array) -> dict[str, str]:
         """The table `[grippers]`."""
         spacing = [(1.0 - slack) * side for slack, side in zip(self.slack, ply.cell, strict=True)]
-        keys = {
+        keys: dict[str, str] = {
             "spacing": f"[{length(spacing[0])}, {length(spacing[1])}]",
             "height": length(self.height),
         }
@@ -99,12 +99,14 @@ class Rectangle:
         return max((h for h in heights if not math.isnan(h)), default=math.nan)
 
 
-def pick_up(rng: random.Random, ply: Array, mold: Mold, drape: Drape, heading: float) -> PickUp:
-    """A random one for a target's heading (degrees)."""
+def pick_up(
+    rng: random.Random, ply: Array, mold: Mold, drape: Drape, heading: float, *, above: bool
+) -> PickUp:
+    """A random one for a target's heading (degrees), or one `above` it."""
     slack = (1.0 - rng.uniform(*SPACING), 1.0 - rng.uniform(*SPACING))
     cell = max(ply.cell)
     clear = SAG * math.sqrt(max(slack)) * cell
-    if rng.random() < ABOVE:
+    if rng.random() < ABOVE or above:
         below = Rectangle(ply, slack, heading).height_below(mold, drape.middle)
         lift = rng.uniform(max(HEIGHT[0] * cell, clear), HEIGHT[1] * cell)
         return PickUp("above", slack, max(drape.top, below) + lift)
@@ -113,7 +115,7 @@ def pick_up(rng: random.Random, ply: Array, mold: Mold, drape: Drape, heading: f
     for _ in range(100):
         turned = heading + rng.uniform(-TURN_DEG, TURN_DEG)
         away = rng.uniform(1.0, 2.0) * ply.reach + rng.uniform(0.0, 4.0) * cell
-        away = min(away, FARTHEST * ply.scale)
+        away = min(away, FARTHEST)
         towards = rng.uniform(0.0, 2.0 * math.pi)
         x = drape.middle[0] + away * math.cos(towards)
         y = drape.middle[1] + away * math.sin(towards)

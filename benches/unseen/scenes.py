@@ -20,12 +20,15 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
+from blanks import blank
+from cells import cell
 from families import FAMILIES
 from ideal import Plydrape, RefusedError
 from molds import Draw, Mold
 from pickup import pick_up
-from plies import SIZES, array, material, scaled, target
-from units import length, table
+from plies import SIZES, array
+from targets import target
+from units import table
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -37,8 +40,8 @@ class Task:
     seed: int
     sizes: list[str]
     """Size classes of the arrays."""
-    scale: float
-    """Of all lengths."""
+    world: str = "usual"
+    """The cell: "usual", with real plies, or "ideal", with the paper's ply in the same scenes."""
 
 
 @dataclass(frozen=True)
@@ -70,19 +73,23 @@ def scene(task: Task, index: int, program: Plydrape, refused: Counter[str]) -> S
 
 def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydrape) -> Scene:
     """One draw; refused if nobody can lay it."""
-    size, ply = array(rng, task.sizes, task.scale)
+    size, ply = array(rng, task.sizes)
+    fabric, world = blank(rng, ply), cell(rng, task.world)
     mold = FAMILIES[family](Draw(rng, ply))
-    heading, aim = target(rng, ply, mold.middle, mold.shear_deg)
+    heading, aim = target(rng, ply, fabric, mold.middle, mold.shear_deg)
     tables = {
-        "ply": {
-            "grippers": f"[{ply.grippers[0]}, {ply.grippers[1]}]",
-            "cell": f"[{length(ply.cell[0])}, {length(ply.cell[1])}]",
-            "material": '"krogh2018"',
-        },
+        "cell": {"preset": f'"{world.preset}"'},
+        "ply": {**fabric.keys, "material": f'"{world.material}"'},
         "mold": {key: value.replace("{name}", name) for key, value in mold.keys.items()},
         "target": aim,
+        "contact": {"friction": world.friction},
     }
-    title = f"Unseen {name}: {family}, {ply.grippers[0]} × {ply.grippers[1]} grippers"
+    if world.keys:
+        del tables["ply"]["material"]
+        tables["ply.material"] = world.keys
+    title = (
+        f"Unseen {name}: {family}, {fabric.name}, {ply.grippers[0]} × {ply.grippers[1]} grippers"
+    )
 
     def text() -> str:
         return f'title = "{title}"\n' + "".join(table(*each) for each in tables.items())
@@ -91,24 +98,20 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
         path = Path(folder) / f"{name}.toml"
         path.with_suffix(".stl").write_bytes(mold.mesh)
         path.write_text(text(), encoding="utf-8")
-        drape = program.drape(path, ply, mold.height)
-        start, kind = pick_up(rng, ply, mold, drape, heading), "krogh2018"
-        if task.scale == 1.0:
-            kind = material(rng, drape.shear_deg)
-            tables["ply"]["material"] = f'"{kind}"'
-        else:
-            del tables["ply"]["material"]
-            tables.update(scaled(task.scale))
-        tables["grippers"] = start.taut(kind).keys(ply)
+        drape = program.drape(path, None if fabric.first else ply, mold.height)
+        start = pick_up(rng, ply, mold, drape, heading, above=fabric.first is not None)
+        tables["grippers"] = start.taut(world.material).keys(ply)
         path.write_text(text(), encoding="utf-8")
         program.check(path)
     row = {
         "scene": name,
         "family": family,
         "size": size,
+        "ply": fabric.name,
         "grippers": f"{ply.grippers[0]} × {ply.grippers[1]}",
         "cell (mm)": " × ".join(f"{1e3 * side:.6g}" for side in ply.cell),
-        "material": kind,
+        "material": world.material,
+        "friction": world.friction.strip('"'),
         "start": start.name,
         "shear (deg)": f"{drape.shear_deg:.2f}",
         "tilt (deg)": f"{drape.tilt_deg:.2f}",
@@ -141,10 +144,10 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("-o", "--output", type=Path, required=True, help="folder of the scenes")
     parser.add_argument("--sizes", nargs="+", choices=SIZES, default=list(SIZES))
-    parser.add_argument("--scale", type=float, default=1.0, help="of all lengths")
+    parser.add_argument("--world", choices=["usual", "ideal"], default="usual", help="of the cell")
     parser.add_argument("--plydrape", type=Path, default=ROOT / "target" / "release" / "plydrape")
     options = parser.parse_args()
-    task = Task(options.seed, options.sizes, options.scale)
+    task = Task(options.seed, options.sizes, options.world)
     refused = write(task, options.count, options.output, Plydrape(options.plydrape.resolve()))
     reasons = ", ".join(f"{reason} ({count})" for reason, count in sorted(refused.items()))
     print(f"{options.count} scenes; {refused.total()} drawn again: {reasons}", file=sys.stderr)

@@ -24,9 +24,15 @@ const MOST_DIVISIONS: usize = 1000;
 /// A length divides another if the quotient is this close to a whole number.
 const WHOLE: f64 = 1e-9;
 
-/// Lengths of the fabric between the outermost grippers along u and along v (m).
+/// Lengths of the fabric along u and along v (m): between the outermost grippers, or of all of a ply that is cut.
 pub(super) fn extent(ply: &Ply) -> [f64; 2] {
-    [(ply.grid.nu - 1) as f64 * ply.cell[0], (ply.grid.nv - 1) as f64 * ply.cell[1]]
+    match &ply.cut {
+        Some(cut) => {
+            let [low, high] = cut.outline.bounds();
+            [high[0] - low[0], high[1] - low[1]]
+        }
+        None => [(ply.grid.nu - 1) as f64 * ply.cell[0], (ply.grid.nv - 1) as f64 * ply.cell[1]],
+    }
 }
 
 /// What `[target]` has searched for.

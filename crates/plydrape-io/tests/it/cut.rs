@@ -55,6 +55,23 @@ fn the_cups_bear_the_weight_of_what_is_cut_out() {
     }
 }
 
+/// A formula is looked at as far as the ply reaches, also of one without a whole array: a level formula is a plane.
+#[test]
+fn a_ply_with_a_cup_off_lies_on_a_formula_as_on_a_plane() {
+    let ply = "size = [0.24, 0.14]\ngrippers = [3, 2]\ncell = [0.1, 0.1]\narray = { holds = [\"###\", \"##.\"] }";
+    let on = |mold: &str| {
+        let rest = format!(
+            "[mold]\n{mold}\n[motion]\nkind = \"straight\"\nsteps = 2\n[target]\nseed = \"middle\"\n"
+        );
+        parse(ply, &rest).layup.target.unwrap().grippers
+    };
+    let (plane, formula) = (on("kind = \"plane\""), on("kind = \"formula\"\nz = \"0*x\""));
+    assert_eq!(plane.len(), 5);
+    for (a, b) in plane.iter().zip(&formula) {
+        assert!(distance(*a, *b) < 1e-9, "{a:?} {b:?}");
+    }
+}
+
 /// The drawing may lie anywhere: turned and moved with its array and its warp, the ply and its cups are the same.
 #[test]
 fn a_drawing_may_lie_anywhere() {
