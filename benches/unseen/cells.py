@@ -17,6 +17,9 @@ BETWEEN = {
 }
 """Keys of a material between those, with least and largest value and unit; logarithms are even."""
 
+WORLDS = ("usual", "ideal")
+"""Real plies in a usual cell, and the paper's ply in an ideal one."""
+
 FRICTIONS = ('"stick"', '"stick"', "0.3", "0.6")
 """How plies stick: a half does, a quarter each slides by a coefficient of friction."""
 

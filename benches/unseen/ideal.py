@@ -23,6 +23,10 @@ STEP = 5e-4
 """Step of the differences that give a slope (m)."""
 
 
+CRASH = 101
+"""Exit code of a program that panics."""
+
+
 class RefusedError(Exception):
     """A draw that is no fair task, with the reason."""
 
@@ -51,10 +55,15 @@ class Plydrape:
         self.program = program
 
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Runs it; above exit code 1 the scene is refused, and why is printed."""
+        """Runs it; above exit code 1 the scene is refused, and why is printed.
+
+        A program that crashes is no judge: its scene is not drawn again.
+        """
         command = [str(self.program), *arguments]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode > 1 or done.returncode < 0:
+        if done.returncode < 0 or done.returncode == CRASH:
+            raise RuntimeError(f"{' '.join(command)} crashed:\n{done.stderr}")
+        if done.returncode > 1:
             sys.stderr.write(done.stderr)
             raise RefusedError(f"exit {done.returncode} of {arguments[0]}")
         return done

@@ -1,11 +1,11 @@
-"""Plans random scenes one after the other and says how many the sheet accepts.
+"""`scripts/unseen`: plans random scenes one after the other and says how many are accepted.
 
-Writes one row a scene to plans.csv in the folder of the scenes, as soon as it is planned, and
-prints tables in Markdown: the share accepted and the times by family and by size, what stopped the
-others, and apart from these every scene whose program crashed, printed a NaN or ended with another
-exit code than 0 or 1.
-
-    python benches/unseen/run.py /tmp/unseen --timeout 600
+Draws the scenes of a seed into a folder, unless they are there, and writes one row a scene to
+plans.csv as soon as it is planned; what has a row is not planned again. Prints a line a scene, and
+at the end tables in Markdown: the share accepted and the times by family, size, ply, material and
+start, what stopped the others, and apart from these every scene whose program crashed, printed a
+NaN or ended with another exit code than 0 or 1. With --keep they become the result in the
+repository.
 """
 
 from __future__ import annotations
@@ -13,17 +13,25 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 from typing import Any
 
+from cells import WORLDS
+from ideal import Plydrape
+from plies import SIZES
+from scenes import Task, drawn_again, write
 from summary import tables
 
-ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 
 GRACE = 60.0
 """Time that a plan which is asked to end may take to write its best (s)."""
@@ -130,39 +138,68 @@ def read(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
+def keep(text: str, command: str, drawn: str) -> None:
+    """Makes tables the result in the repository, with how they were made."""
+    from subprocess import run as git
+
+    state = git(
+        ["git", "describe", "--always", "--dirty"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    head = f"# The last run of `scripts/unseen`\n\n`{command}`, {date.today()}, "
+    head += f"{state.stdout.strip() or 'no commit'}, {os.cpu_count()} cores. {drawn}\n\n"
+    (HERE / "result.md").write_text(head + text, encoding="utf-8")
+
+
 def main() -> None:
-    """Plans the scenes of the command line."""
-    parser = argparse.ArgumentParser(description="Plans random scenes, and says how they end.")
-    parser.add_argument("folder", type=Path, help="folder that scenes.py wrote")
-    parser.add_argument("--plydrape", type=Path, default=ROOT / "target" / "release" / "plydrape")
+    """Draws and plans the scenes of the command line."""
+    parser = argparse.ArgumentParser("scripts/unseen", description=__doc__.partition("\n")[0])
+    parser.add_argument("--seed", type=int, required=True, help="of all scenes")
+    parser.add_argument("--count", type=int, default=100, help="number of scenes")
+    parser.add_argument("--world", choices=WORLDS, default="usual", help="the cell and its plies")
+    parser.add_argument("--sizes", nargs="+", choices=SIZES, default=list(SIZES), help="of arrays")
+    parser.add_argument("--only", nargs="+", help="plan these numbers or families alone")
     parser.add_argument("--timeout", type=float, default=900.0, help="seconds a scene")
-    parser.add_argument("--only", nargs="+", help="numbers or families of scenes")
-    parser.add_argument("--resume", action="store_true", help="keep the rows of an earlier run")
-    parser.add_argument("-o", "--output", type=Path, help="table; plans.csv in the folder")
+    parser.add_argument("--plydrape", type=Path, help="$PLYDRAPE or the release build unless given")
+    parser.add_argument("-o", "--output", type=Path, help="folder of scenes and rows")
+    parser.add_argument("--keep", action="store_true", help="make this the repository's result")
     options = parser.parse_args()
-    program = str(options.plydrape.resolve())
-    output = options.output or options.folder / "plans.csv"
-    rows = read(output) if options.resume and output.is_file() else []
+    program = options.plydrape or Path(os.environ.get("PLYDRAPE", ROOT / "target/release/plydrape"))
+    program = program.resolve()
+    folder = options.output or ROOT / "target" / "unseen" / f"{options.world}-{options.seed}"
+
+    # scenes do not depend on how many there are, so more of them are the same ones and others
+    table, again = folder / "scenes.csv", folder / "drawn_again.txt"
+    if not table.is_file() or len(read(table)) < options.count:
+        task = Task(options.seed, options.sizes, options.world)
+        again.write_text(
+            drawn_again(options.count, write(task, options.count, folder, Plydrape(program)))
+        )
+
+    rows = read(folder / "plans.csv") if (folder / "plans.csv").is_file() else []
     planned = {row["scene"] for row in rows}
-    for scene in read(options.folder / "scenes.csv"):
+    for scene in read(table)[: options.count]:
         name = scene["scene"]
         wanted = not options.only or {name, scene["family"]} & set(options.only)
         if name in planned or not wanted:
             continue
-        with tempfile.TemporaryDirectory() as folder:
-            command = [program, "plan", str(options.folder / f"{name}.toml"), "-o", folder]
+        with tempfile.TemporaryDirectory() as results:
+            command = [str(program), "plan", str(folder / f"{name}.toml"), "-o", results]
             row = row_of(scene, run([*command, "--json", "--quiet"], options.timeout))
         rows.append(row)
-        with output.open("w", newline="", encoding="utf-8") as file:
+        with (folder / "plans.csv").open("w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, list(row))
             writer.writeheader()
             writer.writerows(rows)
         limit = f"{row['limit']} {row['value']} {row['unit']}".strip()
-        print(
-            f"{name} {row['family']}: {row['result']}, {row['time (s)']} s, {limit}",
-            file=sys.stderr,
-        )
-    print(tables(rows))
+        print(f"{name} {row['family']}: {row['result']}, {row['time (s)']} s, {limit}", flush=True)
+    text = tables(rows)
+    print(text)
+    if options.keep:
+        keep(text, f"scripts/unseen {shlex.join(sys.argv[1:])}", again.read_text())
 
 
 if __name__ == "__main__":

@@ -4,17 +4,13 @@ Writes N scenes (000.toml, 001.toml, ...) and scenes.csv, a table of them. The s
 same bytes, and a scene does not depend on how many are written. Families of molds take turns. A
 draw that nobody can lay is drawn again, which is counted by reason: the ideal drape of
 `plydrape net` has to exist, to shear by at most 30 degrees and to tilt no gripper by more than 30
-degrees, and `plydrape check` has to read the scene.
-
-    python benches/unseen/scenes.py --seed 7 --count 100 -o /tmp/unseen
+degrees, and `plydrape check` has to read the scene. No planner is asked.
 """
 
 from __future__ import annotations
 
-import argparse
 import csv
 import random
-import sys
 import tempfile
 from collections import Counter
 from dataclasses import dataclass
@@ -26,11 +22,9 @@ from families import FAMILIES
 from ideal import Plydrape, RefusedError
 from molds import Draw, Mold
 from pickup import pick_up
-from plies import SIZES, array
+from plies import array
 from targets import target
 from units import table
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @dataclass(frozen=True)
@@ -137,21 +131,7 @@ def write(task: Task, count: int, folder: Path, program: Plydrape) -> Counter[st
     return refused
 
 
-def main() -> None:
-    """Writes the scenes of the command line."""
-    parser = argparse.ArgumentParser(description="Random scenes that no example shows.")
-    parser.add_argument("--seed", type=int, required=True)
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("-o", "--output", type=Path, required=True, help="folder of the scenes")
-    parser.add_argument("--sizes", nargs="+", choices=SIZES, default=list(SIZES))
-    parser.add_argument("--world", choices=["usual", "ideal"], default="usual", help="of the cell")
-    parser.add_argument("--plydrape", type=Path, default=ROOT / "target" / "release" / "plydrape")
-    options = parser.parse_args()
-    task = Task(options.seed, options.sizes, options.world)
-    refused = write(task, options.count, options.output, Plydrape(options.plydrape.resolve()))
-    reasons = ", ".join(f"{reason} ({count})" for reason, count in sorted(refused.items()))
-    print(f"{options.count} scenes; {refused.total()} drawn again: {reasons}", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    main()
+def drawn_again(count: int, refused: Counter[str]) -> str:
+    """How many scenes were drawn, and how many drawn again for which reason, in a sentence."""
+    reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(refused.items()))
+    return f"{count} scenes; {refused.total()} drawn again{': ' if reasons else ''}{reasons}."

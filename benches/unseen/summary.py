@@ -9,6 +9,9 @@ Row = dict[str, str]
 
 ACCEPTED, FAILED = "accepted", "failed"
 
+COLUMNS = ("family", "size", "ply", "material", "friction", "start")
+"""By which scenes are counted."""
+
 
 def markdown(head: list[str], rows: list[list[str]]) -> str:
     """A table; nothing where there is no row."""
@@ -36,7 +39,7 @@ def largest(rows: list[Row], column: str, digits: int) -> str:
 def groups(rows: list[Row], column: str) -> str:
     """Share and times by the values of a column, and of all scenes."""
     names = list(dict.fromkeys(row[column] for row in rows))
-    if column == "family":
+    if column != "size":
         names.sort()
     parts = [(name, [row for row in rows if row[column] == name]) for name in names]
     head = [column, "accepted", "median (s)", "worst (s)", "median drapes", "memory (MB)"]
@@ -61,7 +64,7 @@ def tables(rows: list[Row]) -> str:
     refused = [row for row in rows if row["result"] not in (ACCEPTED, FAILED)]
     failed = [row for row in rows if row["result"] == FAILED]
     text = f"{share(rows)} scenes accepted\n"
-    text += "".join(f"\n{groups(rows, column)}" for column in ("family", "size", "start"))
+    text += "".join(f"\n{groups(rows, column)}" for column in COLUMNS)
     stopped = Counter(row["limit"] or row["result"] for row in refused)
     if refused:
         text += "\nWhat stopped the others: "
