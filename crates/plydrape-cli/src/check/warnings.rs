@@ -59,14 +59,14 @@ fn overhang(scene: &SceneFile) -> Option<String> {
     });
     let ruck = ruck.max_by(|a, b| a.height().total_cmp(&b.height()))?;
     let [height, angle] = [Name::Height, Name::OutOfPlane].map(|name| scene.limits.most(name));
-    // the height goes as the fourth power of the edge, the slope as the third
+    // the height goes as the fourth power of the edge, the slope as the third; a length of three digits is said, which is not warned of
     let share = (height / ruck.height()).powf(0.25).min((angle / ruck.steepest()).cbrt());
     (share < 1.0).then(|| {
         format!(
             "the ply reaches up to {} mm beyond the middles of its outer cups. This edge hangs lower than its cup, touches the mold first, and sticks short of its place: a fold of some {} mm stays beside the cup, where the limits allow what an edge of {} mm leaves. Cut the ply closer, or move the cups outwards",
             millimeters(rounded(beyond)),
             millimeters(rounded(ruck.height().min(free))),
-            millimeters(rounded(share * free + layup.settings.pad.radius))
+            millimeters(rounded(0.995 * (share * free + layup.settings.pad.radius)))
         )
     })
 }

@@ -79,8 +79,8 @@ impl ToolRecord {
     /// before.
     fn miss(&mut self, off: [f64; 3], axes: &[Axis], gripper: usize, step: usize) {
         for (n, axis) in axes.iter().enumerate() {
-            let [needs_mm, has_mm] =
-                [dot(axis.direction, off), axis.stroke_to(off)].map(|stroke| 1e3 * stroke);
+            let along = dot(axis.direction, off);
+            let [needs_mm, has_mm] = [along, axis.stroke_to(along)].map(|stroke| 1e3 * stroke);
             let missing = MissingStroke { axis: n, gripper, step, needs_mm, has_mm };
             let before = self.missing.as_ref().map_or(0.0, MissingStroke::by_mm);
             if missing.by_mm() > before {
