@@ -22,7 +22,7 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
         // the grippers also pass over it on their way from the start
         let places = target.grippers.iter().chain(scene.layup.start());
         let local: Vec<Point> = places.map(|p| graph.pose.local(*p)).collect();
-        around(&local, TUNING.front.table_margin)
+        around(&local, TUNING.front.height_margin)
     });
     let tolerance = TUNING.front.table_error * scene.layup.ply.shorter_side();
     let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };

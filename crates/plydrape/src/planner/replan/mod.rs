@@ -282,7 +282,7 @@ impl<'a> Replanner<'a> {
         };
         let carried = match (&peaks(&motion), &scene.layup.tool) {
             (Some(peaks), Some(tool)) if peaks.stretch(tool) > 1.0 => {
-                TUNING.tool_margin * peaks.stretch(tool)
+                TUNING.sampled_margin * peaks.stretch(tool)
             }
             _ => 1.0,
         };
