@@ -301,13 +301,13 @@ mod tests {
     /// A search prefers a plan that misses a limit to one with a step that is no solution, and any whole one to one broken off.
     #[test]
     fn an_unsolved_step_costs_a_search_more_than_a_limit() {
-        let at = |value: f64| {
+        let slack = |value: f64| {
             let worst = Worst { value, at: String::new(), place: None };
             Verdict::new(Name::SlackRatio, worst, 5e-4, Some(1))
         };
         let evaluated = |value: f64, unsolved: usize, missing: f64| {
             score(&Judged {
-                limits: vec![at(value)],
+                limits: vec![slack(value)],
                 complete: missing == 0.0,
                 missing,
                 unsolved,

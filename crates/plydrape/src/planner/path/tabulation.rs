@@ -39,10 +39,10 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
 fn table(z: &Formula, domain: [[f64; 2]; 2], tolerance: f64) -> Option<HeightGrid> {
     let nodes = TUNING.front.table_nodes;
     let table = height_grid(domain, nodes, |[x, y]| z.at(x, y).z)?;
-    let at = |n: usize, k: f64| node(domain[n], k, nodes);
+    let coordinate = |n: usize, k: f64| node(domain[n], k, nodes);
     // the error is largest in the middles of its squares
     let error = |i: usize, j: usize| {
-        let [x, y] = [at(0, i as f64 + 0.5), at(1, j as f64 + 0.5)];
+        let [x, y] = [coordinate(0, i as f64 + 0.5), coordinate(1, j as f64 + 0.5)];
         (table.at(x, y).z - z.at(x, y).z).abs()
     };
     let sound = (0..nodes - 1).all(|j| (0..nodes - 1).all(|i| error(i, j) <= tolerance));

@@ -334,7 +334,7 @@ impl<'a> Replanner<'a> {
         let record = PlanRecord {
             picked_up: Some(picked_up),
             cycle,
-            ..PlanRecord::of(method, evaluations, rate, path, &drape, limited_by)
+            ..PlanRecord::new(method, evaluations, rate, path, &drape, limited_by)
         };
         Ok(Replanned { record, motion, attitudes, longer, steps, summary, moved, begins, ends })
     }
