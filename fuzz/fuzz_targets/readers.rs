@@ -21,7 +21,7 @@ static FOLDER: LazyLock<TempDir> = LazyLock::new(|| tempfile::tempdir().expect("
 /// A result with a tool, for templates.
 static PROGRAM: LazyLock<Program> = LazyLock::new(|| {
     let result = result_of(include_bytes!("../corpus/result/tool.json"));
-    Program::of(&result.expect("a result")).expect("a program")
+    Program::new(&result.expect("a result")).expect("a program")
 });
 /// The scene of `corpus/plan/search.json`.
 static SEARCHED: LazyLock<SceneEcho> = LazyLock::new(|| {

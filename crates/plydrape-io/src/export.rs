@@ -104,7 +104,7 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
         Format::Csv => {
-            let program = Program::of(result)?;
+            let program = Program::new(result)?;
             let mut files = vec![
                 text("steps.csv", csv::steps(result)?),
                 text("trajectory.csv", csv::trajectory(result)?),
@@ -119,7 +119,7 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
         Format::Boundary => pattern::result::boundary(result)?,
         Format::Ros2 => ros2::files(result, options.tf)?,
         Format::Robot(robot) => {
-            let program = Program::of(result)?;
+            let program = Program::new(result)?;
             template::files(&program, robot, &options.templates, &options.tolerance)?
         }
         Format::Vtk => vtk::files(result)?,

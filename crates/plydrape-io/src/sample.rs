@@ -56,11 +56,11 @@ pub(crate) fn hanging(nu: usize, nv: usize) -> ResultFile {
 }
 
 fn positions(grid: Grid, spacing: f64, shear: f64, z: f64) -> Vec<[f64; 3]> {
-    let at = |k| {
+    let place = |k| {
         let [i, j] = grid.id(k).map(|n| n as f64 * spacing);
         [i + j * shear.sin(), j * shear.cos(), z]
     };
-    (0..grid.grippers()).map(at).collect()
+    (0..grid.grippers()).map(place).collect()
 }
 
 fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) -> Step {

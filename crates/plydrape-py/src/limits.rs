@@ -10,7 +10,7 @@ pub struct Limits(Vec<Json>);
 
 impl Limits {
     /// Some verdicts, each of another measure.
-    pub fn of<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> PyResult<Self> {
+    pub fn new<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> PyResult<Self> {
         verdicts.into_iter().map(Json::new).collect::<PyResult<_>>().map(Limits)
     }
 }

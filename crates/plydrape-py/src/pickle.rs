@@ -122,7 +122,9 @@ pub fn restore<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let any = match name {
         "Result" => Bound::new(py, Result(Arc::new(result(state, file)?)))?.into_any(),
-        "Sheet" => Sheet::of(&Arc::new(result(state, file)?))?.into_pyobject(py)?.into_any(),
+        "Sheet" => {
+            Sheet::from_result(&Arc::new(result(state, file)?))?.into_pyobject(py)?.into_any()
+        }
         "Drape" => {
             let result = Arc::new(result(state, file)?);
             Bound::new(py, Drape { result, beside: true })?.into_any()

@@ -271,7 +271,7 @@ impl Result {
     /// <plydrape.Sheet of 341 nodes, 30 states>
     #[getter]
     fn sheet(&self, py: Python<'_>) -> PyResult<Option<Sheet>> {
-        parallel(py, || Sheet::of(&self.0))
+        parallel(py, || Sheet::from_result(&self.0))
     }
 
     /// The verdict over a sample of cells with the errors of the scene; None where the scene has none.
@@ -320,7 +320,7 @@ impl Result {
     /// (28.6, 40.0, '°', 9, True)
     #[getter]
     fn limits(&self) -> PyResult<Limits> {
-        Limits::of(&self.0.summary.limits)
+        Limits::new(&self.0.summary.limits)
     }
 
     /// The whole result.json as dicts and lists.

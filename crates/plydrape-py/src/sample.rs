@@ -84,7 +84,7 @@ impl Sample {
     /// Every limit, judged by the value that the share of the cells keeps, by its name, as in `Result.limits`.
     #[getter]
     fn limits(&self) -> PyResult<Limits> {
-        Limits::of(&self.0.limits)
+        Limits::new(&self.0.limits)
     }
 
     /// Where the sheet is highest by the height that the share of the cells keeps there: a dict with height_mm, uv_mm, line and

@@ -30,7 +30,7 @@ pub struct Sheet {
 
 impl Sheet {
     /// The sheet of a result, if it was draped.
-    pub fn of(result: &Arc<ResultFile>) -> PyResult<Option<Self>> {
+    pub fn from_result(result: &Arc<ResultFile>) -> PyResult<Option<Self>> {
         let Some(states) = &result.sheet_states else { return Ok(None) };
         let states = Mutex::new(states.open().map_err(|fault| error::read(&fault))?);
         Ok(Some(Sheet { result: Arc::clone(result), states }))

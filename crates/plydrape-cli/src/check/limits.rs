@@ -12,7 +12,7 @@ const WIDTH: usize = 88;
 /// Every limit that the model is judged by in this layup, several a line.
 pub(super) fn limits(scene: &Scene) -> Vec<SummaryLine> {
     let (layup, limits) = (&scene.layup, &scene.limits);
-    let usual = Limits::of(layup);
+    let usual = Limits::usual(layup);
     let preset = limits.preset.map(|preset| (preset, usual.clone().with_preset(preset)));
     let [mut own, mut of_preset, mut of_usual, mut following] = [const { Vec::new() }; 4];
     for name in Name::ALL {

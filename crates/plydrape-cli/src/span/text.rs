@@ -26,8 +26,8 @@ pub fn text(solved: &Solved) -> String {
         let _ = writeln!(text, "  {noun:<17} {value}");
     }
     let _ = write!(text, "\n{}\n", table(solved));
-    let at = |n: usize| solved.station(n as f64 / POINTS as f64);
-    let points: Vec<[f64; 2]> = (0..=POINTS).map(at).map(|s| [s.x, s.z]).collect();
+    let station = |n: usize| solved.station(n as f64 / POINTS as f64);
+    let points: Vec<[f64; 2]> = (0..=POINTS).map(station).map(|s| [s.x, s.z]).collect();
     text + &picture::curve(&points)
 }
 

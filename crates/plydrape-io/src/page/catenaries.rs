@@ -203,8 +203,8 @@ fn directions(result: &ResultFile, step: &Step, first: Option<&Step>) -> Vec<f64
         Direction::V => [[0, 1], [1, 0]],
     };
     let angle = |step: &Step, [i, j]: [usize; 2]| {
-        let at = |di: usize, dj: usize| step.grippers[grid.index([i + di, j + dj])].position;
-        let edges = [[at(0, 0), at(a, b)], [at(c, d), at(a + c, b + d)]];
+        let corner = |di: usize, dj: usize| step.grippers[grid.index([i + di, j + dj])].position;
+        let edges = [[corner(0, 0), corner(a, b)], [corner(c, d), corner(a + c, b + d)]];
         let sum = |n: usize| edges.iter().map(|[from, to]| to[n] - from[n]).sum::<f64>();
         sum(1).atan2(sum(0)).to_degrees()
     };

@@ -78,7 +78,7 @@ fn arrow(ply: &Ply, place: impl Fn([f64; 2]) -> Option<[f64; 3]>) -> Vec<Vec<[f6
     let length = ARROW * (high[0] - low[0]).max(high[1] - low[1]);
     let middle = ply.middle();
     // so far along the warp and across it, as shares of the arrow
-    let at = |ahead: f64, aside: f64| {
+    let point = |ahead: f64, aside: f64| {
         let [a, b] = [ahead * length, aside * length];
         let [u, v] = match ply.warp {
             Direction::U => [a, b],
@@ -86,9 +86,9 @@ fn arrow(ply: &Ply, place: impl Fn([f64; 2]) -> Option<[f64; 3]>) -> Vec<Vec<[f6
         };
         place([middle[0] + u, middle[1] + v])
     };
-    let shaft = (0..=SHAFT).map_while(|n| at(n as f64 / SHAFT as f64, 0.0)).collect();
+    let shaft = (0..=SHAFT).map_while(|n| point(n as f64 / SHAFT as f64, 0.0)).collect();
     let [long, wide] = HEAD;
-    let head = [at(1.0 - long, wide), at(1.0, 0.0), at(1.0 - long, -wide)];
+    let head = [point(1.0 - long, wide), point(1.0, 0.0), point(1.0 - long, -wide)];
     [Some(shaft), head.into_iter().collect()].into_iter().flatten().collect()
 }
 

@@ -11,13 +11,13 @@ use plydrape::layup::Layup;
 use plydrape::measure::{Limits, Name};
 use std::cmp::Reverse;
 
-/// Checks the table `[limits]` of a layup; what it does not say is that of its preset, or else as in [`Limits::of`].
+/// Checks the table `[limits]` of a layup; what it does not say is that of its preset, or else as in [`Limits::usual`].
 pub(super) fn limits(
     table: &LimitsTable,
     layup: &Layup,
     document: &Document,
 ) -> Result<Limits, Error> {
-    let mut limits = Limits::of(layup);
+    let mut limits = Limits::usual(layup);
     if let Some(preset) = &table.preset {
         limits = limits.with_preset(preset.value);
     }

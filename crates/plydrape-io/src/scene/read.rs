@@ -213,7 +213,7 @@ mod tests {
 
     const TEXT: &str = "Weg (mm);Dehnung (µm)\n4;5\n";
 
-    fn of(bytes: &[u8], old: Old) -> Result<String, Error> {
+    fn converted(bytes: &[u8], old: Old) -> Result<String, Error> {
         decoded(bytes.to_vec(), "a.csv", old).map(|document| document.text.to_string())
     }
 
@@ -233,10 +233,10 @@ mod tests {
             TEXT.replace('\n', "\r").into_bytes(),
             old.clone(),
         ] {
-            assert_eq!(of(&bytes, Old::Latin1).unwrap(), TEXT, "{bytes:?}");
+            assert_eq!(converted(&bytes, Old::Latin1).unwrap(), TEXT, "{bytes:?}");
         }
-        assert_eq!(of(&wide("a = 1\n", u16::to_le_bytes), Old::Refused).unwrap(), "a = 1\n");
-        let error = of(&old, Old::Refused).unwrap_err();
+        assert_eq!(converted(&wide("a = 1\n", u16::to_le_bytes), Old::Refused).unwrap(), "a = 1\n");
+        let error = converted(&old, Old::Refused).unwrap_err();
         assert_eq!(error.message(), "`a.csv` is not UTF-8 text: byte 18 is 0xb5");
         assert_eq!(error.diagnostic().unwrap().line_column(), Some((1, 19)));
     }
@@ -250,7 +250,7 @@ mod tests {
             (b"D\x82p (mm)\n1\n", "`a.csv` is neither UTF-8 nor Latin-1 text: byte 1 is 0x82"),
             (b"PK\x03\x04\0\xff", "`a.csv` is a ZIP archive or a spreadsheet, not a text"),
         ] {
-            let error = of(bytes, Old::Latin1).unwrap_err();
+            let error = converted(bytes, Old::Latin1).unwrap_err();
             assert_eq!(error.message(), message);
             assert!(error.help().contains("UTF-8"), "{}", error.help());
         }

@@ -78,7 +78,7 @@ fn header_of(name: Name) -> String {
 /// # Errors
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
-    let loads = Loads::of(result);
+    let loads = Loads::new(result);
     let mut table = Poses::new(loads.as_ref(), vacuum(result))?;
     let end = result.steps.last().map(|step| step.time);
     let released = end.and_then(|end| result.steps.last().zip(release_after(result, end)));
@@ -98,7 +98,7 @@ pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
 pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, Error> {
     match (&result.plan, result.motion()?) {
         (Some(plan), Some(Turned { motion, attitudes })) => {
-            let (ply, loads) = (&result.scene.ply, Loads::of(result));
+            let (ply, loads) = (&result.scene.ply, Loads::new(result));
             let table = Poses::new(loads.as_ref(), vacuum(result))?;
             let until = release_after(result, motion.duration());
             sampled(motion, attitudes, ply, plan.rate, table, until).map(Some)

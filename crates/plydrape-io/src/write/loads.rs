@@ -60,7 +60,7 @@ impl Stiffness {
 
 impl Loads {
     /// The loads of a result; `None` without steps.
-    pub fn of(result: &ResultFile) -> Option<Self> {
+    pub fn new(result: &ResultFile) -> Option<Self> {
         let mounts = Stiffness::new(&result.scene.settings.pad);
         let mut times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
         let mut steps: Vec<Vec<Load>> = result.steps.iter().map(of_step).collect();

@@ -106,7 +106,7 @@ fn loads_at_the_steps_are_the_forces_of_the_states_and_of_the_springs() {
 #[test]
 fn loads_go_on_linearly_between_the_steps() {
     let (result, _dir) = draped(&dome(MOUNTS, 2));
-    let loads = Loads::of(&result).unwrap();
+    let loads = Loads::new(&result).unwrap();
     assert_eq!(loads.times.len(), 6);
     let [start, end] = [3, 4].map(|n| result.steps[n].time);
     let [first, last] = [start, end].map(|t| loads.at(t).unwrap());
@@ -130,7 +130,7 @@ fn motion_csv_has_the_loads_of_the_springs_at_every_sample() {
     let path = scene.layup.motion.positions.clone();
     let (method, rate) = (PlanMethod::Path, 20.0);
     let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
-    let record = PlanRecord::of(method, 1, rate, path, &motion, Vec::new());
+    let record = PlanRecord::new(method, 1, rate, path, &motion, Vec::new());
     scene.layup.motion.times = motion.times().to_vec();
     let (mut result, dir) = draped(&scene);
     result.plan = Some(record);
@@ -181,7 +181,7 @@ fn tables_switch_the_vacuum_at_the_release() {
     let path = scene.layup.motion.positions.clone();
     let (method, rate) = (PlanMethod::Path, 20.0);
     let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
-    let record = PlanRecord::of(method, 1, rate, path, &motion, Vec::new());
+    let record = PlanRecord::new(method, 1, rate, path, &motion, Vec::new());
     scene.layup.motion.times = motion.times().to_vec();
     let (mut held, _kept) = draped(&scene);
     held.plan = Some(record.clone());

@@ -338,7 +338,7 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
     let paper = "material = \"krogh2018\"";
     let usual = scene(paper, "", "");
     assert_eq!(usual.layup.settings, Settings::default());
-    assert_eq!(usual.limits, Limits::of(&usual.layup));
+    assert_eq!(usual.limits, Limits::usual(&usual.layup));
     assert_eq!(usual.layup.ply.material.tension, Some(TensionLaw::Linear { stiffness: 1e6 }));
     assert_eq!(
         usual.layup.ply.material.shear_curve.as_ref().map(|c| c.force(0.2)),

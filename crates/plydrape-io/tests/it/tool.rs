@@ -125,7 +125,7 @@ fn pads_without_joints_are_turned_as_the_frame() {
     let scene = padded(&format!("{axes}\njoints = \"none\""));
     assert!(!scene.layup.tilts());
     let result = draped(&scene);
-    let program = Program::of(&result).unwrap();
+    let program = Program::new(&result).unwrap();
     for (k, (step, with_joints)) in result.steps.iter().zip(&ball.steps).enumerate() {
         let frame = program.flange.as_ref().unwrap()[k];
         for (n, gripper) in step.grippers.iter().enumerate() {
@@ -177,7 +177,7 @@ fn flange_and_strokes_of_a_program_bring_the_pads_to_their_places() {
         "[tool]\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }]\nflange = { position = [0, 0, 0.2], rotation = [\"180 deg\", 0, 0.3] }\nworld = { position = [1, 0, 0.5] }",
     );
     let result = draped(&scene);
-    let program = Program::of(&result).unwrap();
+    let program = Program::new(&result).unwrap();
     assert_eq!(program.frames.mold.position, [1.0, 0.0, 0.5]);
     let names: Vec<&str> = program.axes.iter().map(|axis| axis.name.as_str()).collect();
     assert_eq!(names, ["g0_0_z", "g1_0_z", "g0_1_z", "g1_1_z"]);

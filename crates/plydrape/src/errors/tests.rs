@@ -56,12 +56,12 @@ pub(crate) fn layup(nu: usize, nv: usize) -> Layup {
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let step = |k: usize| {
         let near = 0.97 + 0.005 * k as f64;
-        let at = |n: usize| {
+        let place = |n: usize| {
             let [i, j] = grid.id(n).map(|k| k as f64);
             let flat = [0.1 * near * i, 0.08 * near * j, 0.2 - 0.05 * k as f64];
             turned([0.0, 0.0, 0.1 * k as f64], flat)
         };
-        (0..grid.grippers()).map(at).collect::<Vec<_>>()
+        (0..grid.grippers()).map(place).collect::<Vec<_>>()
     };
     let positions: Vec<_> = (0..3).map(step).collect();
     let target = Target { grippers: positions[2].clone(), drape: None };
@@ -238,12 +238,12 @@ fn half_and_double_are_as_likely_of_a_factor_of_two() {
 #[test]
 fn a_scaled_factor_is_its_power() {
     let layup = layup(2, 2);
-    let of = |shear: Term| {
+    let errors_with = |shear: Term| {
         let material = MaterialErrors { shear, ..MaterialErrors::default() };
         Errors { material, ..Errors::default() }
     };
     assert_eq!(Term::Factor(2.0).scaled(2.0), Term::Factor(4.0));
-    let (two, four) = (of(Term::Factor(2.0)), of(Term::Factor(4.0)));
+    let (two, four) = (errors_with(Term::Factor(2.0)), errors_with(Term::Factor(4.0)));
     let force = |draw: &Draw| {
         let ply = draw.apply(&layup).ply;
         ply.material.shear_curve.expect("a curve").force(0.4).0

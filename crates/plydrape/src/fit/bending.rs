@@ -328,11 +328,12 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
     let rows: Vec<(f64, f64, Option<f64>)> = first[1..]
         .iter()
         .map(|[kappa, _]| {
-            let at = |curve: &Vec<[f64; 2]>| {
+            let moment = |curve: &Vec<[f64; 2]>| {
                 let [x, y]: [Vec<f64>; 2] = [0, 1].map(|c| curve.iter().map(|p| p[c]).collect());
                 between(&x, &y, *kappa)
             };
-            let (mean, deviation) = mean_and_deviation(&means.iter().map(at).collect::<Vec<_>>());
+            let (mean, deviation) =
+                mean_and_deviation(&means.iter().map(moment).collect::<Vec<_>>());
             (*kappa, mean, deviation)
         })
         .collect();

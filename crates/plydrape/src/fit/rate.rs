@@ -181,13 +181,13 @@ pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
     let left = |log: f64| solved(&records, Some(log.exp())).map_or(f64::INFINITY, |found| found.1);
     let decades = (high / low).log10();
     let steps = (PER_DECADE * decades).ceil().max(2.0) as usize;
-    let at = |n: usize| low.ln() + (high / low).ln() * n as f64 / steps as f64;
-    let tried: Vec<f64> = (0..=steps).map(|n| left(at(n))).collect();
+    let log_time = |n: usize| low.ln() + (high / low).ln() * n as f64 / steps as f64;
+    let tried: Vec<f64> = (0..=steps).map(|n| left(log_time(n))).collect();
     let best = (0..=steps).min_by(|a, b| tried[*a].total_cmp(&tried[*b])).unwrap_or(0);
     if best == 0 || best == steps {
         return Err(none());
     }
-    let log = least(at(best - 1), at(best + 1), left);
+    let log = least(log_time(best - 1), log_time(best + 1), left);
 
     let relaxation = log.exp();
     let (solution, squares) = solved(&records, Some(relaxation)).ok_or_else(none)?;

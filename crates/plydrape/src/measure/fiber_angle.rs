@@ -79,7 +79,7 @@ mod tests {
         };
         let net = Net::drape(layup.mold.as_ref().unwrap(), net).unwrap();
         layup.target.as_mut().unwrap().drape = Some(Arc::new(net));
-        let limits = Limits::of(&layup);
+        let limits = Limits::usual(&layup);
         let mut state = sample::state(&layup);
         let turned = |heading: f64, rise: f64| {
             let (s, c) = heading.to_radians().sin_cos();

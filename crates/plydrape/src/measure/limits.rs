@@ -40,7 +40,7 @@ impl Limits {
 
     /// The limits of a layup unless a scene sets others, [`super::Measure::usual_limit`].
     #[must_use]
-    pub fn of(layup: &Layup) -> Self {
+    pub fn usual(layup: &Layup) -> Self {
         let usual = |name: &Name| Some((*name, name.measure().usual_limit(layup)?.value));
         Limits {
             preset: None,
@@ -105,7 +105,7 @@ impl Limits {
     /// of a preset, whether the layup has what they measure or not.
     #[must_use]
     pub fn unjudged(&self, layup: &Layup, verdicts: &[Verdict]) -> Vec<(Name, f64)> {
-        let usual = Limits::of(layup);
+        let usual = Limits::usual(layup);
         let usual = match self.preset {
             Some(preset) => usual.with_preset(preset),
             None => usual,
@@ -159,13 +159,13 @@ mod tests {
             assert!(reason.split_whitespace().count() >= 3, "{name:?} {reason}");
             assert!(!reason.ends_with('.') && !reason.contains("  "), "{name:?} {reason}");
         }
-        assert_eq!(Limits::of(&layup).iter().count(), count);
+        assert_eq!(Limits::usual(&layup).iter().count(), count);
     }
 
     /// A preset replaces what its source speaks of; the slack ratio follows the slack angle, which is the same slack.
     #[test]
     fn a_preset_sets_its_figures_and_nothing_else() {
-        let before = Limits::of(&sample::layup());
+        let before = Limits::usual(&sample::layup());
         for preset in Preset::ALL {
             let after = before.clone().with_preset(*preset);
             assert_eq!(after.preset, Some(*preset));
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn a_limit_is_in_the_unit_of_its_measure_where_it_applies() {
         let mut layup = sample::layup();
-        let limits = Limits::of(&layup);
+        let limits = Limits::usual(&layup);
         let limit = |layup: &Layup, name: Name| name.measure().limit(layup, &limits);
         assert_eq!(limit(&layup, Name::Penetration), Some(0.2));
         assert_eq!(limit(&layup, Name::LandingGripper), Some(0.5));
@@ -202,7 +202,7 @@ mod tests {
     /// Every limit, set to a number of its own, comes back from JSON as it was.
     #[test]
     fn limits_survive_json() {
-        let mut limits = Limits::of(&sample::layup()).with_preset(Preset::PlyAngle);
+        let mut limits = Limits::usual(&sample::layup()).with_preset(Preset::PlyAngle);
         limits.workspace = Some([[-1.0, 1.0], [0.0, 2.0], [0.1, 0.7]]);
         for (n, name) in Name::ALL.iter().enumerate().filter(|(n, _)| n % 3 > 0) {
             if name.measure().bound().is_some() {

@@ -424,7 +424,7 @@ mod tests {
 
     /// The values of a state after another of the same layup.
     fn values(layup: &Layup, before: &PlyState, state: &PlyState) -> Vec<(Name, Option<f64>)> {
-        let limits = Limits::of(layup);
+        let limits = Limits::usual(layup);
         let past = Past::after(before, None, 2.0);
         let seen = Observation { layup, limits: &limits, state, past: Some(&past) };
         let value = |name: &Name| (*name, name.measure().evaluate(&seen).map(|found| found.value));

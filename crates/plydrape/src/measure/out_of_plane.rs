@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn a_cell_that_is_tilted_is_out_of_plane_by_its_tilt() {
         let layup = sample::layup();
-        let limits = Limits::of(&layup);
+        let limits = Limits::usual(&layup);
         let mut state = sample::state(&layup);
         let angle = |state: &PlyState| {
             let seen = Observation { layup: &layup, limits: &limits, state, past: None };

@@ -89,7 +89,7 @@ mod tests {
     fn a_rate_is_taken_over_a_hundredth_of_the_motion_at_least() {
         let mut layup = sample::layup();
         layup.motion.times = vec![0.0, 1.0];
-        let limits = Limits::of(&layup);
+        let limits = Limits::usual(&layup);
         let rate = |angles: &[(f64, f64)]| {
             let mut past = None;
             let mut found = None;

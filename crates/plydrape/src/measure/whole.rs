@@ -39,7 +39,7 @@ pub struct MotionPeaks {
 impl MotionPeaks {
     /// The peaks of a motion in time whose transport ends at one of its steps.
     #[must_use]
-    pub fn of(motion: &TimedMotion, last_free: usize, limits: &Limits) -> Self {
+    pub fn new(motion: &TimedMotion, last_free: usize, limits: &Limits) -> Self {
         let until = motion.times()[last_free];
         Self::with(limits, *motion.peaks(), || {
             [[0.0, until], [until, motion.duration()]].map(|times| motion.peaks_within(times))
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn a_motion_is_judged_by_its_speed_acceleration_and_jerk() {
         let layup = sample::layup();
-        let limits = Limits::of(&layup);
+        let limits = Limits::usual(&layup);
         let [speed, acceleration, jerk] =
             [Name::Speed, Name::Acceleration, Name::Jerk].map(|name| limits.most(name));
         let bounds = Bounds { speed, acceleration, jerk };
@@ -172,7 +172,7 @@ mod tests {
             limits: &limits,
             motion: Course::Smooth(motion),
             attitudes: None,
-            peaks: MotionPeaks::of(motion, 0, &limits),
+            peaks: MotionPeaks::new(motion, 0, &limits),
             tool: None,
             rate: 100.0,
         };

@@ -48,14 +48,14 @@ pub(super) fn plain(scene: &Scene) -> Judged {
 /// 95 % of 64 are 60.8; of 20 they are 19, though 0.95 × 20 may be rounded up; of none it is none, of few at least one.
 #[test]
 fn so_many_cells_are_needed_as_the_share_says() {
-    let of = |share: f64, samples: usize| Errors { share, ..Errors::default() }.needed(samples);
+    let needed = |share: f64, samples: usize| Errors { share, ..Errors::default() }.needed(samples);
     assert_eq!(
-        [of(0.95, 64), of(0.95, 20), of(1.0, 7), of(0.95, 0), of(0.01, 3)],
+        [needed(0.95, 64), needed(0.95, 20), needed(1.0, 7), needed(0.95, 0), needed(0.01, 3)],
         [61, 19, 7, 0, 1]
     );
     for (percent, samples) in (1..=100).flat_map(|p| (1..=100).map(move |n| (p, n))) {
         let whole = usize::div_ceil(percent * samples, 100);
-        assert_eq!(of(percent as f64 / 100.0, samples), whole, "{percent} % of {samples}");
+        assert_eq!(needed(percent as f64 / 100.0, samples), whole, "{percent} % of {samples}");
     }
 }
 
@@ -309,7 +309,7 @@ fn sensitivity_is_the_range_of_heights_by_minute_changes() {
     let mut scene = sheet();
     let last = scene.layup.motion.positions.last().expect("steps").clone();
     scene.layup.target = Some(Target { grippers: last, drape: None });
-    scene.limits = Limits::of(&scene.layup);
+    scene.limits = Limits::usual(&scene.layup);
     for name in Name::ALL {
         scene.limits.set(*name, None);
     }
@@ -317,8 +317,8 @@ fn sensitivity_is_the_range_of_heights_by_minute_changes() {
         let limited =
             Scene { limits: scene.limits.clone().with(Name::Height, bound), ..scene.clone() };
         let summary = simulate(&limited, |_| ControlFlow::Continue(())).unwrap().drape.summary;
-        let of = |name: Name| summary.limits.iter().find(|v| v.name == name).cloned();
-        (of(Name::Sensitivity), of(Name::Height).expect("a target").value)
+        let verdict = |name: Name| summary.limits.iter().find(|v| v.name == name).cloned();
+        (verdict(Name::Sensitivity), verdict(Name::Height).expect("a target").value)
     };
     let (found, own) = sensitivity(1.0);
     let found = found.expect("an accepted sheet");

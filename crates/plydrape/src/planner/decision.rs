@@ -167,7 +167,7 @@ impl Decision {
             limits: &scene.limits,
             motion: Course::Smooth(motion),
             attitudes: Some(&decided.attitudes),
-            peaks: MotionPeaks::of(motion, summary.last_free(motion.times().len()), &scene.limits),
+            peaks: MotionPeaks::new(motion, summary.last_free(motion.times().len()), &scene.limits),
             tool: peaks.as_ref(),
             rate,
         };

@@ -18,7 +18,7 @@ fn scene() -> Scene {
     scene.layup.settings.model = Model::Sheet;
     scene.layup.settings.sheet.mesh = Some(0.04);
     let moves = [Name::Speed, Name::Acceleration, Name::Jerk];
-    for (name, _) in Limits::of(&scene.layup).iter().filter(|(name, _)| !moves.contains(name)) {
+    for (name, _) in Limits::usual(&scene.layup).iter().filter(|(name, _)| !moves.contains(name)) {
         scene.limits.set(name, None);
     }
     scene

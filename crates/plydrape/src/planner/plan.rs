@@ -120,7 +120,7 @@ pub fn plan_without_errors(
     let record = PlanRecord {
         slowed: Some(slowed).filter(|slowed| *slowed != 1.0),
         cycle,
-        ..PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by)
+        ..PlanRecord::new(method, evaluations, rate, positions.clone(), &motion, limited_by)
     };
     // a search begins where the ply hangs
     positions.drain(..scene.layup.pick_up.map_or(0, |pick_up| pick_up.lift_steps));

@@ -29,7 +29,7 @@ struct Limited {
 pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Quickest {
     // first so slow as a whole that all limits are kept
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let turned = TUNING.tilt_rate_margin * fastest / scene.limits.most(Name::TiltRate).to_degrees();
+    let turned = TUNING.sampled_margin * fastest / scene.limits.most(Name::TiltRate).to_degrees();
     let carried = tool_stretch(scene, motion);
     let slowed = turned.max(carried).max(1.0);
     let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
@@ -69,7 +69,7 @@ pub(super) fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
     });
     peaks.map_or(0.0, |(tool, peaks)| {
         let stretch = peaks.stretch(tool);
-        if stretch > 1.0 { TUNING.tool_margin * stretch } else { stretch }
+        if stretch > 1.0 { TUNING.sampled_margin * stretch } else { stretch }
     })
 }
 
@@ -81,7 +81,7 @@ fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
 
 /// The tilts of the grippers, which turn evenly from step to step of a motion that is this much slower than these steps say.
 fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
-    let bound = scene.limits.most(Name::TiltRate) / TUNING.tilt_rate_margin;
+    let bound = scene.limits.most(Name::TiltRate) / TUNING.sampled_margin;
     let tilts_of = |gripper: usize| {
         let rates = course.times().iter().map(|t| {
             let after = steps.partition_point(|step| step.time * slowed <= *t);

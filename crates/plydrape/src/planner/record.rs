@@ -68,7 +68,7 @@ pub struct PickedUp {
 impl PlanRecord {
     /// The record of a motion of planned positions.
     #[must_use]
-    pub fn of(
+    pub fn new(
         method: PlanMethod,
         evaluations: usize,
         rate: f64,

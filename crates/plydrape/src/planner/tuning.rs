@@ -11,14 +11,10 @@ pub struct PlannerTuning {
     /// Weight of the mean of all ratios of measures to limits beside the largest. 0.1, so that it decides only among
     /// plans that are about equally good at their worst.
     pub mean_weight: f64,
-    /// Largest ratio that counts in the mean, so that one very bad measure does not hide the others.
-    pub largest_ratio: f64,
     /// Share of a limit that only has to be kept, up to which a measure does not count.
     pub counted_share: f64,
-    /// Ratio to its limit below which a measure of a coarse sheet is not compared with that of a fine one.
-    pub compared_share: f64,
-    /// Least and largest factor between both that is believed.
-    pub bias: [f64; 2],
+    /// Largest factor between a measure of a coarse sheet and that of a fine one, and its inverse the smallest, that is believed.
+    pub largest_bias: f64,
     /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few, since more of them
     /// prove what is decided on, and a whole sample judges in the end.
     pub cells: usize,
@@ -34,22 +30,20 @@ pub struct PlannerTuning {
     pub far: f64,
     /// Equilibria a step on the average from which on a drape is broken off; good drapes take two or three.
     pub most_equilibria: usize,
-    /// Score of a drape that was broken off, per share of the steps that are missing: worse than that of any other.
+    /// Score of a drape that was broken off, per share of the steps that are missing, and of a candidate that is not draped, per
+    /// ratio to the limit that its grippers alone exceed: worse than that of any whole drape.
     pub missing_weight: f64,
-    /// How much faster than its limit a tilt may be between the times at which the time law is looked at, for which the law stays below it.
-    pub tilt_rate_margin: f64,
-    /// How much slower a motion is made than its tool would allow, because its samples fall elsewhere then.
-    pub tool_margin: f64,
+    /// Factor by which a motion stays below the limits of tilt rates and of the tool, which are evaluated at samples only: between
+    /// them a rate may be larger.
+    pub sampled_margin: f64,
 }
 
 /// The constants in use.
 pub const TUNING: PlannerTuning = PlannerTuning {
     mesh: 0.2,
     mean_weight: 0.1,
-    largest_ratio: 10.0,
     counted_share: 0.9,
-    compared_share: 0.3,
-    bias: [0.5, 2.0],
+    largest_bias: 2.0,
     cells: 3,
     proving: 16,
     spare: 1,
@@ -58,6 +52,5 @@ pub const TUNING: PlannerTuning = PlannerTuning {
     far: 3.0,
     most_equilibria: 12,
     missing_weight: 1e3,
-    tilt_rate_margin: 1.001,
-    tool_margin: 1.001,
+    sampled_margin: 1.001,
 };

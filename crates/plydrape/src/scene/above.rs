@@ -56,7 +56,7 @@ impl Scene {
         scene.layup.mold = Some(mold);
         scene.layup.target = Some(Target { grippers: ends, drape: Some(Arc::new(net)) });
         // limits that are of the mold
-        scene.limits = crate::measure::Limits::of(&scene.layup);
+        scene.limits = crate::measure::Limits::usual(&scene.layup);
         Ok(scene)
     }
 }

@@ -56,7 +56,7 @@ impl Scene {
         let layup = Layup::new(ply, settings, motion);
         Scene {
             title: String::new(),
-            limits: Limits::of(&layup),
+            limits: Limits::usual(&layup),
             layup,
             plan: PlanSettings::default(),
             errors: None,

@@ -115,11 +115,11 @@ impl Fabric {
         for direction in 0..2 {
             let (along, across) = (&lines[direction], &widths[1 - direction]);
             for (line, width) in across.iter().enumerate() {
-                let at = |n: usize| if direction == 0 { node(n, line) } else { node(line, n) };
+                let nth = |n: usize| if direction == 0 { node(n, line) } else { node(line, n) };
                 for n in 1..along.len() {
                     let length = along[n] - along[n - 1];
                     segments.push(Segment {
-                        nodes: [at(n - 1), at(n)],
+                        nodes: [nth(n - 1), nth(n)],
                         direction,
                         length,
                         width: *width,
@@ -127,7 +127,7 @@ impl Fabric {
                 }
                 for n in 1..along.len().saturating_sub(1) {
                     let spacing = [along[n] - along[n - 1], along[n + 1] - along[n]];
-                    let nodes = [at(n - 1), at(n), at(n + 1)];
+                    let nodes = [nth(n - 1), nth(n), nth(n + 1)];
                     bends.push(Bend { nodes, direction, spacing, width: *width });
                 }
             }
@@ -246,7 +246,7 @@ impl Fabric {
         for (kept, own) in (0_u32..).zip(number.iter_mut().flatten()) {
             *own = kept;
         }
-        let at = |node: u32| number[node as usize].unwrap_or_default();
+        let renumbered = |node: u32| number[node as usize].unwrap_or_default();
         let keep = |n: &usize| number[*n].is_some();
         let places: Vec<[f64; 2]> = (0..count).filter(keep).map(|n| whole.places[n]).collect();
         let [low, high] = outline.bounds();
@@ -255,10 +255,16 @@ impl Fabric {
             areas: (0..count).filter(keep).map(|n| areas[n]).collect(),
             segments: segments
                 .into_iter()
-                .map(|s| Segment { nodes: s.nodes.map(at), ..s })
+                .map(|s| Segment { nodes: s.nodes.map(renumbered), ..s })
                 .collect(),
-            bends: bends.into_iter().map(|b| Bend { nodes: b.nodes.map(at), ..b }).collect(),
-            cells: cells.into_iter().map(|c| Cell { nodes: c.nodes.map(at), ..c }).collect(),
+            bends: bends
+                .into_iter()
+                .map(|b| Bend { nodes: b.nodes.map(renumbered), ..b })
+                .collect(),
+            cells: cells
+                .into_iter()
+                .map(|c| Cell { nodes: c.nodes.map(renumbered), ..c })
+                .collect(),
             inside: places.iter().map(|place| outline.depth(*place) >= -rounding).collect(),
             crossings: number,
             boundary: Vec::new(),

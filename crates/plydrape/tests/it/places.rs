@@ -117,8 +117,8 @@ fn settings() -> Settings {
 
 /// Limits so wide that only a torn ply, grippers at one place and what is out of all range exceed them.
 fn limits(layup: &Layup) -> Limits {
-    let mut limits = Limits::of(layup);
-    for (name, _) in Limits::of(layup).iter() {
+    let mut limits = Limits::usual(layup);
+    for (name, _) in Limits::usual(layup).iter() {
         let bound = match name.measure().sense() {
             _ if name == Name::Overstretch => 1e-3,
             Sense::AtMost => 1e9,

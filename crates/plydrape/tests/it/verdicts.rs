@@ -64,7 +64,7 @@ fn scene(model: Model, gives: bool) -> Scene {
     let shape = Shape::Box { size: [0.1; 3], at: [0.0; 3] };
     *bodies = Bodies::new(vec![cup], vec![Obstacle { name: "post".into(), pose, shape }]);
 
-    scene.limits = Limits::of(&scene.layup);
+    scene.limits = Limits::usual(&scene.layup);
     scene.limits.workspace = Some([[-2.0, 2.0]; 3]);
     for name in Name::ALL {
         let measure = name.measure();

@@ -77,7 +77,7 @@ fn quarter(radius: f64) -> String {
     spline("0", 2.0, &[0.0, 0.0, 0.0, 1.0, 1.0, 1.0], &points)
 }
 
-fn of(text: &str) -> Result<Outline, Error> {
+fn read_outline(text: &str) -> Result<Outline, Error> {
     of_layers(text, None)
 }
 
@@ -92,7 +92,7 @@ fn drawn(text: &str, options: &Options) -> Result<Drawn, Error> {
 
 /// What a drawing is refused with, and what to do about it.
 fn refused(text: &str) -> (String, String) {
-    let error = of(text).unwrap_err();
+    let error = read_outline(text).unwrap_err();
     (error.to_string(), error.help().into())
 }
 
@@ -107,7 +107,7 @@ fn off_circle(outline: &Outline, radius: f64) -> [f64; 2] {
 /// The area of a regular polygon of n corners on a circle is n/2 R² sin(2π/n); its lines are 1 − cos(π/n) of R from the circle.
 #[test]
 fn a_circle_is_the_polygon_with_the_fewest_lines_within_the_tolerance() {
-    let outline = of(&millimeters(&circle("0", [30.0, -20.0], 100.0))).unwrap();
+    let outline = read_outline(&millimeters(&circle("0", [30.0, -20.0], 100.0))).unwrap();
     let lines = outline.boundary().len() as f64;
     assert!((outline.area() - 0.5 * lines * 0.01 * (2.0 * PI / lines).sin()).abs() < 1e-15);
     let off = |lines: f64| 0.1 * (1.0 - (PI / lines).cos());
@@ -117,11 +117,13 @@ fn a_circle_is_the_polygon_with_the_fewest_lines_within_the_tolerance() {
 /// A semicircle has the bulge 1; the two of a disc bulge outwards, or the one goes back inside the other.
 #[test]
 fn a_bulge_is_an_arc_to_the_side_of_its_sign() {
-    let disc = of(&millimeters(&bulged("0", &[[-50.0, 0.0, 1.0], [50.0, 0.0, 1.0]]))).unwrap();
+    let disc =
+        read_outline(&millimeters(&bulged("0", &[[-50.0, 0.0, 1.0], [50.0, 0.0, 1.0]]))).unwrap();
     let [least, most] = off_circle(&disc, 0.05);
     assert!(least >= -TOLERANCE && most < 1e-15, "{least} {most}");
     // from the right to the left along the upper half is counterclockwise; back over a flatter arc below it
-    let moon = of(&millimeters(&bulged("0", &[[50.0, 0.0, 1.0], [-50.0, 0.0, -0.5]]))).unwrap();
+    let moon =
+        read_outline(&millimeters(&bulged("0", &[[50.0, 0.0, 1.0], [-50.0, 0.0, -0.5]]))).unwrap();
     // circular segments by their angle θ = 4 atan(bulge) and radius c / (2 sin(θ/2))
     let segment = |bulge: f64| {
         let angle = 4.0 * bulge.atan();
@@ -151,7 +153,7 @@ fn a_rational_spline_lies_on_its_circle() {
     let text = quarter(100.0)
         + &line("0", [0.0, 100.0], [0.0, 0.0])
         + &line("0", [100.0, 0.0], [0.0, 0.0]);
-    let outline = of(&millimeters(&text)).unwrap();
+    let outline = read_outline(&millimeters(&text)).unwrap();
     let arc: Vec<f64> = outline
         .boundary()
         .iter()
@@ -184,7 +186,7 @@ fn an_ellipse_has_its_area_whole_and_in_part() {
     let pairs = |start: f64, end: f64| {
         [(10, 5.0), (20, 7.0), (11, 60.0), (21, 80.0), (40, 0.3), (41, start), (42, end)]
     };
-    let whole = of(&millimeters(&entity("ELLIPSE", "0", &pairs(0.0, 2.0 * PI)))).unwrap();
+    let whole = read_outline(&millimeters(&entity("ELLIPSE", "0", &pairs(0.0, 2.0 * PI)))).unwrap();
     let expected = PI * 0.1 * 0.03;
     // an ellipse of this size is 0.45 m around
     assert!((whole.area() - expected).abs() < 0.45 * TOLERANCE);
@@ -192,7 +194,7 @@ fn an_ellipse_has_its_area_whole_and_in_part() {
         let mut half = pairs(0.0, PI).to_vec();
         half.push((230, normal));
         let chord = line("0", [65.0, 87.0], [-55.0, -73.0]);
-        let half = of(&millimeters(&(entity("ELLIPSE", "0", &half) + &chord))).unwrap();
+        let half = read_outline(&millimeters(&(entity("ELLIPSE", "0", &half) + &chord))).unwrap();
         assert!((half.area() - 0.5 * expected).abs() < 0.45 * TOLERANCE);
         // the half to the left of the major axis, or to its right
         let left = |p: &[f64; 2]| (0.6 * (p[1] - 0.007) - 0.8 * (p[0] - 0.005)) * side;
@@ -242,7 +244,8 @@ fn slots() -> Vec<String> {
 fn a_shape_is_the_same_however_it_is_drawn() {
     let expected = 0.1 * 0.04 + PI * 0.02 * 0.02;
     for (n, text) in slots().into_iter().enumerate() {
-        let outline = of(&millimeters(&text)).unwrap_or_else(|error| panic!("{n}: {error}"));
+        let outline =
+            read_outline(&millimeters(&text)).unwrap_or_else(|error| panic!("{n}: {error}"));
         let around = 0.2 + 0.04 * PI;
         assert!((outline.area() - expected).abs() < around * TOLERANCE, "{n}: {}", outline.area());
         for (found, due) in outline.bounds().iter().flatten().zip([-0.02, -0.02, 0.12, 0.02]) {
@@ -271,8 +274,8 @@ proptest! {
             let (a, b) = (point(*n), point(n + 1));
             if (seed >> (n % 64)) & 1 == 0 { line("0", a, b) } else { line("0", b, a) }
         });
-        let joined = of(&millimeters(&lines.collect::<String>())).unwrap();
-        let whole = of(&millimeters(&polygon("0", &points))).unwrap();
+        let joined = read_outline(&millimeters(&lines.collect::<String>())).unwrap();
+        let whole = read_outline(&millimeters(&polygon("0", &points))).unwrap();
         prop_assert_eq!(joined.boundary().len(), count);
         prop_assert!((joined.area() - whole.area()).abs() < 1e-15);
     }
@@ -290,7 +293,7 @@ proptest! {
             spline("0", 2.0, &[0.0, 0.0, 0.0, v[9], v[10], v[11]], &[[v[0], v[1], v[2]], [v[3], v[4], v[5]], [v[6], v[7], v[8]]]),
             entity("ELLIPSE", "0", &[(10, v[0]), (11, v[1]), (21, v[2]), (40, v[3]), (41, v[4]), (42, v[5])]),
         ] {
-            let _ = of(&millimeters(&text));
+            let _ = read_outline(&millimeters(&text));
         }
     }
 }
@@ -322,7 +325,7 @@ fn every_unit_of_the_header_is_that_length() {
     for (unit, meters) in
         [(1, 0.0254), (2, 0.3048), (4, 1e-3), (5, 1e-2), (6, 1.0), (10, 0.9144), (14, 0.1)]
     {
-        let outline = of(&drawing(unit, &square("0", [0.0, 0.0], 1.0))).unwrap();
+        let outline = read_outline(&drawing(unit, &square("0", [0.0, 0.0], 1.0))).unwrap();
         assert!((outline.area() - meters * meters).abs() < 1e-15, "{unit}");
     }
 }
@@ -350,7 +353,7 @@ fn an_open_line_is_refused_with_the_place_and_width_of_its_gap() {
     assert!(remedy.contains("join the ends"));
     // rounding of the sixth digit is no gap
     let rounded = text.replace("0.3\n", "0.0003\n");
-    assert!(of(&millimeters(&rounded)).is_ok());
+    assert!(read_outline(&millimeters(&rounded)).is_ok());
 }
 
 #[test]
@@ -509,7 +512,7 @@ fn piece(text: &str, piece: Piece) -> Result<Drawn, Error> {
 
 /// The pieces that a refusal lists, as a scene would have them.
 fn listed_pieces(help: &str) -> Vec<Piece> {
-    let of = |key: &str| -> Piece {
+    let chosen = |key: &str| -> Piece {
         let table: toml::Table = key.parse().unwrap_or_else(|error| panic!("{key}: {error}"));
         let (kind, value) = table["piece"].as_table().unwrap().iter().next().unwrap();
         match (kind.as_str(), value) {
@@ -525,8 +528,10 @@ fn listed_pieces(help: &str) -> Vec<Piece> {
         }
     };
     let keys = help.split("piece = ").skip(1);
-    keys.map(|rest| of(&format!("piece = {}", rest.split_once('}').unwrap().0.to_owned() + "}")))
-        .collect()
+    keys.map(|rest| {
+        chosen(&format!("piece = {}", rest.split_once('}').unwrap().0.to_owned() + "}"))
+    })
+    .collect()
 }
 
 /// Two pieces on one layer with the line of the grain on another one, as cutters' files have them. Each key that the refusal
@@ -705,7 +710,7 @@ fn layers_that_are_off_or_frozen_are_read_only_if_they_are_asked_for() {
         + &square("OFF", [10.0, 10.0], 10.0)
         + &square("FROZEN", [40.0, 40.0], 10.0);
     let text = with_layers(&[("CUT", 0, 7), ("OFF", 0, -7), ("FROZEN", 1, 7)], &entities);
-    assert_eq!(of(&text).unwrap().holes().len(), 0);
+    assert_eq!(read_outline(&text).unwrap().holes().len(), 0);
     let asked = of_layers(&text, Some(&["CUT", "OFF", "FROZEN"])).unwrap();
     assert_eq!(asked.holes().len(), 2);
     let shown = with_layers(&[("CUT", 0, 7), ("OFF", 0, 7), ("FROZEN", 0, 7)], &entities);
@@ -739,7 +744,7 @@ fn a_block_is_drawn_where_it_is_placed() {
     assert!((hole - 0.29).abs() < 1e-9);
     // seen from behind, x is −x
     let behind: Vec<(i32, f64)> = pairs.into_iter().chain([(230, -1.0)]).collect();
-    let mirrored = of(&placed(&behind)).unwrap();
+    let mirrored = read_outline(&placed(&behind)).unwrap();
     assert!((mirrored.bounds()[0][0] + 0.325).abs() < 1e-12);
     // two beside each other are two plies
     let two: Vec<(i32, f64)> = pairs.into_iter().chain([(70, 2.0), (44, 200.0)]).collect();
@@ -832,7 +837,7 @@ fn what_is_no_dxf_text_is_refused_as_what_it_is() {
         assert!(error.to_string().contains(says), "{error}");
     }
     let wrong = millimeters(&circle("0", [0.0, 0.0], 10.0)).replace("40\n10.0", "40\nten");
-    let error = of(&wrong).unwrap_err();
+    let error = read_outline(&wrong).unwrap_err();
     // the line of the file, not of what was kept of it
     let line = wrong.lines().position(|line| line == "ten").unwrap() + 1;
     assert_eq!(error.to_string(), format!("ply.dxf: line {line}: group code 40 cannot be \"ten\""));
@@ -847,7 +852,7 @@ fn what_is_no_part_of_an_outline_changes_nothing() {
         .replace("9\n$INSUNITS", "9\n$TDCREATE\n40\n1e300\n9\n$INSUNITS")
         .replace("0\nENDSEC\n0\nEOF", "0\nHATCH\n70\nx\n0\nENDSEC\n0\nSECTION\n2\nTHUMBNAILIMAGE\n90\n9999999999999\n0\nENDSEC\n0\nEOF");
     let more = format!("999\na comment\n{more}").replace('\n', "\r\n");
-    assert_eq!(of(&more).unwrap(), of(&plain).unwrap());
+    assert_eq!(read_outline(&more).unwrap(), read_outline(&plain).unwrap());
 }
 
 /// A group in a group a million deep would take all of the stack.
@@ -855,7 +860,7 @@ fn what_is_no_part_of_an_outline_changes_nothing() {
 fn groups_within_groups_without_end_are_left_out() {
     let deep = "102\n{A\n".repeat(1_000_000);
     let text = millimeters(&(square("0", [0.0, 0.0], 100.0) + &deep));
-    assert!(of(&text).is_ok());
+    assert!(read_outline(&text).is_ok());
 }
 
 /// A damaged drawing is refused or is another drawing; nothing of it is lost without a word.
@@ -869,7 +874,7 @@ fn a_number_that_is_none_is_refused_with_its_line_wherever_it_is() {
         if matches!(code, 10..=79 | 90..=99) {
             let mut spoilt = lines.clone();
             spoilt[n] = "1.0.0";
-            let error = of(&spoilt.join("\n")).unwrap_err().to_string();
+            let error = read_outline(&spoilt.join("\n")).unwrap_err().to_string();
             assert!(
                 error.contains(&format!("line {}: group code {code} cannot", n + 1)),
                 "{error}"
@@ -884,7 +889,7 @@ fn a_drawing_that_ends_early_is_refused() {
     let text = with_layers(&[("0", 0, 7)], &slots()[2]);
     let whole = text.trim_end().len();
     for end in 0..whole {
-        let error = of(&text[..end]).unwrap_err();
+        let error = read_outline(&text[..end]).unwrap_err();
         assert!(
             ["without its mark EOF", "expected a group code", "cannot be"]
                 .iter()
@@ -892,7 +897,7 @@ fn a_drawing_that_ends_early_is_refused() {
             "{end}: {error}"
         );
     }
-    assert!(of(&text[..whole]).is_ok());
+    assert!(read_outline(&text[..whole]).is_ok());
 }
 
 /// From version 2007 on names are UTF-8; before, letters beyond ASCII are of the code page of Windows.

@@ -72,7 +72,7 @@ pub(super) struct PoseOf {
 }
 
 impl PoseOf {
-    fn of(pose: &Pose) -> Self {
+    fn new(pose: &Pose) -> Self {
         PoseOf {
             position: pose.position,
             quaternion: quaternion(pose),
@@ -198,8 +198,8 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
             verdict: ascii(&program.verdict),
             head: head(track, blocks, robot, [n, split.len()], [&name, &parts[n]]),
             duration: program.times.last().copied().unwrap_or_default(),
-            mold: PoseOf::of(&program.frames.mold),
-            tool: PoseOf::of(&program.frames.tool),
+            mold: PoseOf::new(&program.frames.mold),
+            tool: PoseOf::new(&program.frames.tool),
             axes: match separate {
                 false => program.axes.iter().map(axis).collect(),
                 true if limits.axes > 0 => vec![progress()],
@@ -322,7 +322,7 @@ impl Maker<'_> {
             speed: rate(distance(before.position, now.position)),
             turn_rate: rate(angle(&before, &now)),
             axis_speed: rate(farthest),
-            pose: PoseOf::of(&now),
+            pose: PoseOf::new(&now),
             axes: axes(sample),
             progress: self.track.progress[sample],
             radius: passed.radius,

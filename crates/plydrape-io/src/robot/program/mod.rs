@@ -128,7 +128,7 @@ impl Program {
     ///
     /// # Errors
     /// [`Error`] if plan and steps do not belong together, or the times do not ascend.
-    pub fn of(result: &ResultFile) -> Result<Self, Error> {
+    pub fn new(result: &ResultFile) -> Result<Self, Error> {
         let ply = &result.scene.ply;
         let rate = result.plan.as_ref().map(|plan| plan.rate);
         let (times, mut pads) = pads(result)?;
@@ -297,11 +297,11 @@ fn carried(tool: &Tool, pads: &mut [Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<
     let places = |k: usize| pads.iter().map(|pad| pad.poses[k].position).collect::<Vec<_>>();
     let postures: Vec<Posture> = (0..count).map(|k| tool.posture(&places(k))).collect();
     for pad in pads.iter_mut() {
-        let of = |(pose, posture): (&Pose, &Posture)| match tool.fixed_pads {
+        let pad_tilt = |(pose, posture): (&Pose, &Posture)| match tool.fixed_pads {
             Some(_) => 0.0,
             None => tilt(pose, posture.frame.axes[2]),
         };
-        pad.tilts = pad.poses.iter().zip(&postures).map(of).collect();
+        pad.tilts = pad.poses.iter().zip(&postures).map(pad_tilt).collect();
     }
     let flange = postures.iter().map(|posture| posture.frame.compose(&tool.flange)).collect();
     let strokes = |n: usize, a: usize| -> Vec<f64> {

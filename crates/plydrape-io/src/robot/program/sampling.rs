@@ -367,13 +367,13 @@ mod tests {
     #[test]
     fn a_circle_gets_as_many_chords_as_its_sagitta_needs() {
         let (radius, count) = (0.5, 20_001);
-        let at = |k: usize| {
+        let on_circle = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / (count - 1) as f64;
             [radius * angle.cos(), radius * angle.sin()]
         };
         let off = |a: usize, b: usize, k: usize| {
             let share = (k - a) as f64 / (b - a) as f64;
-            let [p, q, r] = [a, b, k].map(at);
+            let [p, q, r] = [a, b, k].map(on_circle);
             let off = [0, 1].map(|n| p[n] + share * (q[n] - p[n]) - r[n]);
             Deviation { position: off[0].hypot(off[1]), angle: 0.0 }
         };

@@ -48,7 +48,7 @@ pub(super) struct Paint {
 
 impl Paint {
     /// Fine enough to look round, coarse enough to play; one range of colors for the whole drape.
-    pub fn of(result: &ResultFile) -> Self {
+    pub fn new(result: &ResultFile) -> Self {
         let cells = result.scene.ply.lines().surface().cells().max(1);
         let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);
         let grippers = result.steps.iter().flat_map(|step| &step.grippers);

@@ -83,11 +83,11 @@ pub const PLY: &str = "/plydrape/ply";
 /// # Errors
 /// [`Error`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
 pub fn files(result: &ResultFile, tf: bool) -> Result<Files, Error> {
-    let program = Program::of(result)?;
+    let program = Program::new(result)?;
     let (mut bag, mut files) = motion(&program, tf)?;
     files.extend(description::files(result, &program));
 
-    if let Some(known) = &Loads::of(result) {
+    if let Some(known) = &Loads::new(result) {
         let loads = loads::loads(&program, known)?;
         finite::check(&loads)?;
         bag.latched(LOADS, schema::JOINTS, &loads)?;
@@ -102,7 +102,7 @@ pub fn files(result: &ResultFile, tf: bool) -> Result<Files, Error> {
         bag.latched(MOLD, schema::MARKERS, &mold)?;
     }
     bag.channel(PLY, schema::MARKERS, bag::VOLATILE)?;
-    let paint = markers::Paint::of(result);
+    let paint = markers::Paint::new(result);
     let decides = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);
     let mut sheet = decides.map(SheetKept::open).transpose()?;
     let kept = sheet.as_mut().map(SheetStates::steps).transpose()?.unwrap_or_default();

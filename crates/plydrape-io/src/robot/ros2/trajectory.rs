@@ -67,8 +67,8 @@ mod tests {
     /// A parabola has its own slope, at uneven times too.
     #[test]
     fn the_slope_of_a_parabola_is_exact() {
-        let at = |t: f64| 0.3 + 0.5 * t - 0.2 * t * t;
+        let curve = |t: f64| 0.3 + 0.5 * t - 0.2 * t * t;
         let times = [0.5, 0.8, 1.5];
-        assert!((slope(times, times.map(at)) - (0.5 - 0.4 * 0.8)).abs() < 1e-15);
+        assert!((slope(times, times.map(curve)) - (0.5 - 0.4 * 0.8)).abs() < 1e-15);
     }
 }

@@ -1,18 +1,18 @@
 use super::*;
 
-fn of(text: &str, reading: Reading) -> Result<Table, Error> {
+fn read_table(text: &str, reading: Reading) -> Result<Table, Error> {
     table(Document::new("test.csv", text), reading, &[])
 }
 
 #[test]
 fn columns_have_units_and_comments_state_measures() {
     let text = "# width = 100 mm\n# by hand\ndisplacement (mm),force (N)\n0,0\n2,0.5\n";
-    let table = of(text, Reading::Pull).unwrap();
+    let table = read_table(text, Reading::Pull).unwrap();
     assert_eq!(table.rows, [[0.0, 0.0], [0.002, 0.5]]);
     assert_eq!(table.measure("width", None).unwrap(), 0.1);
     assert_eq!(table.stated("length", None).unwrap(), None);
     let text = "curvature (1/mm),moment (N mm/mm)\n0.02,0.1\n";
-    assert_eq!(of(text, Reading::Moment).unwrap().rows, [[20.0, 0.1]]);
+    assert_eq!(read_table(text, Reading::Moment).unwrap().rows, [[20.0, 0.1]]);
     for header in [
         "K (1/cm),M (gf cm/cm)",
         "K 1/cm,M gf cm/cm",
@@ -22,7 +22,7 @@ fn columns_have_units_and_comments_state_measures() {
     ] {
         let separator = header.chars().find(|c| ",;\t".contains(*c)).unwrap_or(',');
         let text = format!("{header}\n0.5{separator}0.1\n");
-        let [curvature, moment] = of(&text, Reading::Moment).unwrap().rows[0];
+        let [curvature, moment] = read_table(&text, Reading::Moment).unwrap().rows[0];
         assert!((curvature - 50.0).abs() < 1e-12 && (moment - 9.80665e-4).abs() < 1e-15);
     }
 }
@@ -43,7 +43,7 @@ fn a_file_states_its_measures_in_comments_and_lines_of_machines() {
             true => line.to_owned(),
             false => format!("{line}\nWeg (mm);Kraft (N)\n2;1\n"),
         };
-        let table = of(&text, Reading::Pull).unwrap();
+        let table = read_table(&text, Reading::Pull).unwrap();
         assert_eq!(table.measure("width", None).unwrap(), 0.05, "{line}");
         let other = table.measure("width", Some(0.1)).unwrap_err();
         assert_eq!(other.message(), "the file states another width than --width");
@@ -83,7 +83,7 @@ fn faults_have_a_place_and_a_remedy() {
             "the column `direction` has more than one value, and another one begins here",
         ),
     ] {
-        let error = of(text, reading).unwrap_err();
+        let error = read_table(text, reading).unwrap_err();
         assert_eq!(error.message(), message);
         assert!(error.diagnostic().unwrap().span.is_some() && !error.help().is_empty());
     }
@@ -124,11 +124,11 @@ fn plain_numbers_that_are_not_usual_are_asked_about() {
             "the column `overhang` has no unit, and `62` would be 62 m",
         ),
     ] {
-        let error = of(text, reading).unwrap_err();
+        let error = read_table(text, reading).unwrap_err();
         assert_eq!(error.message(), message);
         assert!(error.help().starts_with("name the unit in the header"), "{}", error.help());
     }
-    assert!(of("overhang\n0.062\n", Reading::Overhang).is_ok());
+    assert!(read_table("overhang\n0.062\n", Reading::Overhang).is_ok());
 }
 
 /// A title that ends in a name is one field, whatever precedes it.
@@ -140,7 +140,7 @@ fn a_column_beside_others_is_read_alone() {
         "strip\tStrip overhang, mm\n1\t62.0\n2\t63.0\n",
         "overhang (mm)\n62,0\n63,0\n",
     ] {
-        let rows = of(text, Reading::Overhang).unwrap().rows;
+        let rows = read_table(text, Reading::Overhang).unwrap().rows;
         assert_eq!(rows, [[0.062, 0.0], [0.063, 0.0]], "{text}");
     }
 }

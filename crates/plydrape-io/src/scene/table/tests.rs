@@ -25,7 +25,7 @@ fn chosen(text: &str, titles: &[Option<&str>]) -> Result<Vec<Vec<f64>>, Error> {
     table.rows().map(|row| Ok(vec![row.number(0)?, row.number(1)?])).collect()
 }
 
-fn of(text: &str) -> Result<Vec<Vec<f64>>, Error> {
+fn read_numbers(text: &str) -> Result<Vec<Vec<f64>>, Error> {
     chosen(text, &[])
 }
 
@@ -61,7 +61,7 @@ fn a_table_reads_the_same_whoever_wrote_it() {
         "\"Extension 1\",\"AxialForce\"\n\"mm\",\"N\"\n4,0.088\n8,0.191\n",
         "Extension (mm),Extension (%),Load (N)\n4,1,0.088\n8,2,0.191\n",
     ] {
-        assert_two_points(text, of(text));
+        assert_two_points(text, read_numbers(text));
     }
 }
 
@@ -107,11 +107,11 @@ fn what_may_be_another_table_is_refused() {
             "there are numbers above the header, and it is not known what they are",
         ),
     ] {
-        let error = of(text).unwrap_err();
+        let error = read_numbers(text).unwrap_err();
         assert_eq!(error.message(), message, "{text}");
         assert!(error.diagnostic().unwrap().span.is_some() && !error.help().is_empty(), "{text}");
     }
-    let error = of("a;b\nWeg;b\n4;1\n").unwrap_err();
+    let error = read_numbers("a;b\nWeg;b\n4;1\n").unwrap_err();
     assert_eq!(error.diagnostic().unwrap().line_column(), Some((2, 1)));
     assert!(error.help().contains("--force \"title of the column\""), "{}", error.help());
 }
@@ -128,7 +128,7 @@ fn a_number_that_may_be_another_one_is_refused() {
         ("Weg (mm),Kraft (mN)\n5,998\n9,1.012\n", "1.012", ["1012", "1.0120"]),
         ("Weg (um);Kraft (N)\n61.500;1\n", "61.500", ["61500", "61.5000"]),
     ] {
-        let error = of(text).unwrap_err();
+        let error = read_numbers(text).unwrap_err();
         let mark = if number.contains(',') { "comma" } else { "point" };
         let message = format!("`{number}` may have a decimal {mark} or a separator of thousands");
         assert_eq!(error.message(), message, "{text}");
@@ -136,7 +136,7 @@ fn a_number_that_may_be_another_one_is_refused() {
             assert!(error.help().contains(remedy.trim_matches('"')), "{}", error.help());
             let written = text.replace(&format!("\"{number}\""), number);
             let mended = written.replace(number, remedy);
-            assert!(of(&mended).is_ok(), "{mended}: {:?}", of(&mended));
+            assert!(read_numbers(&mended).is_ok(), "{mended}: {:?}", read_numbers(&mended));
         }
     }
     for text in [
@@ -145,7 +145,7 @@ fn a_number_that_may_be_another_one_is_refused() {
         "Weg (mm),Kraft (N)\n4,1.088\n8,2.191\n",
         "Weg (mm);Kraft (N)\n4;1.088\n8.5;2\n",
     ] {
-        assert!(of(text).is_ok(), "{text}: {:?}", of(text));
+        assert!(read_numbers(text).is_ok(), "{text}: {:?}", read_numbers(text));
     }
 }
 
@@ -184,8 +184,8 @@ proptest! {
         near in "weg[;,\t]kraft\\n([0-9.,;\"e #°\\-]{0,9}\\r?\\n?){0,4}",
         timed in "t ?\\(?[ms]{0,2}\\)?,x\\n([0-9.,e\" #°\\-]{0,9}\\r?\\n?){0,4}",
     ) {
-        let _ = of(&text);
-        let _ = of(&near);
+        let _ = read_numbers(&text);
+        let _ = read_numbers(&near);
         let document = Document::new("a.csv", &timed);
         if let Ok(table) = Table::new(&document, &COLUMNS, &[]) {
             for row in table.rows() {

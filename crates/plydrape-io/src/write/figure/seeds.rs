@@ -53,12 +53,12 @@ pub fn svg(seeds: &Seeds, net: &Net, name: &str) -> String {
     canvas.text(&words(taken), [24.0, 44.0], plain(12.5, -1));
 
     // Seeds on the flat ply.
-    let at = |[u, v]: [f64; 2]| -> Px {
+    let pixel = |[u, v]: [f64; 2]| -> Px {
         [ROOM[0] + (u - bounds[0][0]) * scale, HEAD + height - (v - bounds[0][1]) * scale]
     };
     if let Some(outline) = net.ply_outline() {
         for ring in outline.rings() {
-            let closed: Vec<Px> = ring.iter().chain(ring.first()).map(|p| at(*p)).collect();
+            let closed: Vec<Px> = ring.iter().chain(ring.first()).map(|p| pixel(*p)).collect();
             canvas.line(&closed, FRAME, 1.0);
         }
     }
@@ -67,21 +67,21 @@ pub fn svg(seeds: &Seeds, net: &Net, name: &str) -> String {
     let low = if low.is_finite() { low } else { 0.0 };
     let high = shears().fold(low, f64::max).max(low + LEAST);
     for choice in &at_heading {
-        let [x, y] = at(choice.at.fabric);
+        let [x, y] = pixel(choice.at.fabric);
         let share = (cost(choice).unwrap_or(low) - low) / (high - low);
         let square = [[-HALF, -HALF], [HALF, -HALF], [HALF, HALF], [-HALF, HALF]];
         canvas.polygon(&square.map(|[a, b]| [x + a, y + b]), viridis(share));
     }
-    let place = at(taken.at.fabric);
+    let place = pixel(taken.at.fabric);
     canvas.circle(place, HALF + 3.0, Ink([255; 3], 1.0), 4.0);
     canvas.circle(place, HALF + 3.0, BLACK, 1.8);
     let steps = |length: f64, room: f64| (length * scale / room).clamp(2.0, 8.0);
     for tick in axes::ticks(bounds[0][0], bounds[1][0], steps(size[0], 56.0)) {
-        let [x, y] = at([tick * 1e-3, bounds[0][1]]);
+        let [x, y] = pixel([tick * 1e-3, bounds[0][1]]);
         canvas.text(&axes::label(tick), [x, y + 13.0], plain(TICK, 0));
     }
     for tick in axes::ticks(bounds[0][1], bounds[1][1], steps(size[1], 34.0)) {
-        let [x, y] = at([bounds[0][0], tick * 1e-3]);
+        let [x, y] = pixel([bounds[0][0], tick * 1e-3]);
         canvas.text(&axes::label(tick), [x - 8.0, y], plain(TICK, 1));
     }
     canvas.text(
@@ -103,25 +103,25 @@ pub fn svg(seeds: &Seeds, net: &Net, name: &str) -> String {
 fn of_headings(canvas: &mut Canvas, costs: &[(f64, f64)], taken: f64, top: f64) {
     let high = costs.iter().map(|(_, cost)| *cost).fold(LEAST, f64::max);
     let (first, last) = (costs[0].0, costs[costs.len() - 1].0);
-    let at = |degrees: f64, cost: f64| -> Px {
+    let pixel = |degrees: f64, cost: f64| -> Px {
         let share = (degrees - first) / (last - first).max(1e-9);
         [ROOM[0] + PANEL * share, top + HEADINGS * (1.0 - cost / high)]
     };
     for tick in axes::round(0.0, high, 5.0) {
-        let [x, y] = at(first, tick);
+        let [x, y] = pixel(first, tick);
         canvas.line(&[[x, y], [x + PANEL, y]], GRID, 1.0);
         canvas.text(&axes::label(tick), [x - 8.0, y], plain(TICK, 1));
     }
     for tick in axes::round(first, last, 8.0) {
-        let [x, y] = at(tick, 0.0);
+        let [x, y] = pixel(tick, 0.0);
         canvas.text(&axes::label(tick), [x, y + 13.0], plain(TICK, 0));
     }
-    let line: Vec<Px> = costs.iter().map(|(degrees, cost)| at(*degrees, *cost)).collect();
+    let line: Vec<Px> = costs.iter().map(|(degrees, cost)| pixel(*degrees, *cost)).collect();
     canvas.line(&line, DARK, 1.4);
     if let Some((degrees, cost)) = costs.iter().find(|(degrees, _)| *degrees == taken) {
-        canvas.circle(at(*degrees, *cost), 5.0, BLACK, 1.8);
+        canvas.circle(pixel(*degrees, *cost), 5.0, BLACK, 1.8);
     }
-    let [x, y] = at(0.5 * (first + last), 0.0);
+    let [x, y] = pixel(0.5 * (first + last), 0.0);
     canvas.text("heading (deg); largest shear (deg)", [x, y + 31.0], plain(LABEL, 0));
 }
 

@@ -57,7 +57,7 @@ impl Mesh {
             let low = if strip && c == 1 { -0.5 * ply.cell[c] } else { 0.0 };
             (0..=count).map(|n| low + n as f64 * side).collect()
         });
-        Mesh::of(along, strip, |_, _| true)
+        Mesh::between_lines(along, strip, |_, _| true)
     }
 
     /// What is within an outline.
@@ -71,7 +71,7 @@ impl Mesh {
         });
         let close = 1e-6 * aim;
         let touches = |at: f64, low: f64, high: f64| at > low - close && at < high + close;
-        Mesh::of(along, false, |low, high| {
+        Mesh::between_lines(along, false, |low, high| {
             let is_corner = |place: &[f64; 2]| (0..2).all(|c| touches(place[c], low[c], high[c]));
             let held = grippers.iter().any(is_corner);
             let whole = (high[0] - low[0]) * (high[1] - low[1]);
@@ -80,7 +80,11 @@ impl Mesh {
     }
 
     /// The rectangles between lines along u and along v (m) that are `kept`, by their lowest and highest corner.
-    fn of(along: [Vec<f64>; 2], strip: bool, kept: impl Fn([f64; 2], [f64; 2]) -> bool) -> Mesh {
+    fn between_lines(
+        along: [Vec<f64>; 2],
+        strip: bool,
+        kept: impl Fn([f64; 2], [f64; 2]) -> bool,
+    ) -> Mesh {
         let grid = along.each_ref().map(|lines| {
             let mut halves: Vec<f64> =
                 lines.windows(2).flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]).collect();

@@ -44,8 +44,8 @@ fn fibers_follow_the_warp() {
         result.scene.ply.warp = warp;
         let deck = text(&result, 2e4).unwrap();
         let axes = numbers(block(&deck, "*ORIENTATION")[0]);
-        let at = |k: usize| result.steps[0].grippers[k].position;
-        let way: Vec<f64> = (0..3).map(|c| at(gripper)[c] - at(0)[c]).collect();
+        let position = |k: usize| result.steps[0].grippers[k].position;
+        let way: Vec<f64> = (0..3).map(|c| position(gripper)[c] - position(0)[c]).collect();
         let length = way.iter().map(|c| c * c).sum::<f64>().sqrt();
         let cos = (0..3).map(|c| axes[c] * way[c] / length).sum::<f64>();
         assert!(cos > 0.995, "{warp:?}: {cos}; the grid of the tilted sample is sheared by 2 deg");

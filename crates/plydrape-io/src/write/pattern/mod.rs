@@ -64,9 +64,12 @@ fn arrow(pattern: &Pattern) -> [Vec<[f64; 2]>; 2] {
     let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
     let length = 0.25 * (high[0] - low[0]).min(high[1] - low[1]);
     let (sin, cos) = pattern.warp.sin_cos();
-    let at = |along: f64, across: f64| {
+    let point = |along: f64, across: f64| {
         let [u, v] = [along * length, across * length];
         [middle[0] + u * cos - v * sin, middle[1] + u * sin + v * cos]
     };
-    [vec![at(0.5, 0.0), at(-0.5, 0.0)], vec![at(0.35, 0.06), at(0.5, 0.0), at(0.35, -0.06)]]
+    [
+        vec![point(0.5, 0.0), point(-0.5, 0.0)],
+        vec![point(0.35, 0.06), point(0.5, 0.0), point(0.35, -0.06)],
+    ]
 }

@@ -149,14 +149,14 @@ impl Page {
     }
 
     fn circle(&self, to: &mut Content, [x, y]: [f64; 2], radius: f64) {
-        let at = |u: f64, v: f64| [x + u * radius, y + v * radius].map(|c| self.units(c));
-        let [begin_x, begin_y] = at(1.0, 0.0);
+        let on_circle = |u: f64, v: f64| [x + u * radius, y + v * radius].map(|c| self.units(c));
+        let [begin_x, begin_y] = on_circle(1.0, 0.0);
         to.move_to(begin_x, begin_y);
         // from one quarter to the next
         for [u, v] in [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]] {
-            let [a, b] = at(u - CIRCLE * v, v + CIRCLE * u);
-            let [c, d] = at(-v + CIRCLE * u, u + CIRCLE * v);
-            let [e, f] = at(-v, u);
+            let [a, b] = on_circle(u - CIRCLE * v, v + CIRCLE * u);
+            let [c, d] = on_circle(-v + CIRCLE * u, u + CIRCLE * v);
+            let [e, f] = on_circle(-v, u);
             to.cubic_to(a, b, c, d, e, f);
         }
         to.close_path().stroke();

@@ -32,8 +32,8 @@ pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
     let place = |k: usize| [k % nu, k / nu];
     let fabric = |direction: usize| -> Vec<f64> {
         let side = result.scene.ply.cell[direction];
-        let at = |k: usize| side * place(k)[direction] as f64 / intervals as f64;
-        (0..vertices.len()).map(at).collect()
+        let coordinate = |k: usize| side * place(k)[direction] as f64 / intervals as f64;
+        (0..vertices.len()).map(coordinate).collect()
     };
     let tangents = |direction: usize| -> Vec<[f64; 3]> {
         let (step, count) = if direction == 0 { (1, nu) } else { (nu, nv) };

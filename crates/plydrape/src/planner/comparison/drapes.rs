@@ -49,11 +49,11 @@ fn straight_motion(scene: &Scene) -> Motion {
         _ => scene.layup.motion.times.clone(),
     };
     let last = (times.len() - 1) as f64;
-    let at = |k: usize| -> Vec<Point> {
+    let straight_step = |k: usize| -> Vec<Point> {
         let pairs = start.iter().zip(&target.grippers);
         pairs.map(|(a, b)| between(*a, *b, k as f64 / last)).collect()
     };
-    Motion { positions: (0..times.len()).map(at).collect(), times }
+    Motion { positions: (0..times.len()).map(straight_step).collect(), times }
 }
 
 /// The best drape along the motions of several fronts. They are ranked as a search ranks its candidates, and of the best few

@@ -11,6 +11,7 @@ use crate::geometry::Point;
 use crate::planner::evaluation::{self, Bias, Drapes, Mesh};
 use crate::planner::journal;
 use crate::planner::search_state::SearchState;
+use crate::planner::tuning;
 use crate::scene::Scene;
 use std::borrow::Cow;
 
@@ -57,7 +58,7 @@ impl<'a> Fronts<'a> {
     ) -> Result<(f64, Option<Drapes>), Error> {
         let excess = geometry::excess(self.scene, positions);
         if excess > TUNING.search.excess {
-            return Ok((TUNING.search.not_draped * excess, None));
+            return Ok((tuning::TUNING.missing_weight * excess, None));
         }
         let key = journal::key(positions, Some(mesh), &state.cells());
         let drapes =

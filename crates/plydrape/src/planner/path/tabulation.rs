@@ -22,7 +22,7 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
         // the grippers also pass over it on their way from the start
         let places = target.grippers.iter().chain(scene.layup.start());
         let local: Vec<Point> = places.map(|p| graph.pose.local(*p)).collect();
-        around(&local, TUNING.front.table_margin)
+        around(&local, TUNING.front.height_margin)
     });
     let tolerance = TUNING.front.table_error * scene.layup.ply.shorter_side();
     let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };
@@ -39,10 +39,10 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
 fn table(z: &Formula, domain: [[f64; 2]; 2], tolerance: f64) -> Option<HeightGrid> {
     let nodes = TUNING.front.table_nodes;
     let table = height_grid(domain, nodes, |[x, y]| z.at(x, y).z)?;
-    let at = |n: usize, k: f64| node(domain[n], k, nodes);
+    let coordinate = |n: usize, k: f64| node(domain[n], k, nodes);
     // the error is largest in the middles of its squares
     let error = |i: usize, j: usize| {
-        let [x, y] = [at(0, i as f64 + 0.5), at(1, j as f64 + 0.5)];
+        let [x, y] = [coordinate(0, i as f64 + 0.5), coordinate(1, j as f64 + 0.5)];
         (table.at(x, y).z - z.at(x, y).z).abs()
     };
     let sound = (0..nodes - 1).all(|j| (0..nodes - 1).all(|i| error(i, j) <= tolerance));

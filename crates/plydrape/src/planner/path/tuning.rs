@@ -72,7 +72,7 @@ pub struct Front {
     pub divisions: usize,
     /// Nodes of the height grid of the lifted mold along each axis.
     pub height_nodes: usize,
-    /// Margin of that height grid around the drape, as a share of its size.
+    /// Margin of that height grid around the drape, as a share of its size; of a table of a formula without borders, too.
     pub height_margin: f64,
     /// Vertical part of the mold's normal at its border below which the mold is not continued more steeply.
     pub upright_border: f64,
@@ -89,8 +89,6 @@ pub struct Front {
     pub table_nodes: usize,
     /// Error up to which this table is used (cells).
     pub table_error: f64,
-    /// Margin of the table around the drape where the formula has no borders, as a share of its size.
-    pub table_margin: f64,
     /// How far the front runs beyond the last gripper, as a share of its path.
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
@@ -146,8 +144,6 @@ pub struct Search {
     /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
     /// ply tilts a gripper less or more than the lines to its neighbors.
     pub excess: f64,
-    /// Score of such a candidate, as a multiple of the ratio: worse than that of one that is draped.
-    pub not_draped: f64,
     /// First candidates that are draped before the best of them is decided on: whole pairs, for two cores.
     pub batch: usize,
     /// Candidates that are kept to be decided on.
@@ -202,7 +198,6 @@ pub const TUNING: PathTuning = PathTuning {
         taut: 1e-6,
         table_nodes: 161,
         table_error: 1e-6,
-        table_margin: 0.5,
         beyond: 0.02,
         finer: 4,
         steepest: 0.6,
@@ -236,7 +231,6 @@ pub const TUNING: PathTuning = PathTuning {
         good: 0.8,
         promising: [1.4, 1.1],
         excess: 1.1,
-        not_draped: 1e2,
         batch: 4,
         kept: 16,
         steps: [0.1, 0.05],

@@ -282,7 +282,7 @@ impl<'a> Replanner<'a> {
         };
         let carried = match (&peaks(&motion), &scene.layup.tool) {
             (Some(peaks), Some(tool)) if peaks.stretch(tool) > 1.0 => {
-                TUNING.tool_margin * peaks.stretch(tool)
+                TUNING.sampled_margin * peaks.stretch(tool)
             }
             _ => 1.0,
         };
@@ -334,7 +334,7 @@ impl<'a> Replanner<'a> {
         let record = PlanRecord {
             picked_up: Some(picked_up),
             cycle,
-            ..PlanRecord::of(method, evaluations, rate, path, &drape, limited_by)
+            ..PlanRecord::new(method, evaluations, rate, path, &drape, limited_by)
         };
         Ok(Replanned { record, motion, attitudes, longer, steps, summary, moved, begins, ends })
     }

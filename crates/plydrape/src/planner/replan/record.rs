@@ -144,7 +144,7 @@ impl Outcome<'_> {
             motion: Course::Smooth(self.motion),
             // the nearest bodies were looked for above, without the landing, which stays
             attitudes: None,
-            peaks: MotionPeaks::of(self.motion, self.last_free, &scene.limits),
+            peaks: MotionPeaks::new(self.motion, self.last_free, &scene.limits),
             tool: self.tool.as_ref(),
             rate: self.motion.fitting_rate(scene.plan.rate),
         };

@@ -92,10 +92,10 @@ fn carried(path: Steps, bodies: Bodies, tool: Option<Tool>) -> Found {
         tool,
         ..scene.layup
     };
-    scene.limits = Limits::of(&scene.layup);
+    scene.limits = Limits::usual(&scene.layup);
     scene.limits.workspace = Some([[-1.5, 1.5]; 3]);
     let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
-    let record = PlanRecord::of(PlanMethod::Path, 1, 100.0, path, &motion, Vec::new());
+    let record = PlanRecord::new(PlanMethod::Path, 1, 100.0, path, &motion, Vec::new());
     scene.layup.motion = motion.steps();
     let drape = draped(&scene);
     assert_eq!(drape.summary.steps, scene.layup.motion.times.len(), "{:?}", drape.summary.stopped);

@@ -25,14 +25,15 @@ fn a_net_of_pins_hangs_as_an_independent_simulator_has_it() {
         let mut cloth = flat(&sheet, 0.0);
         let to: Vec<[f64; 3]> = held.iter().map(|[u, v]| [0.98 * u, 0.98 * v, 0.0]).collect();
         bring(&mut cloth, &to, 20, 0.1);
-        let at = |u: f64, v: f64| sheet.fabric.node_at([u, v]).map(|n| cloth.now.x[n][2] * 1e3);
+        let height_mm =
+            |u: f64, v: f64| sheet.fabric.node_at([u, v]).map(|n| cloth.now.x[n][2] * 1e3);
         let found = [
-            at(0.05, 0.05),
-            at(0.15, 0.05),
-            at(0.05, 0.0),
-            at(0.15, 0.0),
-            at(0.0, 0.05),
-            at(0.1, 0.05),
+            height_mm(0.05, 0.05),
+            height_mm(0.15, 0.05),
+            height_mm(0.05, 0.0),
+            height_mm(0.15, 0.0),
+            height_mm(0.0, 0.05),
+            height_mm(0.1, 0.05),
         ];
         for (found, figure) in found.into_iter().zip(figures) {
             let found = found.expect("a node");
@@ -55,11 +56,11 @@ fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
         let to: Vec<[f64; 3]> = held.iter().map(|[u, v]| [0.98 * u, 0.98 * v, 0.0]).collect();
         bring(&mut cloth, &to, 20, 0.1);
         let reach = TILT_REACH * sheet.pitch;
-        let of = |place: &[f64; 2]| {
+        let tilt = |place: &[f64; 2]| {
             let around = surroundings(&sheet.fabric, &cloth.now.x, *place, reach);
             angle_between(around.expect("cells").0, [0.0, 0.0, 1.0]).to_degrees()
         };
-        held.iter().map(of).collect::<Vec<_>>()
+        held.iter().map(tilt).collect::<Vec<_>>()
     });
     for n in 0..held.len() {
         let of = tilts.each_ref().map(|tilts| tilts[n]);
@@ -188,12 +189,12 @@ fn a_softening_strip_stores_the_work_of_its_grippers() {
     sheet.mesh = 0.005;
     sheet.moment = [Some(softening()), None];
     let mut cloth = flat(&sheet, 0.0);
-    let at = |share: f64| [[0.01 * share, 0.0, 0.0], [0.1 - 0.01 * share, 0.0, 0.0]];
-    bring(&mut cloth, &at(0.2), 10, 0.1);
+    let places = |share: f64| [[0.01 * share, 0.0, 0.0], [0.1 - 0.01 * share, 0.0, 0.0]];
+    bring(&mut cloth, &places(0.2), 10, 0.1);
     let (start, mut work) = (cloth.energy(), 0.0);
     let mut before = cloth.forces();
     for step in 1..=40 {
-        bring(&mut cloth, &at(0.2 + 0.02 * f64::from(step)), 1, 0.1);
+        bring(&mut cloth, &places(0.2 + 0.02 * f64::from(step)), 1, 0.1);
         let forces = cloth.forces();
         // both move by 0.2 mm, the first one along x and the second one against it
         let along = |forces: &[[f64; 3]]| forces[0][0] - forces[1][0];

@@ -62,9 +62,9 @@ fn even(length: f64, spacings: usize) -> Vec<f64> {
 
 /// The sheet flat at a height (m), where its fabric coordinates are x and y.
 fn flat(sheet: &Sheet, z: f64) -> Cloth<'_> {
-    let at = |[u, v]: [f64; 2]| [u, v, z];
-    let x = sheet.fabric.places.iter().map(|uv| at(*uv)).collect();
-    let pads = sheet.grippers.iter().map(|gripper| Pad::new(at(gripper.place))).collect();
+    let lifted = |[u, v]: [f64; 2]| [u, v, z];
+    let x = sheet.fabric.places.iter().map(|uv| lifted(*uv)).collect();
+    let pads = sheet.grippers.iter().map(|gripper| Pad::new(lifted(gripper.place))).collect();
     Cloth::new(sheet, SheetTuning::default(), x, pads)
 }
 

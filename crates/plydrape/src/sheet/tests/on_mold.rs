@@ -91,8 +91,8 @@ fn an_isometric_roll_leaves_nothing() {
             }
             let normal = [angle.sin(), angle.cos()];
             let tangent = [angle.cos(), -angle.sin()];
-            let at = |n: usize| (radius + rise) * normal[n] + slope * tangent[n];
-            [v, at(0), at(1)]
+            let coordinate = |n: usize| (radius + rise) * normal[n] + slope * tangent[n];
+            [v, coordinate(0), coordinate(1)]
         };
         let mut cloth = flat(&sheet, 0.0);
         // the front starts beside the ply
@@ -133,15 +133,15 @@ fn nodes_that_were_left_out_are_lifted() {
         sheet.friction = friction;
         let [ends, all] = [true, false].map(|leaves_out| {
             let mut cloth = flat(&sheet, 1e-4);
-            let at = |lift: f64| -> Vec<[f64; 3]> {
+            let raised = |lift: f64| -> Vec<[f64; 3]> {
                 let place = |[u, v]: &[f64; 2]| [*u, *v, if *u > 0.15 { lift } else { 0.0 }];
                 held.iter().map(place).collect()
             };
-            bring(&mut cloth, &at(0.0), 2, 1.0);
+            bring(&mut cloth, &raised(0.0), 2, 1.0);
             cloth.phase = if leaves_out { Phase::Follow } else { Phase::Rest };
             let mut most = 0;
             for step in 1..=20 {
-                follow(&mut cloth, &at(4e-4 * f64::from(step)), 1.0);
+                follow(&mut cloth, &raised(4e-4 * f64::from(step)), 1.0);
                 most = most.max(cloth.resting.still.iter().filter(|still| **still).count());
             }
             assert_eq!(most > 20, leaves_out, "{most} of {} nodes", cloth.resting.still.len());

@@ -133,7 +133,7 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
             left.set(left.get() - 1);
             left.get() < 0
         };
-        let limits = Limits::of(&layup);
+        let limits = Limits::usual(&layup);
         let (mut judge, mut hand_over) = (Judge::new(&layup, &limits, true), HandOver::default());
         let mut strain = 0.0_f64;
         let see = |sheet: &Sheet, state: &ClothState, last: bool| {

@@ -109,8 +109,8 @@ fn a_ply_that_sticks_stays_where_it_was_laid() {
 /// exactly itself and changes nothing else.
 #[test]
 fn a_dwell_delays_the_release_by_itself() {
-    let of = |dwell: f64| draped(&layup(rolled(), release(ReleaseOrder::End, dwell)));
-    let ((none, without), (some, with)) = (of(0.0), of(1.25));
+    let drape_with = |dwell: f64| draped(&layup(rolled(), release(ReleaseOrder::End, dwell)));
+    let ((none, without), (some, with)) = (drape_with(0.0), drape_with(1.25));
     let kinds = |drape: &Drape| {
         let events = drape.events.iter();
         events.map(|event| (event.time, event.kind, event.grippers.len())).collect::<Vec<_>>()
@@ -275,13 +275,14 @@ fn the_mold_bears_the_weight_of_a_ply_without_pads() {
             [u * c - height * s, v, u * s + height * c]
         };
         sheet.mold = Some(mold);
-        let at = |height: f64| sheet.grippers.iter().map(move |g| on(g.place, height));
+        let pads_at = |height: f64| sheet.grippers.iter().map(move |g| on(g.place, height));
         let mut cloth = flat(&sheet, 0.0);
         for (x, place) in cloth.now.x.iter_mut().zip(&sheet.fabric.places) {
             *x = on(*place, 1e-4);
         }
-        cloth.now.pads = at(1e-4).map(|p| Pad { turn: turned(angle), ..Pad::new(p) }).collect();
-        let down: Vec<[f64; 3]> = at(0.0).collect();
+        cloth.now.pads =
+            pads_at(1e-4).map(|p| Pad { turn: turned(angle), ..Pad::new(p) }).collect();
+        let down: Vec<[f64; 3]> = pads_at(0.0).collect();
         bring(&mut cloth, &down, 4, 1.0);
         let reaction = |cloth: &Cloth| {
             let contact = cloth.energies.contact.as_ref().expect("a mold");
@@ -321,7 +322,7 @@ fn a_pad_that_is_gone_has_no_loads() {
     let (gone, held): (Vec<_>, Vec<_>) = gone.partition(|(holds, _)| !**holds);
     assert!(gone.len() > 20 && gone.iter().all(|(_, force)| **force == [0.0; 3]));
     let most = held.iter().map(|(_, f)| crate::geometry::vector::norm(**f)).fold(0.0, f64::max);
-    let limits = Limits::of(&layup);
+    let limits = Limits::usual(&layup);
     let mut judge = Judge::new(&layup, &limits, true);
     let measured = handed_over(&layup, &drape, &states);
     let measured = measured.iter().map(|state| judge.see_all(state).value(Name::GripperForce));

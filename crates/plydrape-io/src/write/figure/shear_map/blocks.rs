@@ -22,7 +22,7 @@ pub(super) struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    pub fn of(net: &'a Net) -> Self {
+    pub fn new(net: &'a Net) -> Self {
         let cells = net.placement.nodes.map(|n| n - 1);
         let side = ((cells[0] * cells[1]) as f64 / BLOCKS).sqrt().ceil().max(1.0) as usize;
         let count = cells.map(|n| n.div_ceil(side));
@@ -81,11 +81,12 @@ impl<'a> Blocks<'a> {
             let [low, high] = [low, high].map(|node| self.net.placement.fabric(node));
             [0, 1].map(|c| 0.5 * (low[c] + high[c]))
         };
-        let at = |[k, m]: [usize; 2]| Some((middle([k, m]), self.shear[m * self.count[0] + k]?));
+        let vertex =
+            |[k, m]: [usize; 2]| Some((middle([k, m]), self.shear[m * self.count[0] + k]?));
         let mut pieces = Vec::new();
         for m in 1..self.count[1] {
             for k in 1..self.count[0] {
-                let ring = [[k - 1, m - 1], [k, m - 1], [k, m], [k - 1, m]].map(at);
+                let ring = [[k - 1, m - 1], [k, m - 1], [k, m], [k - 1, m]].map(vertex);
                 let [Some(a), Some(b), Some(c), Some(d)] = ring else { continue };
                 // two triangles have no doubtful case
                 for triangle in [[a, b, c], [a, c, d]] {

@@ -16,8 +16,8 @@ pub(super) fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
         // beside the far edge the arrow leads to the seed
         let from = seed[c].min((nodes[c] - 1).saturating_sub(wanted));
         let to = (from + wanted).min(nodes[c] - 1);
-        let at = |n: usize| if c == 0 { [n, seed[1]] } else { [seed[0], n] };
-        (name, (from..=to).map(at).collect())
+        let node = |n: usize| if c == 0 { [n, seed[1]] } else { [seed[0], n] };
+        (name, (from..=to).map(node).collect())
     };
     [(0, "u"), (1, "v")].into_iter().map(arrow).collect()
 }

@@ -32,7 +32,7 @@ const LEGEND: f64 = 42.0;
 /// The shear map of a net as an SVG; `None` for a net without a cell that has all its nodes, such as a strip.
 #[must_use]
 pub fn svg(net: &Net, name: &str) -> Option<String> {
-    let blocks = Blocks::of(net);
+    let blocks = Blocks::new(net);
     blocks.shear.iter().flatten().next()?;
     let bounds = net.ply_outline()?.bounds();
     let fabric = [0, 1].map(|c| bounds[1][c] - bounds[0][c]);

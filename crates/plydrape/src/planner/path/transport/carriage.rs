@@ -178,13 +178,13 @@ impl<'a> Carriage<'a> {
     fn length(&self) -> f64 {
         let parts = (self.turn.angle() / TUNING.transport.turn).ceil().max(1.0) as usize;
         let [from, to] = self.ends.map(|p| [p[0], p[1], 0.0]);
-        let at = |k: usize| {
+        let array = |k: usize| {
             let part = k as f64 / parts as f64;
             self.array_at((along(from, part, sub(to, from)), part))
         };
         let mut lengths = vec![0.0; self.array.len()];
         for k in 0..parts {
-            for ((sum, a), b) in lengths.iter_mut().zip(at(k)).zip(at(k + 1)) {
+            for ((sum, a), b) in lengths.iter_mut().zip(array(k)).zip(array(k + 1)) {
                 *sum += distance(a, b);
             }
         }
@@ -205,13 +205,13 @@ fn placed(array: &[Point], center: Point, rotation: &Rotation) -> Vec<Point> {
 /// the first and the last control point.
 fn spline(controls: &[Control], k: usize, t: f64) -> Control {
     let last = controls.len() - 1;
-    let at = |n: usize| controls[n.min(last)];
+    let control = |n: usize| controls[n.min(last)];
     let reflected = |a: Control, b: Control| (along(a.0, 1.0, sub(a.0, b.0)), 2.0 * a.1 - b.1);
-    let before = if k == 0 { reflected(at(0), at(1)) } else { at(k - 1) };
+    let before = if k == 0 { reflected(control(0), control(1)) } else { control(k - 1) };
     let after = |n: usize| match n {
-        _ if n <= last => at(n),
-        _ if n == last + 1 => reflected(at(last), at(last.saturating_sub(1))),
-        _ => at(last),
+        _ if n <= last => control(n),
+        _ if n == last + 1 => reflected(control(last), control(last.saturating_sub(1))),
+        _ => control(last),
     };
     let (s, cubes) = (1.0 - t, t * t * t);
     let weights = [

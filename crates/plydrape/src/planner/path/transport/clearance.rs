@@ -226,7 +226,7 @@ fn boundary(mold: &Mold, [mut on, mut off]: [Point; 2]) -> Option<Point> {
 /// where they meet none.
 fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
     let [nx, ny] = ranges.map(|[low, high]| ((high - low) / pitch).ceil().max(1.0) as usize);
-    let at = |i: usize, j: usize| {
+    let node = |i: usize, j: usize| {
         let [x, y] = [(0, i, nx), (1, j, ny)].map(|(n, k, count)| {
             let [low, high] = ranges[n];
             low + (high - low) * k as f64 / count as f64
@@ -235,7 +235,7 @@ fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
     };
     // which nodes of a grid see the mold from above
     let line = |j: usize| -> Vec<bool> {
-        (0..=nx).map(|i| mold.highest_point([at(i, j)[0], at(i, j)[1]]).is_some()).collect()
+        (0..=nx).map(|i| mold.highest_point([node(i, j)[0], node(i, j)[1]]).is_some()).collect()
     };
     let lines: Vec<Vec<bool>> = (0..=ny).map(line).collect();
     // a boundary passes between neighbors of which only one sees it: bisect there
@@ -245,8 +245,8 @@ fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
             for (k, l) in [(i + 1, j), (i, j + 1)].into_iter().filter(|(k, l)| *k <= nx && *l <= ny)
             {
                 let ends = match [lines[j][i], lines[l][k]] {
-                    [true, false] => [at(i, j), at(k, l)],
-                    [false, true] => [at(k, l), at(i, j)],
+                    [true, false] => [node(i, j), node(k, l)],
+                    [false, true] => [node(k, l), node(i, j)],
                     _ => continue,
                 };
                 let place = boundary(mold, ends).and_then(|p| mold.highest_point([p[0], p[1]]));
