@@ -15,6 +15,7 @@ use plydrape::scene::Scene;
 use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::text::table::verdict_text;
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
 /// side of a cell is a few of them away.
@@ -50,7 +51,9 @@ fn overhang(scene: &SceneFile) -> Option<String> {
         return None;
     }
     let beyond = reach_beyond_cups(&layup.ply, layup.settings.sheet.overhang);
-    let free = beyond - layup.settings.pad.radius;
+    // a corner is a square that is held along two sides, as wide as the pad leaves it along its diagonal
+    let held = FRAC_1_SQRT_2 * layup.settings.pad.radius;
+    let free = beyond - held;
     // where the ply bends most easily
     let ruck = [Kind::EdgeU, Kind::EdgeV].into_iter().filter_map(|kind| {
         let line = layup.ply.line(kind);
@@ -58,15 +61,17 @@ fn overhang(scene: &SceneFile) -> Option<String> {
         (free > 0.0).then(|| Ruck::of_free_edge(free, line.flexural_rigidity, weight))?
     });
     let ruck = ruck.max_by(|a, b| a.height().total_cmp(&b.height()))?;
-    let [height, angle] = [Name::Height, Name::OutOfPlane].map(|name| scene.limits.most(name));
+    // it hangs from both sides: lower by what one edge hangs from the other, and as steeply along both
+    let (height, slope) = (2.0 * ruck.height(), SQRT_2 * ruck.steepest());
+    let [most, steepest] = [Name::Height, Name::OutOfPlane].map(|name| scene.limits.most(name));
     // the height goes as the fourth power of the edge, the slope as the third; a length of three digits is said, which is not warned of
-    let share = (height / ruck.height()).powf(0.25).min((angle / ruck.steepest()).cbrt());
+    let share = (most / height).powf(0.25).min((steepest / slope).cbrt());
     (share < 1.0).then(|| {
         format!(
-            "the ply reaches up to {} mm beyond the middles of its outer cups. This edge hangs lower than its cup, touches the mold first, and sticks short of its place: a fold of some {} mm stays beside the cup, where the limits allow what an edge of {} mm leaves. Cut the ply closer, or move the cups outwards",
+            "the ply reaches up to {} mm beyond the middles of its outer cups. Its corners hang lower than their cups, touch the mold first, and stick short of their places: folds of some {} mm stay beside them, where the limits allow what an edge of {} mm leaves. Cut the ply closer, or move the cups outwards",
             millimeters(rounded(beyond)),
-            millimeters(rounded(ruck.height().min(free))),
-            millimeters(rounded(0.995 * (share * free + layup.settings.pad.radius)))
+            millimeters(rounded(height.min(free))),
+            millimeters(rounded(0.995 * (share * free + held)))
         )
     })
 }

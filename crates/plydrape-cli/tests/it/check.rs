@@ -142,7 +142,7 @@ fn what_a_plan_will_meet_is_warned_of() {
     };
     let all = warned(&scene);
     let causes = [
-        ("sticks short of its place", "[limits]", "[contact]\nfriction = 0.3\n[limits]"),
+        ("stick short of their places", "[limits]", "[contact]\nfriction = 0.3\n[limits]"),
         ("the cups are in so many rows", "warp = \"45 deg\"", "warp = \"0 deg\""),
         (
             "obstacle post reaches 200 mm into the mold",
@@ -164,7 +164,8 @@ fn what_a_plan_will_meet_is_warned_of() {
     }
 }
 
-/// An edge beyond the outer cups is warned of from the length on that the warning allows, and not where the ply can slide.
+/// An edge beyond the outer cups is warned of from the length on that the warning allows, and not where the ply can slide. A pad holds of
+/// a corner what it covers of its diagonal.
 #[test]
 fn an_edge_that_hangs_too_low_is_warned_of_with_the_length_that_may_hang() {
     let scene = in_unit("mm").replace("\"catenaries\"", "\"sheet\"");
@@ -176,6 +177,11 @@ fn an_edge_that_hangs_too_low_is_warned_of_with_the_length_that_may_hang() {
     let words = warned.split("what an edge of ").nth(1).expect(&warned);
     let most: f64 = words.split(' ').next().unwrap().parse().unwrap();
     assert!((5.0..25.0).contains(&most), "{warned}");
+    let padded = edge(35.0).replace("[grippers]", "[grippers]\npad_radius = \"15 mm\"");
+    let warned = warning(&padded);
+    let words = warned.split("what an edge of ").nth(1).expect(&warned);
+    let with_pads: f64 = words.split(' ').next().unwrap().parse().unwrap();
+    assert!((with_pads - most - 15.0 / 2.0_f64.sqrt()).abs() < 0.15, "{most} {with_pads}");
     assert_eq!(warnings(&edge(0.98 * most)), [""; 0]);
     assert_eq!(warnings(&edge(1.02 * most)).len(), 1);
     assert_eq!(warnings(&format!("{}\n[contact]\nfriction = 0.3\n", edge(25.0))), [""; 0]);
