@@ -82,7 +82,9 @@ fn a_tilted_frame_tilts_pads_without_joints() {
         layup.settings.pad.lateral_stiffness = stiffness;
         let (drape, states) = draped(&layup);
         let handed = handed_over(&layup, &drape, &states);
-        assert!(handed.iter().flat_map(|state| &state.grippers).all(|gripper| gripper.tilt == 0.0));
+        let grippers = handed.iter().flat_map(|state| &state.grippers);
+        let tilt = grippers.map(|gripper| gripper.tilt).fold(0.0, f64::max);
+        assert!(tilt < 1e-6, "{tilt}");
         for state in &states {
             let turn = [0.0, angle * (state.step - 1) as f64 / 4.0, 0.0];
             let normal = turned(turn, [0.0, 0.0, 1.0]);
