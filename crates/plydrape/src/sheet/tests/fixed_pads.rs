@@ -84,7 +84,8 @@ fn a_tilted_frame_tilts_pads_without_joints() {
         let handed = handed_over(&layup, &drape, &states);
         let grippers = handed.iter().flat_map(|state| &state.grippers);
         let tilt = grippers.map(|gripper| gripper.tilt).fold(0.0, f64::max);
-        assert!(tilt < 1e-6, "{tilt}");
+        // an angle by its cosine is zero to the root of the rounding, 1.5e-8
+        assert!(tilt < 5e-8, "{tilt}");
         for state in &states {
             let turn = [0.0, angle * (state.step - 1) as f64 / 4.0, 0.0];
             let normal = turned(turn, [0.0, 0.0, 1.0]);
