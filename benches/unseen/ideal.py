@@ -22,7 +22,6 @@ MAX_TILT_DEG = 30.0
 STEP = 5e-4
 """Step of the differences that give a slope (m)."""
 
-
 CRASH = 101
 """Exit code of a program that panics."""
 
@@ -103,18 +102,17 @@ def read(table: Path, printed: dict[str, float], ply: Array | None, height: Heig
                 grippers.append((float(row["x"]), float(row["y"])))
     assert ply is None or len(grippers) == ply.grippers[0] * ply.grippers[1]
     x, y = (sum(axis) / len(grippers) for axis in zip(*grippers, strict=True))
-    step = STEP
     return Drape(
         shear_deg=printed["max_shear_deg"],
-        tilt_deg=max(slope(height, place, step) for place in grippers),
+        tilt_deg=max(slope(height, place) for place in grippers),
         middle=(x, y),
         bottom=min(heights),
         top=max(heights),
     )
 
 
-def slope(height: Height, place: tuple[float, float], step: float) -> float:
+def slope(height: Height, place: tuple[float, float]) -> float:
     """Angle of a mold to the plane over a place (degrees), by central differences."""
     x, y = place
-    along = height(x + step, y) - height(x - step, y), height(x, y + step) - height(x, y - step)
-    return math.degrees(math.atan2(math.hypot(*along), 2.0 * step))
+    along = height(x + STEP, y) - height(x - STEP, y), height(x, y + STEP) - height(x, y - STEP)
+    return math.degrees(math.atan2(math.hypot(*along), 2.0 * STEP))

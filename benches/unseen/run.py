@@ -140,15 +140,8 @@ def read(path: Path) -> list[dict[str, str]]:
 
 def keep(text: str, command: str, drawn: str) -> None:
     """Makes tables the result in the repository, with how they were made."""
-    from subprocess import run as git
-
-    state = git(
-        ["git", "describe", "--always", "--dirty"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    command_of_state = ["git", "describe", "--always", "--dirty"]
+    state = subprocess.run(command_of_state, cwd=ROOT, capture_output=True, text=True, check=False)
     head = f"# The last run of `scripts/unseen`\n\n`{command}`, {date.today()}, "
     head += f"{state.stdout.strip() or 'no commit'}, {os.cpu_count()} cores. {drawn}\n\n"
     (HERE / "result.md").write_text(head + text, encoding="utf-8")
@@ -169,6 +162,10 @@ def main() -> None:
     options = parser.parse_args()
     program = options.plydrape or Path(os.environ.get("PLYDRAPE", ROOT / "target/release/plydrape"))
     program = program.resolve()
+    if not program.is_file():
+        parser.error(f"there is no program {program}: build it by `cargo build --release`")
+    if options.count < 1:
+        parser.error("--count is 1 or more")
     folder = options.output or ROOT / "target" / "unseen" / f"{options.world}-{options.seed}"
 
     # scenes do not depend on how many there are, so more of them are the same ones and others
