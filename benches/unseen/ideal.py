@@ -88,11 +88,13 @@ class Plydrape:
 def read(table: Path, printed: dict[str, float], ply: Array | None, height: Height) -> Drape:
     """The ideal drape from its nodes; every gripper of an array holds one of them.
 
-    Of a ply that is cut any node may be under a gripper.
+    Of a ply that is cut any node on it may be under a gripper; the net goes on around it.
     """
     heights, grippers = [], []
     with table.open(newline="") as file:
         for row in csv.DictReader(file):
+            if row["on_ply"] == "0":
+                continue
             heights.append(float(row["z"]))
             cells = [
                 float(row[axis]) / side

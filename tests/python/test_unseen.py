@@ -51,11 +51,12 @@ def nets(scenes: list[Scene], tmp_path_factory: pytest.TempPathFactory) -> list[
 
 
 def nodes(folder: Path) -> list[dict[str, float]]:
-    """The nodes of an ideal drape."""
+    """The nodes of an ideal drape that are on the ply."""
     with (folder / "nodes.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     # a node of a ply that is cut has no place in an array
-    return [{name: float(text) for name, text in row.items() if text} for row in rows]
+    on = [row for row in rows if row["on_ply"] == "1"]
+    return [{name: float(text) for name, text in row.items() if text} for row in on]
 
 
 def tilt(net: dict[tuple[int, int], list[float]], node: tuple[int, int]) -> float:
@@ -135,8 +136,13 @@ def test_ideal_drapes_keep_to_what_tilt_and_shear_allow(
 def test_the_ply_hangs_clear_of_the_mold_within_the_tilt_of_its_grippers(
     scenes: list[Scene], nets: list[Path]
 ) -> None:
-    """Held still where it is picked up, by catenaries; small arrays hang by 1 degree more."""
+    """Held still where it is picked up, by catenaries; small arrays hang by 1 degree more.
+
+    No catenaries run between cups across the yarns, so plies on the bias are not among them.
+    """
     for made, folder in zip(scenes, nets, strict=True):
+        if made.row["ply"] == "bias":
+            continue
         path = folder.with_name(f"{folder.name}.held.toml")
         # catenaries hold their grippers rigidly
         text = made.text.replace('preset = "usual"', 'preset = "ideal"')
