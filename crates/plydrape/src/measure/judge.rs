@@ -14,16 +14,34 @@ pub struct Judge<'a> {
     limits: &'a Limits,
     /// Whether the steps have the times of a motion.
     timed: bool,
+    so_far: WorstSoFar,
+    past: Option<Past>,
+}
+
+/// The worst values that a judge has seen so far.
+#[derive(Debug, Clone, Default)]
+pub struct WorstSoFar {
     worst: ByName<(usize, Found)>,
     unsolved: Option<(usize, Unsolved)>,
-    past: Option<Past>,
 }
 
 impl<'a> Judge<'a> {
     /// For a layup and limits; `timed` if the steps have the times of a motion, which those of a search do not have yet.
     #[must_use]
     pub fn new(layup: &'a Layup, limits: &'a Limits, timed: bool) -> Self {
-        Judge { layup, limits, timed, worst: ByName::default(), unsolved: None, past: None }
+        Judge { layup, limits, timed, so_far: WorstSoFar::default(), past: None }
+    }
+
+    /// As [`Judge::new`], after others have been seen; what compares a step with the one before begins anew.
+    #[must_use]
+    pub fn after(so_far: WorstSoFar, layup: &'a Layup, limits: &'a Limits, timed: bool) -> Self {
+        Judge { so_far, ..Judge::new(layup, limits, timed) }
+    }
+
+    /// The worst values so far.
+    #[must_use]
+    pub fn worst(&self) -> &WorstSoFar {
+        &self.so_far
     }
 
     /// The limit of a measure that a drape is judged by.
@@ -71,16 +89,17 @@ impl<'a> Judge<'a> {
     fn keep(&mut self, state: &PlyState, found: &[(Name, Found)]) {
         for (name, found) in found {
             let measure = name.measure();
-            let beaten = self.worst.get(*name).is_some_and(|(_, before)| match measure.sense() {
-                _ if measure.scope() == Scope::End => false,
-                sense => !sense.is_worse(found.value, before.value),
-            });
+            let beaten =
+                self.so_far.worst.get(*name).is_some_and(|(_, before)| match measure.sense() {
+                    _ if measure.scope() == Scope::End => false,
+                    sense => !sense.is_worse(found.value, before.value),
+                });
             if !beaten {
-                self.worst.set(*name, Some((state.step, *found)));
+                self.so_far.worst.set(*name, Some((state.step, *found)));
             }
         }
-        if self.unsolved.is_none() {
-            self.unsolved = state.unsolved.map(|unsolved| (state.step, unsolved));
+        if self.so_far.unsolved.is_none() {
+            self.so_far.unsolved = state.unsolved.map(|unsolved| (state.step, unsolved));
         }
         let duration = self.layup.motion.times.last().copied().unwrap_or(0.0);
         self.past = Some(Past::after(state, self.past.take(), duration));
@@ -90,11 +109,11 @@ impl<'a> Judge<'a> {
     #[must_use]
     pub fn verdicts(&self) -> Vec<Verdict> {
         let judged = Name::ALL.iter().filter_map(|name| {
-            let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
+            let (limit, (step, found)) = (self.limit(*name)?, self.so_far.worst.get(*name)?);
             Some(Verdict::new(*name, Worst::new(found, self.layup), limit, Some(*step)))
         });
         let mut out: Vec<Verdict> = judged.collect();
-        if let Some((step, Unsolved { why, residual })) = self.unsolved {
+        if let Some((step, Unsolved { why, residual })) = self.so_far.unsolved {
             let worst = Worst { value: residual, at: why.into(), place: None };
             let verdict =
                 Verdict::new(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));

@@ -90,7 +90,7 @@ pub(crate) use clearance::found as clearance_found;
 pub use found::Found;
 pub(crate) use found::Most;
 pub(crate) use gripper_distance::closest_grippers;
-pub use judge::Judge;
+pub use judge::{Judge, WorstSoFar};
 pub(crate) use judge::{last_numbers, worst_numbers};
 pub use limits::{Limits, UsualLimit};
 pub use observation::{Observation, Past};

@@ -1,5 +1,6 @@
 //! One drape by one model: the motion is followed, every step is measured and recorded, and the end is judged.
 
+use super::flight::{Flight, Lookout};
 use super::forecast::Effort;
 use super::recorder::Recorder;
 use super::sensitivity::judge_sensitivity;
@@ -34,6 +35,8 @@ pub struct DrapedSheet {
     pub drape: sheet::Drape,
     /// The states that the scene keeps, the first and the last among them; empty if the caller took them as they came.
     pub states: Vec<sheet::ClothState>,
+    /// Its flight, if there is one to share.
+    pub flight: Option<Flight>,
 }
 
 /// How a drape came out for a search, which keeps the verdicts alone.
@@ -126,10 +129,10 @@ pub(crate) fn drape_places(
     let mut recorder = Recorder::new(&carried, &scene.limits);
     let (mut summary, steps, sheet, solving) = match model {
         Model::Sheet => {
-            let drape = drape_sheet(&carried, &scene.limits, &mut recorder, watch)?;
+            let (drape, flight) = drape_sheet(&carried, &scene.limits, &mut recorder, watch)?;
             let solving = drape.duration;
             let (summary, steps) = recorder.finish_sheet(&drape);
-            (summary, steps, Some(DrapedSheet { drape, states: Vec::new() }), solving)
+            (summary, steps, Some(DrapedSheet { drape, states: Vec::new(), flight }), solving)
         }
         Model::Catenaries => {
             let mut draping = Draping::new(&carried);
@@ -140,7 +143,8 @@ pub(crate) fn drape_places(
     if let Some(tool) = tool {
         summary.follow_tool(scene, tool);
     }
-    judge_sensitivity(&mut summary, &scene.layup, &scene.limits, watch.stop);
+    let flight = sheet.as_ref().and_then(|sheet| sheet.flight.as_ref());
+    judge_sensitivity(&mut summary, &scene.layup, &scene.limits, flight, watch.stop);
     Ok(Drape { steps, summary, sheet, solving })
 }
 
@@ -174,27 +178,30 @@ fn follow_catenaries(
     ((summary, steps, followed.solving), shape)
 }
 
-/// Follows the sheet of a layup and records every step.
+/// Follows the sheet of a layup and records every step; gives its flight too, if there is one to share.
 fn drape_sheet(
     layup: &Layup,
     limits: &Limits,
     recorder: &mut Recorder,
     watch: &mut DrapeWatch,
-) -> Result<sheet::Drape, Error> {
+) -> Result<(sheet::Drape, Option<Flight>), Error> {
     let (mut hand_over, low) = (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
-    let mut ended = false;
+    let (mut ended, mut lookout) = (false, Lookout::new(layup));
     let DrapeWatch { stop, see } = watch;
     let tuning = sheet::SheetTuning::default();
     let drape = sheet::drape(layup, tuning, low, *stop, |sheet, state, last| {
         ended = last;
         recorder.add(&hand_over.state(layup, sheet, state, last), None, last);
+        if let Some(lookout) = &mut lookout {
+            lookout.see(&Seen { sheet, state, judge: recorder.judge(), hand_over: &hand_over });
+        }
         see(state.step, Some(state))
     })?;
     // a drape that ends before its motion is judged by the last state that it came to
     if !ended {
         recorder.replace_last(&hand_over.state(layup, &drape.sheet, &drape.last, true));
     }
-    Ok(drape)
+    Ok((drape, lookout.and_then(|lookout| lookout.flight)))
 }
 
 /// Drapes as [`drape`] along a motion without times, and keeps the verdicts alone; broken off after the step in which the catenaries have
@@ -208,68 +215,104 @@ pub fn judge(
     most_equilibria: usize,
     stop: &dyn Fn() -> bool,
 ) -> Result<Judged, Error> {
-    judge_seen(layup, limits, most_equilibria, stop).map(|(judged, _)| judged)
+    judge_seen(layup, limits, most_equilibria, None, stop).map(|(judged, _)| judged)
 }
 
-/// As [`judge`], with the sheet as it ended if that draped.
+/// As [`judge`], from a flight of the sheet on if there is one, with the sheet as it ended if that draped.
 pub(super) fn judge_seen(
     layup: &Layup,
     limits: &Limits,
     most_equilibria: usize,
+    flight: Option<&Flight>,
     stop: &dyn Fn() -> bool,
 ) -> Result<(Judged, Option<sheet::Drape>), Error> {
+    if layup.settings.model == Model::Sheet {
+        let go_on = &mut |_: Seen| ControlFlow::Continue(());
+        let (judged, drape) = judge_sheet(layup, limits, flight, stop, go_on)?;
+        return Ok((judged, Some(drape)));
+    }
     // what is judged is the motion that the tool makes, not the one that was asked for
     check_catenaries(layup, layup.settings.model)?;
     let (carried, _) = layup.carried();
     let layup = &*carried;
-    let planned = layup.motion.positions.len();
-    let missing = |steps: usize| 1.0 - steps as f64 / planned.max(1) as f64;
     let mut judge = Judge::new(layup, limits, false);
-    match layup.settings.model {
-        Model::Sheet => {
-            // pads let go of a ply that lies: nodes up to the limit of the height do
-            let (mut hand_over, low) =
-                (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
-            let mut ended = false;
-            let tuning = sheet::SheetTuning::default();
-            let drape = sheet::drape(layup, tuning, low, stop, |sheet, state, last| {
-                ended = last;
-                judge.see(&hand_over.state(layup, sheet, state, last), last);
-                ControlFlow::Continue(())
-            })?;
-            // an interrupted sheet is judged by the last state that it reached
-            if !ended {
-                judge.see(&hand_over.state(layup, &drape.sheet, &drape.last, true), true);
-            }
-            let complete = drape.status == sheet::Status::Converged;
-            let judged = Judged {
-                limits: judge.verdicts(),
-                complete: complete && drape.steps == planned,
-                missing: missing(drape.steps),
-                unsolved: usize::from(!complete),
-                interrupted: drape.status == sheet::Status::Interrupted,
-                effort: Some(Effort::new(&drape)),
-            };
-            Ok((judged, Some(drape)))
-        }
-        Model::Catenaries => {
-            // catenaries are a statics of each step: every one is judged as it is found
-            let mut stopped = false;
-            let follow = Follow { most_equilibria, full: false };
-            let followed = draping::follow(layup, follow, |state, _, last| {
-                judge.see(state, last);
-                stopped = stop();
-                if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            });
-            let judged = Judged {
-                limits: judge.verdicts(),
-                complete: followed.steps == planned,
-                missing: missing(followed.steps),
-                unsolved: followed.unsolved,
-                interrupted: stopped,
-                effort: None,
-            };
-            Ok((judged, None))
-        }
+    // catenaries are a statics of each step: every one is judged as it is found
+    let mut stopped = false;
+    let follow = Follow { most_equilibria, full: false };
+    let followed = draping::follow(layup, follow, |state, _, last| {
+        judge.see(state, last);
+        stopped = stop();
+        if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let judged = Judged {
+        limits: judge.verdicts(),
+        complete: followed.steps == layup.motion.positions.len(),
+        missing: missing(followed.steps, layup),
+        unsolved: followed.unsolved,
+        interrupted: stopped,
+        effort: None,
+    };
+    Ok((judged, None))
+}
+
+/// A step of a sheet as it is judged.
+pub(super) struct Seen<'a> {
+    /// The sheet.
+    pub sheet: &'a sheet::Sheet,
+    /// The ply in the step.
+    pub state: &'a sheet::ClothState,
+    /// Who has judged it.
+    pub judge: &'a Judge<'a>,
+    /// Who has handed it over.
+    pub hand_over: &'a HandOver,
+}
+
+/// Judges the sheet of a layup along its motion, from a flight on if there is one; `see` is called with each step, and may end the drape.
+///
+/// # Errors
+/// As [`judge`].
+pub(super) fn judge_sheet(
+    layup: &Layup,
+    limits: &Limits,
+    flight: Option<&Flight>,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(Seen) -> ControlFlow<()>,
+) -> Result<(Judged, sheet::Drape), Error> {
+    let (carried, _) = layup.carried();
+    let carried = &*carried;
+    let (mut judge, mut hand_over) = match flight {
+        Some(flight) => flight.go_on(carried, limits),
+        None => (Judge::new(carried, limits, false), HandOver::default()),
+    };
+    // pads let go of a ply that lies: nodes up to the limit of the height do
+    let low = limits.get(Name::Height).unwrap_or(0.0);
+    let (tuning, air) = (sheet::SheetTuning::default(), flight.map(|flight| &flight.air));
+    let mut ended = false;
+    let drape = sheet::drape_from(carried, tuning, low, air, stop, |sheet, state, last| {
+        ended = last;
+        judge.see(&hand_over.state(carried, sheet, state, last), last);
+        see(Seen { sheet, state, judge: &judge, hand_over: &hand_over })
+    })?;
+    if drape.status == sheet::Status::NotInTheAir {
+        return judge_sheet(layup, limits, None, stop, see);
     }
+    // an interrupted sheet is judged by the last state that it reached
+    if !ended {
+        judge.see(&hand_over.state(carried, &drape.sheet, &drape.last, true), true);
+    }
+    let complete = drape.status == sheet::Status::Converged;
+    let judged = Judged {
+        limits: judge.verdicts(),
+        complete: complete && drape.steps == carried.motion.positions.len(),
+        missing: missing(drape.steps, carried),
+        unsolved: usize::from(!complete),
+        interrupted: drape.status == sheet::Status::Interrupted,
+        effort: Some(Effort::new(&drape)),
+    };
+    Ok((judged, drape))
+}
+
+/// Share of the steps of a motion that is missing where this many are done.
+fn missing(steps: usize, layup: &Layup) -> f64 {
+    1.0 - steps as f64 / layup.motion.positions.len().max(1) as f64
 }

@@ -7,12 +7,15 @@
 //! 1. `drape`: one drape by one model; `recorder`, `step`: what is kept of it;
 //! 2. `summary`: how it came out; [`Summary::accepted`] is a function of the verdicts;
 //! 3. `sensitivity`: whether it depends on what is too small to know;
-//! 4. `forecast`: how long drapes of the sheet will take;
+//! 4. `flight`: the ply in the air, which drapes of one motion share; `forecast`: how long drapes of the sheet will take;
 //! 5. `sample`, `robustness`: the verdict over cells with the errors of the scene;
 //! 6. `tolerance`, `rate_tolerance`: how far grippers and ply may be off, and how fast a ply with resin may be draped.
 
 mod check;
 mod drape;
+mod flight;
+#[cfg(test)]
+mod flight_tests;
 pub mod forecast;
 #[cfg(test)]
 mod forecast_tests;
@@ -36,6 +39,7 @@ pub(crate) use check::check_catenaries;
 pub use check::check_model;
 pub use drape::{Drape, DrapeWatch, DrapedSheet, Judged, drape, judge};
 pub(crate) use drape::{drape_catenaries, drape_places};
+pub use flight::Flight;
 pub use forecast::{Effort, Forecast, Pace};
 pub use rate_tolerance::RateTolerance;
 pub use robustness::Robustness;

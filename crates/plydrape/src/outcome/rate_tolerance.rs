@@ -47,7 +47,7 @@ impl RateTolerance {
         let keeps = |octave: i32| {
             let mut other = Scene { errors: None, ..scene.clone() };
             other.layup.ply.material.shear_rate = Some(rate.slower(f64::from(octave).exp2()));
-            Some(draped(&other, watch.stop)?.judged.accepted())
+            Some(draped(&other, None, watch.stop)?.judged.accepted())
         };
         let mut fastest = is_accepted.then_some(0);
         for n in 1..=OCTAVES {

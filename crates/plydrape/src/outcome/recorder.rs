@@ -52,6 +52,11 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Who judges the steps.
+    pub fn judge(&self) -> &Judge<'a> {
+        &self.judge
+    }
+
     /// Measures the last step once more, as the end.
     pub fn replace_last(&mut self, state: &PlyState) {
         let measures = self.judge.see_all(state);
@@ -67,7 +72,7 @@ impl<'a> Recorder<'a> {
         let status = match drape.status {
             sheet::Status::Converged => Status::Converged,
             sheet::Status::NotAtRest => Status::NotAtRest,
-            sheet::Status::NotSolved => Status::NotSolved,
+            sheet::Status::NotSolved | sheet::Status::NotInTheAir => Status::NotSolved,
             sheet::Status::Interrupted => Status::Interrupted,
         };
         let events = drape.events.clone();

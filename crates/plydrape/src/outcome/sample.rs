@@ -2,6 +2,7 @@
 
 use super::Judged;
 use super::drape::judge_seen;
+use super::flight::Flight;
 use crate::errors::{Draw, Errors};
 use crate::measure::Verdict;
 use crate::ply::Neighbors;
@@ -138,10 +139,13 @@ impl Errors {
         let (row, verdict) = (Mutex::new(Row::default()), OnceLock::new());
         let done = AtomicUsize::new(0);
         let open = || verdict.get().is_none();
+        let flight = Flight::new(&scene.layup, &scene.limits, &|| (watch.stop)());
         // cells end in any order, but count in theirs, so that the verdict does not depend on the number of threads
         let drape = |sample: usize| {
             let stop = || !open() || (watch.stop)();
-            let Some(drape) = draped(&self.cell(scene, sample, 1.0), &stop) else { return };
+            let Some(drape) = draped(&self.cell(scene, sample, 1.0), flight.as_ref(), &stop) else {
+                return;
+            };
             (watch.done)(done.fetch_add(1, Ordering::Relaxed) + 1, self.samples);
             let row = &mut *row.lock().unwrap_or_else(PoisonError::into_inner);
             row.waiting.insert(sample, drape);
@@ -199,12 +203,17 @@ impl SampleVerdict {
     }
 }
 
-/// A drape by the model that decides; `None` if it was stopped.
-pub(super) fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
+/// A drape by the model that decides, from a flight on if there is one; `None` if it was stopped.
+pub(super) fn draped(
+    scene: &Scene,
+    flight: Option<&Flight>,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Drape> {
     if stop() {
         return None;
     }
-    let Ok(found) = judge_seen(&scene.layup, &scene.limits, usize::MAX, &|| stop()) else {
+    let Scene { layup, limits, .. } = scene;
+    let Ok(found) = judge_seen(layup, limits, usize::MAX, flight, &|| stop()) else {
         // the errors have left no sheet that could be draped
         return Some(Drape { judged: Judged::nothing(), heights: Vec::new(), places: Vec::new() });
     };

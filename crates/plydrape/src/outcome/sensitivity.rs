@@ -1,7 +1,6 @@
 //! Whether a verdict on a sheet depends on nothing that is too small to know: a few more drapes of the same motion with minute changes.
 
-use super::drape::judge;
-use super::{Judged, Status, Summary};
+use super::{Flight, Judged, Status, Summary};
 use crate::errors::{Errors, Term};
 use crate::layup::{Layup, Model};
 use crate::measure::{Limits, Name, Scope, Verdict, Worst, Worth};
@@ -31,6 +30,7 @@ pub(super) fn judge_sensitivity(
     summary: &mut Summary,
     layup: &Layup,
     limits: &Limits,
+    flight: Option<&Flight>,
     stop: &(dyn Fn() -> bool + Sync),
 ) {
     let limit = |name: Name| name.measure().limit(layup, limits);
@@ -47,7 +47,7 @@ pub(super) fn judge_sensitivity(
     let changes = minute_changes(&layup);
     let changed_drape = |n: usize| {
         let changed = changes.draw(n, layup.ply.grippers()).apply(&layup);
-        judge(&changed, limits, usize::MAX, stop).unwrap_or_else(|_| Judged::nothing())
+        Flight::judge(flight, &changed, limits, stop).unwrap_or_else(|_| Judged::nothing())
     };
     let drapes: Vec<Judged> = (0..changes.samples).into_par_iter().map(changed_drape).collect();
     if drapes.iter().any(|drape| drape.interrupted) {

@@ -4,8 +4,8 @@
 //! All of it is found by complete drapes along the same motion: errors of the grippers by cells in which nothing else is off, and the ply by
 //! drapes in which one of its properties is a multiple of the nominal one.
 
-use super::Watch;
 use super::sample::draped;
+use super::{Flight, Watch};
 use crate::errors::{Errors, MaterialError, RelativeError, Term};
 use crate::layup::{Layup, Model};
 use crate::scene::Scene;
@@ -95,7 +95,7 @@ fn unit_error(pitch: f64) -> f64 {
 }
 
 /// The least and the largest multiple of a property of the ply up to which a scene along its motion is accepted; `of` is the error of that
-/// property. None if it was stopped.
+/// property. Another ply hangs otherwise in the air from the start on, so each is draped from there. None if it was stopped.
 fn range(
     scene: &Scene,
     of: impl Fn(RelativeError) -> MaterialError + Sync,
@@ -105,7 +105,7 @@ fn range(
         let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
         draw.material = of(RelativeError::Share(multiple - 1.0));
         let other = Scene { layup: draw.apply(&scene.layup), errors: None, ..scene.clone() };
-        Some(draped(&other, watch.stop)?.judged.accepted())
+        Some(draped(&other, None, watch.stop)?.judged.accepted())
     };
     let end = |power: f64| {
         let mut last = 1.0;
@@ -128,12 +128,17 @@ fn range(
 fn largest_error(errors: &Errors, scene: &Scene, watch: &Watch) -> Option<i32> {
     // this many of the cells may fail, so the next worse one decides
     let spare = TRIED - errors.needed(TRIED);
+    let flight = Flight::new(&scene.layup, &scene.limits, &|| (watch.stop)());
     let mut worst: Vec<i32> = Vec::new();
     for pair in (0..TRIED).collect::<Vec<_>>().chunks(2) {
         let most = worst.get(spare).copied();
         let tolerated = |sample: &usize| {
             let keeps = |place: i32| {
-                let drape = draped(&errors.cell(scene, *sample, factor(place)), watch.stop)?;
+                let drape = draped(
+                    &errors.cell(scene, *sample, factor(place)),
+                    flight.as_ref(),
+                    watch.stop,
+                )?;
                 Some(drape.judged.accepted())
             };
             largest(most, keeps)

@@ -17,7 +17,7 @@ use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
 use crate::measure::{Course, MotionPeaks, Name, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
-use crate::outcome::{self, Drape, Effort, Forecast, Judged, RateTolerance, Watch};
+use crate::outcome::{self, Drape, Effort, Flight, Forecast, Judged, RateTolerance, Watch};
 use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
@@ -410,10 +410,11 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
         cells.retain(|cell| proving.contains(cell));
         let others: Vec<usize> = proving.filter(|n| !cells.contains(n)).collect();
         cells.extend(others);
+        let stop = || state.report().is_break();
+        let flight = drape.sheet.as_ref().and_then(|sheet| sheet.flight.as_ref());
         let drapes =
             evaluation::with_errors(&layup, scene.errors, judged, &cells, TUNING.spare, |cell| {
-                let stop = || state.report().is_break();
-                let judged = outcome::judge(&cell, &scene.limits, usize::MAX, &stop);
+                let judged = Flight::judge(flight, &cell, &scene.limits, &stop);
                 // the errors may have left nothing that could be draped
                 let judged = judged.unwrap_or_else(|_| Judged::nothing());
                 (!judged.interrupted).then_some(judged)

@@ -7,9 +7,9 @@ use crate::Error;
 use crate::clearance::Nearest;
 use crate::errors::{Errors, RelativeError};
 use crate::layup::{Layup, Model, SheetTime, Stepping};
-use crate::measure::{Limits, Name, Unit, Verdict, Worst, Worth, clearance_found};
+use crate::measure::{Name, Unit, Verdict, Worst, Worth, clearance_found};
 use crate::motion::{Attitudes, Motion, TimedMotion};
-use crate::outcome::{self, Judged};
+use crate::outcome::{self, Flight, Judged};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{PlannerTuning, TUNING};
 use crate::scene::Scene;
@@ -83,11 +83,14 @@ pub fn drape(
             Ok(Drapes { worst: judged.clone(), each: vec![judged], refused_by: None })
         }
         Model::Sheet => {
-            let nominal = ranked_sheet(layup.clone(), limits, mesh, state)?;
+            let stop = || state.report().is_break();
+            let (nominal, flight) = Flight::judged(&as_ranked(layup.clone(), mesh), limits, &stop)?;
+            let nominal = of_mesh(nominal, mesh);
             Ok(with_errors(&layup, scene.errors, nominal, &state.cells(), 0, |cell| {
                 // the errors may have left no sheet that could be draped
-                let judged = ranked_sheet(cell, limits, mesh, state);
-                Some(judged.unwrap_or_else(|_| Judged::nothing()))
+                let cell = as_ranked(cell, mesh);
+                let judged = Flight::judge(flight.as_ref(), &cell, limits, &stop);
+                Some(of_mesh(judged.unwrap_or_else(|_| Judged::nothing()), mesh))
             }))
         }
     }
@@ -164,13 +167,8 @@ pub fn planned_cell(errors: Errors, sample: usize, layup: &Layup) -> Layup {
     draw.apply(layup)
 }
 
-/// The drape of a sheet with one of its meshes.
-fn ranked_sheet(
-    mut layup: Layup,
-    limits: &Limits,
-    mesh: Mesh,
-    state: &SearchState,
-) -> Result<Judged, Error> {
+/// A layup as it is draped to rank a candidate.
+fn as_ranked(mut layup: Layup, mesh: Mesh) -> Layup {
     if mesh == Mesh::Coarse {
         let (pitch, radius) = (sheet::pitch(&layup.ply), layup.settings.pad.radius);
         let coarse = (TUNING.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
@@ -182,12 +180,16 @@ fn ranked_sheet(
     if let Some(release) = &mut layup.release {
         release.dwell = 0.0;
     }
-    let mut judged = outcome::judge(&layup, limits, usize::MAX, &|| state.report().is_break())?;
+    layup
+}
+
+/// What counts of a drape with one of the meshes.
+fn of_mesh(mut judged: Judged, mesh: Mesh) -> Judged {
     if mesh == Mesh::Coarse {
         // forces at grippers that hold a point are those of the lines beside it, and far larger where these are far apart
         judged.limits.retain(|verdict| verdict.name.measure().unit() != Unit::NEWTON);
     }
-    Ok(judged)
+    judged
 }
 
 /// A judgment with one more limit in place of an earlier one on the same measure.

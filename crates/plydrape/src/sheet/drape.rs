@@ -29,6 +29,8 @@ pub enum Status {
     NotSolved,
     /// The caller ended it.
     Interrupted,
+    /// It was to go on from the air, and touches the mold there or does not come to rest.
+    NotInTheAir,
 }
 
 /// Drapes the sheet of a layup along its motion; the motion is that of the grippers, so a tool has made it ([`Layup::carried`]).
@@ -43,6 +45,23 @@ pub fn drape(
     tuning: SheetTuning,
     low: f64,
     stop: &dyn Fn() -> bool,
+    see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
+) -> Result<Drape, Error> {
+    drape_from(layup, tuning, low, None, stop, see)
+}
+
+/// As [`drape`], from a ply in the air that has come to a step of nearly the same motion, if there is one: it hangs over to where the
+/// grippers of this layup are in that step, comes to rest there, and goes on. [`Drape::status`] is [`Status::NotInTheAir`] if it does not
+/// rest clear of the mold there, and nothing is seen of it then.
+///
+/// # Errors
+/// As [`drape`].
+pub fn drape_from(
+    layup: &Layup,
+    tuning: SheetTuning,
+    low: f64,
+    air: Option<&ClothState>,
+    stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
 ) -> Result<Drape, Error> {
     let watch = Stopwatch::start();
@@ -52,10 +71,16 @@ pub fn drape(
     let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
         return Err(Error::SheetNoMotion { grippers });
     };
-    // the ply begins flat and at rest in its pads
-    let (flat, pads) = flat(&sheet, start);
-    let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();
-    let cloth = Cloth::new(&sheet, tuning, flat, pads);
+    // the ply begins at rest: flat in its pads, or as it hangs in the air
+    let (x, pads) = match air {
+        Some(air) => (air.positions.clone(), air.pads.clone()),
+        None => flat(&sheet, start),
+    };
+    let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.target).collect();
+    let mut cloth = Cloth::new(&sheet, tuning, x, pads);
+    if air.is_some() {
+        cloth.energies.table = None;
+    }
     let releases = Releases::new(layup, &sheet, low);
     let mut run = Run {
         layup,
@@ -68,7 +93,8 @@ pub fn drape(
     };
     // follow the motion; the last state is that at which it ended
     let mut see = |state: &ClothState, last: bool| see(&sheet, state, last);
-    let (status, last) = run.run(&placed, &mut see);
+    let begin = air.map_or(1, |air| air.step);
+    let (status, last) = run.run(&placed, begin, &mut see);
     let Run { march, landing_step, landing_shear, mut report, .. } = run;
     // what is counted on the way belongs to the report of the whole drape
     report.end(&sheet, tuning.release * sheet.pitch, &last);
@@ -107,22 +133,30 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// From the flat, where grippers are at `placed` (m), to the end. Returns the last state.
+    /// From where grippers are at `placed` (m) by a step of the motion to its end; from step 1 on the ply is hung from the flat. Returns the
+    /// last state.
     fn run(
         &mut self,
         placed: &[[f64; 3]],
+        begin: usize,
         see: &mut impl FnMut(&ClothState, bool) -> ControlFlow<()>,
     ) -> (Status, ClothState) {
         let motion = &self.layup.motion;
-        // the flat ply is hung in the air, and comes to rest over the mold
-        if let Err(ended) = self.march.hang(placed, &motion.positions[0]) {
-            return (ended.status(), self.state(1, motion.times[0]));
+        // the ply is hung in the air, and comes to rest over the mold
+        let (start, time) = (&motion.positions[begin - 1], motion.times[begin - 1]);
+        if let Err(ended) = self.march.hang(placed, start) {
+            return (ended.status(), self.state(begin, time));
         }
-        let mut resting = self.march.rest(&motion.positions[0], false);
-        let mut state = self.see(1, motion.times[0]);
+        let mut resting = self.march.rest(start, false);
+        if begin > 1 && !(resting && self.is_clear()) {
+            let ended =
+                if self.march.is_stopped() { Status::Interrupted } else { Status::NotInTheAir };
+            return (ended, self.state(begin, time));
+        }
+        let mut state = self.see(begin, time);
 
         // it follows the motion, at whose end it comes to rest again
-        for step in 2..=motion.positions.len() {
+        for step in begin + 1..=motion.positions.len() {
             if see(&state, false).is_break() {
                 return (Status::Interrupted, state);
             }
@@ -154,6 +188,13 @@ impl Run<'_> {
             ControlFlow::Continue(()) if self.march.is_stopped() => (Status::Interrupted, state),
             ControlFlow::Continue(()) => (Status::NotAtRest, state),
         }
+    }
+
+    /// Whether no node touches the mold.
+    fn is_clear(&self) -> bool {
+        let Some(mold) = &self.sheet.mold else { return true };
+        let clear = self.tuning.release * self.sheet.pitch;
+        self.march.cloth.now.x.iter().all(|x| mold.signed_distance(*x) > clear)
     }
 
     /// Evaluates the state of a step at a time (s).

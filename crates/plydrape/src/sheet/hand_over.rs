@@ -20,7 +20,7 @@ use crate::state::{CellState, FabricPoint, GripperState, LineState, PlyState, Si
 pub(super) const TILT_REACH: f64 = 0.2;
 
 /// Hands over the states of a sheet one after the other.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct HandOver {
     /// Orientations of the pads in the step before (x, y, z, w).
     turned: Vec<[f64; 4]>,

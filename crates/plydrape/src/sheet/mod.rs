@@ -46,7 +46,7 @@ mod tuning;
 mod unknowns;
 mod weight;
 
-pub use drape::{Status, drape, is_kept};
+pub use drape::{Status, drape, drape_from, is_kept};
 pub use event::{Event, EventKind};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};

@@ -101,7 +101,7 @@ pub fn keep(drape: Drape, dir: &Path) -> Result<KeptDrape, Error> {
 /// A drape with its states in a file, which say which pads hold if they let go (`releases`).
 fn kept(drape: Drape, releases: bool, dir: &Path) -> Result<KeptDrape, Error> {
     let Drape { summary, steps, sheet, solving } = drape;
-    let file = |DrapedSheet { drape, states }: DrapedSheet| {
+    let file = |DrapedSheet { drape, states, .. }: DrapedSheet| {
         // where the drape ended early, its end is kept too
         let end = states.last().is_none_or(|last| last.step != drape.last.step);
         let states = states.iter().chain(end.then_some(&drape.last));
