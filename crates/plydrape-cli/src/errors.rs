@@ -3,7 +3,7 @@
 use crate::search::SharedLines;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
-use plydrape::outcome::{Effort, Forecast, Robustness, Watch};
+use plydrape::outcome::{Effort, Robustness, Watch};
 use plydrape_io::ResultFile;
 use plydrape_io::text::forecast;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +24,7 @@ pub fn judge(
     let eyes = Eyes::new(interrupt, bar(samples, template, quiet), samples, quiet);
     if let Some(report) = result.summary.sheet.as_ref().filter(|_| samples > 0) {
         let effort = Effort { nodes: report.nodes, solves: report.solves, time: drape };
-        let forecast = Forecast::like(effort);
+        let forecast = robustness.forecast(effort);
         eyes.bar.set_message(format!(", {}", forecast::about(forecast.sample(samples))));
         eyes.lines.begin(&format!("draping {}", forecast::sample(&forecast, samples)));
     }

@@ -321,7 +321,8 @@ mod tests {
 
     #[test]
     fn a_line_says_how_long_the_decision_takes() {
-        let forecast = Forecast { nodes: 961, drape: seconds(30), cells: 0, threads: 2 };
+        let forecast =
+            Forecast { nodes: 961, drape: seconds(30), cells: 0, cell: 1.25, threads: 2 };
         let deciding = Progress { forecast: Some(forecast), decisions: 0, ..progress(&[], false) };
         let shown = line(&deciding, "candidates", 0, seconds(9));
         assert_eq!(

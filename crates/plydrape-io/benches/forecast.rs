@@ -10,7 +10,7 @@ use plydrape::errors::{Errors, Term};
 use plydrape::layup::Layup;
 use plydrape::motion::{Motion, TimedMotion};
 use plydrape::outcome::forecast::CONSTANTS;
-use plydrape::outcome::{Effort, Forecast, Pace, Robustness, Watch};
+use plydrape::outcome::{Effort, Pace, Robustness, Watch};
 use plydrape::planner::{self, Progress};
 use plydrape::scene::Scene;
 use plydrape::sheet::{self, SheetTuning, coarsest_mesh, pitch};
@@ -123,7 +123,8 @@ fn row(name: &str, scene: &Scene, measured: &mut Measured) -> Vec<Compared> {
     let began = Instant::now();
     robustness.judge_sample(&mut drape.summary, &Watch { stop: &|| false, done: &|_, _| {} });
     let taken = began.elapsed().as_secs_f64();
-    let sample = Compared { forecast: Forecast::like(effort).sample(cells).as_secs_f64(), taken };
+    let sample =
+        Compared { forecast: robustness.forecast(effort).sample(cells).as_secs_f64(), taken };
     let sampled = if cells > 0 { sample.columns() } else { "| |".into() };
 
     println!(

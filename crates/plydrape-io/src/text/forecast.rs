@@ -48,7 +48,7 @@ mod tests {
     #[test]
     fn a_forecast_says_nodes_cells_and_times_in_few_digits() {
         let drape = Duration::from_secs(3);
-        let forecast = Forecast { nodes: 961, drape, cells: 0, threads: 2 };
+        let forecast = Forecast { nodes: 961, drape, cells: 0, cell: 1.25, threads: 2 };
         assert_eq!(decision(&forecast, None, 0), "961 nodes, about 4 s");
         let left = Some(Duration::from_secs(2));
         assert_eq!(decision(&forecast, left, 0), "961 nodes, about 2 s left");

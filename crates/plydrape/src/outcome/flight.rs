@@ -38,6 +38,14 @@ pub(super) struct Lookout<'a> {
 }
 
 impl Flight {
+    /// Whether drapes along the motion of a layup share their flight, if it has one: a sheet over a mold, so slow that time is of no matter.
+    #[must_use]
+    pub fn is_shared(layup: &Layup) -> bool {
+        let settings = &layup.settings;
+        let is_slow = settings.sheet.time == SheetTime::QuasiStatic;
+        settings.model == Model::Sheet && is_slow && layup.mold.is_some()
+    }
+
     /// That of the motion of a layup, along which nothing else is draped; `None` if there is none to share, or it was stopped.
     #[must_use]
     pub fn new(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Self> {
@@ -92,9 +100,7 @@ impl Flight {
 impl<'a> Lookout<'a> {
     /// For a drape of a layup; `None` if its flight is not shared.
     pub fn new(layup: &'a Layup) -> Option<Self> {
-        let is_slow = layup.settings.sheet.time == SheetTime::QuasiStatic;
-        let shares = layup.settings.model == Model::Sheet && is_slow && layup.mold.is_some();
-        shares.then_some(Lookout { layup, is_over: false, flight: None })
+        Flight::is_shared(layup).then_some(Lookout { layup, is_over: false, flight: None })
     }
 
     /// Looks at a step.

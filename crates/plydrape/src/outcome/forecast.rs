@@ -5,6 +5,8 @@
 //! their w. How many systems a motion needs depends on the motion far more than on the mesh, so it is taken from a drape along it
 //! that ranked it with another mesh; a finer one needs a little more, as (n/n′)^g.
 
+use super::Flight;
+use crate::layup::Layup;
 use crate::sheet;
 use std::time::Duration;
 
@@ -23,8 +25,10 @@ pub struct Constants {
     pub real_solves: f64,
     /// Time of a drape with a step half-way between all steps beside that of the drape without (1).
     pub between: f64,
-    /// Time of a drape with errors beside that of the drape without (1).
+    /// Time of a drape with errors beside that of the drape without (1), where both share their flight.
     pub cell: f64,
+    /// The same where each begins at its start (1).
+    pub whole_cell: f64,
     /// c on a machine that has draped nothing yet (s).
     pub seconds: f64,
 }
@@ -37,7 +41,8 @@ pub const CONSTANTS: Constants = Constants {
     solves: 5.0,
     real_solves: 2.0,
     between: 1.3,
-    cell: 1.25,
+    cell: 0.5,
+    whole_cell: 1.25,
     seconds: 2e-6,
 };
 
@@ -98,6 +103,8 @@ pub struct Forecast {
     pub drape: Duration,
     /// Drapes with minute changes and cells with errors that are draped to decide on a plan.
     pub cells: usize,
+    /// Time of each of them beside that of the drape (1).
+    pub cell: f64,
     /// Drapes that are made at once.
     pub threads: usize,
 }
@@ -106,15 +113,22 @@ impl Forecast {
     /// Of drapes of a sheet with so many nodes that need so many linear systems, on all threads, at a pace.
     #[must_use]
     pub fn new(nodes: usize, solves: f64, pace: Pace) -> Self {
-        let drape = seconds(pace.seconds() * solves * work(nodes));
-        Forecast { nodes, drape, cells: 0, threads: rayon::current_num_threads() }
+        let time = seconds(pace.seconds() * solves * work(nodes));
+        Self::like(Effort { nodes, solves: solves as usize, time })
     }
 
     /// Of drapes like one that is finished, on all threads.
     #[must_use]
     pub fn like(effort: Effort) -> Self {
-        let Effort { nodes, time, .. } = effort;
-        Forecast { nodes, drape: time, cells: 0, threads: rayon::current_num_threads() }
+        let (Effort { nodes, time: drape, .. }, cell) = (effort, CONSTANTS.cell);
+        Forecast { nodes, drape, cells: 0, cell, threads: rayon::current_num_threads() }
+    }
+
+    /// The forecast for a layup, whose cells share a flight or do not.
+    #[must_use]
+    pub fn along(self, layup: &Layup) -> Self {
+        let whole = !Flight::is_shared(layup);
+        Forecast { cell: if whole { CONSTANTS.whole_cell } else { self.cell }, ..self }
     }
 
     /// Time of the decision on a plan, which ends earlier if it is refused: the drape, at once with it the one with a step half-way between
@@ -139,7 +153,7 @@ impl Forecast {
     /// Time of a sample of cells with errors.
     #[must_use]
     pub fn sample(&self, cells: usize) -> Duration {
-        self.drape.mul_f64(CONSTANTS.cell * cells.div_ceil(self.threads.max(1)) as f64)
+        self.drape.mul_f64(self.cell * cells.div_ceil(self.threads.max(1)) as f64)
     }
 }
 

@@ -8,7 +8,8 @@ fn effort(nodes: usize, solves: usize, seconds: u64) -> Effort {
 }
 
 fn forecast(seconds: u64, cells: usize, threads: usize) -> Forecast {
-    Forecast { nodes: 961, drape: Duration::from_secs(seconds), cells, threads }
+    let (drape, cell) = (Duration::from_secs(seconds), CONSTANTS.cell);
+    Forecast { nodes: 961, drape, cells, cell, threads }
 }
 
 /// w(n₀) = 2 n₀ and w(32 n₀) = 32 n₀ (1 + 32^0.8) = 32 n₀ · 17, so one system of the latter is 272 times one of the former.
@@ -68,6 +69,9 @@ fn a_sample_takes_as_long_as_its_cells_on_one_thread() {
         assert!((found - 10.0 * CONSTANTS.cell * in_turn).abs() < 1e-6, "{cells} {threads}");
     }
     assert_eq!(Forecast::like(effort(961, 400, 10)).drape, Duration::from_secs(10));
+    // a ply without a mold has no flight that its cells could share
+    let whole = Forecast::like(effort(961, 400, 10)).along(&crate::errors::tests::layup(2, 2));
+    assert_eq!(whole.cell, CONSTANTS.whole_cell);
 }
 
 /// A time that no duration holds is a very long one.

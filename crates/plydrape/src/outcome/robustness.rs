@@ -4,7 +4,7 @@
 //! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it tolerates is said
 //! for information. Both are complete drapes along the motion that was draped, by the model that decides.
 
-use super::{RateTolerance, Status, Summary, Tolerance, Watch};
+use super::{Effort, Forecast, RateTolerance, Status, Summary, Tolerance, Watch};
 use crate::errors::Errors;
 use crate::layup::Stepping;
 use crate::measure::{Scope, Verdict};
@@ -47,6 +47,12 @@ impl Robustness {
     #[must_use]
     pub fn sampled(&self) -> Option<&Errors> {
         self.sample.as_ref()
+    }
+
+    /// How long its drapes will take, by what the one without errors took.
+    #[must_use]
+    pub fn forecast(&self, drape: Effort) -> Forecast {
+        Forecast::like(drape).along(&self.scene.layup)
     }
 
     /// Drapes the sample and judges by it too. Returns whether that was done to its end; if not, the drape is not accepted,

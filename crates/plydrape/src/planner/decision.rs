@@ -364,7 +364,8 @@ fn forecast(
     let errors = scene.errors.filter(Errors::is_drawn);
     let changed = outcome::minute_changes(&scene.layup).samples;
     let cells = changed + errors.map_or(0, |_| TUNING.proving);
-    Some(Forecast { cells, ..Forecast::new(nodes, solves, state.pace()) })
+    let forecast = Forecast::new(nodes, solves, state.pace()).along(&scene.layup);
+    Some(Forecast { cells, ..forecast })
 }
 
 /// The drape along a motion, its limits and failures, and its score. The drape with a step half-way between all steps counts

@@ -124,13 +124,16 @@ impl Strategy {
             let flatter = |of: &Strategy| Strategy { slope: 0.5 * of.slope, ..*of };
             // what is stretched when it lands bridges a hollow
             let softer = |of: &Strategy| Strategy { pretension: 0.25 * of.pretension, ..*of };
+            // a ply that is stiff in shear folds less ahead of a front that is not so sharp
+            let rounder = |of: &Strategy| Strategy { curvature: 0.5 * of.curvature, ..*of };
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
+            let round: Vec<Strategy> = flat.iter().map(rounder).collect();
             let flattest: Vec<Strategy> = flat.iter().map(flatter).collect();
             let loose: Vec<Strategy> = flat.iter().map(looser).collect();
             let soft: Vec<Strategy> = flat.iter().map(softer).collect();
             let hard: Vec<Strategy> = flat.iter().map(harder).collect();
             // of each kind all shapes, and the circle of every kind first
-            let kinds = [flat, hard, shapes, loose, soft, flattest];
+            let kinds = [flat, round, hard, shapes, loose, soft, flattest];
             let first = kinds.iter().filter_map(|kind| kind.first().copied());
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
             return first.chain(others).collect();
