@@ -28,6 +28,18 @@ fn the_template_passes_its_own_check() {
     assert_eq!(scene.limits.most(Name::Shear), 45f64.to_radians());
 }
 
+/// A limit that is written in the template at its usual value, "95 %" for 0.95, is the usual one, so that a scene of `plydrape new` is not
+/// refused for a limit that only the other model measures.
+#[test]
+fn the_template_sets_no_limit_that_its_model_does_not_judge() {
+    let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
+    let names = |limits: &Limits| -> Vec<Name> {
+        let unjudged = limits.unjudged(&scene.layup, &[]);
+        unjudged.into_iter().map(|(name, _)| name).collect()
+    };
+    assert_eq!(names(&scene.limits), names(&Limits::usual(&scene.layup)));
+}
+
 #[test]
 fn every_example_passes_the_check() {
     let mut passed = 0;

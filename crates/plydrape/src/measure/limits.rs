@@ -4,6 +4,9 @@ use super::{ByName, Name, Preset, Scope, Verdict, slack_of_angle};
 use crate::layup::Layup;
 use crate::motion::Bounds;
 
+/// Relative difference that reading a number with a unit may leave: "95 %" is not 0.95 to the last digit.
+const ROUNDING: f64 = 1e-12;
+
 /// The limit of a measure unless a scene sets another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UsualLimit {
@@ -115,7 +118,13 @@ impl Limits {
             if verdicts.iter().any(|verdict| verdict.name == *name) {
                 return None;
             }
-            let set = self.get(*name).filter(|bound| usual.get(*name) != Some(*bound));
+            // a bound that was written with a unit is the usual one but for rounding
+            let is_usual = |bound: f64| {
+                usual
+                    .get(*name)
+                    .is_some_and(|usual| (bound - usual).abs() <= ROUNDING * usual.abs())
+            };
+            let set = self.get(*name).filter(|bound| !is_usual(*bound));
             let own = set.map(|bound| bound / measure.unit().si);
             let of_motion =
                 || measure.limit(layup, self).filter(|_| measure.scope() == Scope::Motion);
