@@ -50,7 +50,7 @@ pub fn drape(
     drape_from(layup, tuning, low, None, stop, see)
 }
 
-/// As [`drape`], from a ply in the air that has come to a step of nearly the same motion, if there is one: it hangs over to where the
+/// As [`drape`], from a ply of the same fabric in the air that has come to a step of nearly the same motion, if there is one: it hangs over to where the
 /// grippers of this layup are in that step, comes to rest there, and goes on. [`Drape::status`] is [`Status::NotInTheAir`] if it does not
 /// rest clear of the mold there, and nothing is seen of it then.
 ///
@@ -144,14 +144,13 @@ impl Run<'_> {
         let motion = &self.layup.motion;
         // the ply is hung in the air, and comes to rest over the mold
         let (start, time) = (&motion.positions[begin - 1], motion.times[begin - 1]);
-        if let Err(ended) = self.march.hang(placed, start) {
-            return (ended.status(), self.state(begin, time));
+        let hung = self.march.hang(placed, start);
+        let mut resting = hung.is_ok() && self.march.rest(start, false);
+        if begin > 1 && !self.march.is_stopped() && !(resting && self.is_clear()) {
+            return (Status::NotInTheAir, self.state(begin, time));
         }
-        let mut resting = self.march.rest(start, false);
-        if begin > 1 && !(resting && self.is_clear()) {
-            let ended =
-                if self.march.is_stopped() { Status::Interrupted } else { Status::NotInTheAir };
-            return (ended, self.state(begin, time));
+        if let Err(ended) = hung {
+            return (ended.status(), self.state(begin, time));
         }
         let mut state = self.see(begin, time);
 

@@ -46,7 +46,8 @@ mod tuning;
 mod unknowns;
 mod weight;
 
-pub use drape::{Status, drape, drape_from, is_kept};
+pub(crate) use drape::drape_from;
+pub use drape::{Status, drape, is_kept};
 pub use event::{Event, EventKind};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
