@@ -39,8 +39,11 @@ def scene(**tables: Any) -> plydrape.Scene:
 
 
 def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
-    """Each height is that of the cell's own scene; 60 % of the cells keep the sample's."""
-    judged = scene(errors=ERRORS)
+    """Each height is that of the cell's own scene; 60 % of the cells keep the sample's.
+
+    The motion is in its own time, because cells of a slow one share a flight.
+    """
+    judged = scene(errors=ERRORS, sheet={"mesh": "50 mm", "time": "real"})
     result = plydrape.simulate(judged)
     sample = result.sample
     assert sample is not None and sample.needed == 3
