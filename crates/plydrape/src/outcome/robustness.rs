@@ -2,7 +2,7 @@
 //! tolerates.
 //!
 //! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it tolerates is said
-//! for information. Both are complete drapes along the motion that was draped, by the model that decides.
+//! for information. Both are drapes along the motion that was draped, by the model that decides.
 
 use super::{Effort, Forecast, RateTolerance, Status, Summary, Tolerance, Watch};
 use crate::errors::Errors;

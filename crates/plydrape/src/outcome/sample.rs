@@ -1,4 +1,4 @@
-//! The verdict over a sample of cells: complete drapes, each of a cell with errors of its own, until they decide.
+//! The verdict over a sample of cells: drapes, each of a cell with errors of its own and from a shared flight on, until they decide.
 
 use super::Judged;
 use super::drape::judge_seen;

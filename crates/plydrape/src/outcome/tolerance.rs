@@ -1,7 +1,7 @@
 //! What a motion tolerates, in the engineer's units: errors of the grippers, and a ply that is stiffer in shear or heavier than
 //! nominal, or less so.
 //!
-//! All of it is found by complete drapes along the same motion: errors of the grippers by cells in which nothing else is off, and the ply by
+//! All of it is found by drapes along the same motion: errors of the grippers by cells in which nothing else is off, and the ply by complete
 //! drapes in which one of its properties is a multiple of the nominal one.
 
 use super::sample::draped;

@@ -29,7 +29,7 @@ pub enum Status {
     NotSolved,
     /// The caller ended it.
     Interrupted,
-    /// It was to go on from the air, and touches the mold there or does not come to rest.
+    /// It was to go on from the air, but touches the mold there or does not come to rest.
     NotInTheAir,
 }
 
