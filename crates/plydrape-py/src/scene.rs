@@ -12,7 +12,7 @@ use plydrape::measure::Name;
 use plydrape::motion::Motion;
 use plydrape_io::scene::{self, SceneFile, slow_in_seconds};
 use plydrape_io::store::{shown, size};
-use pyo3::exceptions::{PyFutureWarning, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -206,7 +206,7 @@ impl Scene {
         let mold = given.is_some();
         let scene = parallel(py, || scene::parse_for(&text, &base, "scene", given, None, None));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
-        warn_of_old_keys(py, &scene)?;
+        warn_of_notices(py, &scene)?;
         let tables = Some(text.as_str().into());
         let origin = Origin { tables, base, mold, motion: false };
         let scene = Scene(Arc::new(scene), origin);
@@ -242,7 +242,7 @@ impl Scene {
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let scene =
             parallel(py, || scene::read(&path)).map_err(|refused| error::scene(&refused))?;
-        warn_of_old_keys(py, &scene)?;
+        warn_of_notices(py, &scene)?;
         let whole = std::path::absolute(&path).unwrap_or(path);
         let origin = Origin::new(&scene, whole.parent().unwrap_or(Path::new("")));
         Ok(Scene(Arc::new(scene), origin))
@@ -276,7 +276,7 @@ impl Scene {
     fn read_book(py: Python<'_>, path: PathBuf) -> PyResult<Vec<(String, Self)>> {
         let book = parallel(py, || scene::read_book(&path));
         let book = book.map_err(|refused| error::scene(&refused))?;
-        book.plies.iter().try_for_each(|ply| warn_of_old_keys(py, &ply.scene))?;
+        book.plies.iter().try_for_each(|ply| warn_of_notices(py, &ply.scene))?;
         let made = |scene| Scene(Arc::new(scene), Origin::default());
         Ok(book.plies.into_iter().map(|ply| (ply.name, made(ply.scene))).collect())
     }
@@ -311,7 +311,7 @@ impl Scene {
     fn parse(py: Python<'_>, text: &str, base: PathBuf, name: &str) -> PyResult<Self> {
         let scene = parallel(py, || scene::parse(text, &base, name));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
-        warn_of_old_keys(py, &scene)?;
+        warn_of_notices(py, &scene)?;
         let origin = Origin::new(&scene, &base);
         Ok(Scene(Arc::new(scene), origin))
     }
@@ -749,10 +749,10 @@ impl Scene {
     }
 }
 
-/// Warns of keys that have a new name.
-fn warn_of_old_keys(py: Python<'_>, scene: &SceneFile) -> PyResult<()> {
+/// Warns of keys that have a new name, and of limits that are not measured.
+fn warn_of_notices(py: Python<'_>, scene: &SceneFile) -> PyResult<()> {
     scene.notices.iter().try_for_each(|notice| {
-        PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &CString::new(notice.as_str())?, 1)
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(notice.as_str())?, 1)
     })
 }
 

@@ -7,7 +7,7 @@ use super::cut::CupArray;
 use super::diagnostic::hint;
 use super::errors::errors;
 use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, RobotTable, SceneKeys};
-use super::limits::limits;
+use super::limits::{limits, not_measured};
 use super::located::{Count, Fixed, Located, Whole};
 use super::model::Models;
 use super::motion::{motion, unplanned};
@@ -119,6 +119,8 @@ pub(super) fn scene(
     if let Some(table) = &file.pick_up {
         pick_up(table, file, &mut layup, models.has_also(), document)?;
     }
+    let mut notices = file.limits.notices();
+    notices.extend(not_measured(&limits, &layup));
     let title = title(file.title.as_ref(), document, base)?;
     let thickness = read_given(&file.ply.value.thickness, document)?;
     Ok(SceneFile {
@@ -138,7 +140,7 @@ pub(super) fn scene(
         drawn,
         cell: named_cell.map(|named| named.name),
         thickness,
-        notices: file.limits.notices(),
+        notices,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
 }

@@ -7,7 +7,7 @@ use super::quantity::{Quantity, Read, read_or};
 use super::source::Document;
 use super::usual::Coordinate;
 use crate::Error;
-use plydrape::layup::Layup;
+use plydrape::layup::{Layup, Model};
 use plydrape::measure::{Limits, Name};
 use std::cmp::Reverse;
 
@@ -82,6 +82,25 @@ fn workspace(
     Ok(out)
 }
 
+/// A notice for each limit that somebody has set and that the model which decides does not measure.
+pub(super) fn not_measured(limits: &Limits, layup: &Layup) -> Vec<String> {
+    let decides = layup.settings.model;
+    let notice = |(name, _): (Name, f64)| {
+        let measure = name.measure();
+        let (why, kind) = match measure.description().model.filter(|model| *model != decides)? {
+            Model::Sheet => ("the sheet alone measures it, and catenaries decide", "sheet"),
+            Model::Catenaries => {
+                ("catenaries alone measure it, and the sheet decides", "catenaries")
+            }
+        };
+        Some(format!(
+            "no drape is accepted with the limit `{}`: {why}; remove it, or let the other model decide, kind = \"{kind}\" in [model]",
+            measure.name()
+        ))
+    };
+    limits.unjudged(layup, &[]).into_iter().filter_map(notice).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::parse;
@@ -111,6 +130,26 @@ mod tests {
         assert!(old.notices.len() == 1 && read("").unwrap().notices.is_empty());
         let both = read("fiber_angle = \"2 deg\"\nfibre_angle = \"2 deg\"").unwrap_err();
         assert_eq!(both.message(), "`fiber_angle` is set twice, once by its old name");
+    }
+
+    /// A limit of the other model is noticed before anything is searched for, where somebody has set it to another bound than the usual one.
+    #[test]
+    fn a_limit_that_the_deciding_model_does_not_measure_is_noticed() {
+        let notices = |keys: &str, model: &str| {
+            let text = format!("{SCENE}{keys}\n[model]\nkind = \"{model}\"\n");
+            parse(&text, Path::new(""), "scene.toml").unwrap().notices
+        };
+        for (key, measured, other) in [
+            ("contact_share = \"90 %\"", "catenaries", "sheet"),
+            ("height = \"0.4 mm\"", "sheet", "catenaries"),
+        ] {
+            assert_eq!(notices(key, measured), [""; 0]);
+            let found = notices(key, other);
+            let name = key.split(' ').next().unwrap();
+            assert!(found.len() == 1 && found[0].contains(&format!("`{name}`")), "{found:?}");
+            assert!(found[0].ends_with(&format!("kind = \"{measured}\" in [model]")), "{found:?}");
+        }
+        assert_eq!(notices("contact_share = \"95 %\"", "sheet"), [""; 0]);
     }
 
     /// Each key sets its own limit and no other, but for the slack ratio, which follows a slack angle.

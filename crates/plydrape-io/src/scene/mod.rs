@@ -300,7 +300,7 @@ pub struct SceneFile {
     pub cell: Option<String>,
     /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.
     pub thickness: Option<f64>,
-    /// Keys of the scene that have a new name, each in a sentence with what to change.
+    /// Keys of the scene that have a new name, and limits that the model which decides does not measure, each in a sentence with what to change.
     pub notices: Vec<String>,
     /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
     pub plan_refusal: Option<Box<Diagnostic>>,

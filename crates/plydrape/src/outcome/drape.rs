@@ -199,7 +199,7 @@ fn drape_sheet(
     })?;
     // a drape that ends before its motion is judged by the last state that it came to
     if !ended {
-        recorder.replace_last(&hand_over.state(layup, &drape.sheet, &drape.last, true));
+        recorder.add(&hand_over.state(layup, &drape.sheet, &drape.last, true), None, true);
     }
     Ok((drape, lookout.and_then(|lookout| lookout.flight)))
 }

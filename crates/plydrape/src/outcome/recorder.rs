@@ -57,16 +57,6 @@ impl<'a> Recorder<'a> {
         &self.judge
     }
 
-    /// Measures the last step once more, as the end.
-    pub fn replace_last(&mut self, state: &PlyState) {
-        let measures = self.judge.see_all(state);
-        self.whole = Whole::new(state, self.limits);
-        match self.steps.last_mut().filter(|before| before.step == state.step) {
-            Some(step) => step.measures = measures,
-            None => self.steps.push(Step::new(self.layup, state, measures, None)),
-        }
-    }
-
     /// The summary and the steps of a drape by the sheet.
     pub fn finish_sheet(self, drape: &sheet::Drape) -> (Summary, Vec<Step>) {
         let status = match drape.status {
