@@ -6,7 +6,7 @@ use crate::json::Json;
 use crate::model::for_models;
 use crate::quantity::Amount;
 use crate::result::Result;
-use crate::scene::{SceneArgument, blocks};
+use crate::scene::{SceneArgument, blocks, warn};
 use crate::work::parallel;
 use crate::work::{Watch, run};
 use plydrape::motion::TimedMotion;
@@ -16,7 +16,7 @@ use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
 use plydrape_io::result::{SceneEcho, sheet};
 use plydrape_io::scene::{Measured, SceneFile, usual};
-use plydrape_io::text::forecast;
+use plydrape_io::text::{forecast, start};
 use plydrape_io::{Error, ResultFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -243,6 +243,9 @@ pub fn plan(
         })?;
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::diagnostic(refusal));
+    }
+    if let Some(low) = py.detach(|| start::low(&scene)) {
+        warn(py, &low)?;
     }
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();

@@ -751,9 +751,12 @@ impl Scene {
 
 /// Warns of keys that have a new name, and of limits that are not measured.
 fn warn_of_notices(py: Python<'_>, scene: &SceneFile) -> PyResult<()> {
-    scene.notices.iter().try_for_each(|notice| {
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(notice.as_str())?, 1)
-    })
+    scene.notices.iter().try_for_each(|notice| warn(py, notice))
+}
+
+/// Warns of what is hardly meant.
+pub fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 1)
 }
 
 /// A motion that a program has made.

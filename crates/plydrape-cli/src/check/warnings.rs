@@ -14,6 +14,7 @@ use plydrape::ply::{Kind, Ply, Ruck, gripper_name};
 use plydrape::scene::Scene;
 use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::SceneFile;
+use plydrape_io::text::start;
 use plydrape_io::text::table::verdict_text;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
@@ -36,7 +37,8 @@ pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
     // said once
     let seen: &[Name] = if below.is_empty() { &[] } else { &[Name::OffMold] };
     let costly = overhang(scene).into_iter().chain(fine_mesh(scene));
-    let of_cell = standing_in_mold(scene).into_iter().chain(around_start(scene));
+    let of_cell =
+        standing_in_mold(scene).into_iter().chain(around_start(scene)).chain(start::low(scene));
     let unplanned = unplanned(scene, seen);
     let notices = scene.notices.iter().cloned();
     notices.chain(hardly_meant).chain(below).chain(of_cell).chain(costly).chain(unplanned).collect()

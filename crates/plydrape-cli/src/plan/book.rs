@@ -18,7 +18,7 @@ use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Progress};
 use plydrape_io::scene::{Book, BookPly, read_book};
 use plydrape_io::store::folder::write_together;
-use plydrape_io::text::table;
+use plydrape_io::text::{start, table};
 use plydrape_io::write::book::{self, NAMES, PlyRecord};
 use plydrape_io::{Folder, Staged, names, plan};
 use serde::Serialize;
@@ -71,8 +71,9 @@ pub fn plan(
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
     for ply in &book.plies {
-        let of_ply = |notice: &String| format!("ply {}: {notice}", ply.name);
-        outcome::warn(&ply.scene.notices.iter().map(of_ply).collect::<Vec<_>>());
+        let of_ply = |notice: String| format!("ply {}: {notice}", ply.name);
+        let notices = ply.scene.notices.iter().cloned().chain(start::low(&ply.scene));
+        outcome::warn(&notices.map(of_ply).collect::<Vec<_>>());
     }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
     let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::new).collect();

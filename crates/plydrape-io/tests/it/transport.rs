@@ -1,11 +1,12 @@
 //! The way from the pick-up to the first formation: rigid, clear of mold and table, and formed near the mold.
 
 use crate::common::{Point, distance, drape, example};
+use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::motion::Motion;
 use plydrape::motion::TimedMotion;
 use plydrape::planner::path::tuning::TUNING;
-use plydrape::planner::path::{Formation, MoldHeights, Strategy, trajectory, transport};
+use plydrape::planner::path::{Formation, LowStart, MoldHeights, Strategy, trajectory, transport};
 use plydrape::scene::Scene;
 use std::path::Path;
 
@@ -34,6 +35,40 @@ fn on(mold: &str, start: &str) -> Scene {
 }
 
 const DOME: &str = "kind = \"sphere\"\nradius = 0.6\nposition = [0, 0, -0.6]";
+
+/// A ply that touches at the start is as much higher as it hangs into a level mold, and a tenth of a cell; over a dome it is carried clear of it from the
+/// first step on. Where it hangs clear, and where catenaries decide, the start stays.
+#[test]
+fn a_start_at_which_the_ply_hangs_into_the_mold_is_raised_until_it_is_clear() {
+    let starting = |mold: &str, height: f64| {
+        let start = format!("spacing = [0.098, 0.098]\nheight = {height}\norigin = \"centered\"");
+        let mut scene = on(mold, &start);
+        scene.layup.settings.model = Model::Sheet;
+        scene
+    };
+    let level = |height: f64| LowStart::find(&starting("kind = \"plane\"", height));
+    let (low, lower) = (level(8e-3).unwrap(), level(5e-3).unwrap());
+    assert!((lower.depth - low.depth - 3e-3).abs() < 1e-9, "{lower:?} {low:?}");
+    for found in [low, lower] {
+        let over = found.raise - found.depth - 0.01;
+        assert!((0.0..2e-5).contains(&over), "{found:?}");
+    }
+    // the sag of the ply tells the two apart
+    let sag = low.depth + 8e-3;
+    assert_eq!(level(sag + 1e-3), None);
+    assert!(level(sag - 1e-3).is_some(), "{sag}");
+    let mut by_catenaries = starting("kind = \"plane\"", 5e-3);
+    by_catenaries.layup.settings.model = Model::Catenaries;
+    assert_eq!(LowStart::find(&by_catenaries), None);
+
+    let dome = starting(DOME, 0.01);
+    let raised = LowStart::find(&dome).unwrap().raised(&dome);
+    assert_eq!(LowStart::find(&raised), None);
+    let mut held = raised.clone();
+    held.layup = raised.layup.held_at_start();
+    let hung = drape(&held).steps.remove(0);
+    assert!(hung.measures.get(Name::Height).is_none_or(|height| height.value > 5.0), "{hung:?}");
+}
 
 /// The first formation of a ring, and the transport to it.
 fn to_ring(scene: &Scene, steps: usize) -> (Vec<Point>, Vec<Vec<Point>>) {

@@ -7,7 +7,7 @@
 mod drapes;
 
 use super::evaluation;
-use super::path::{Fronts, Strategy};
+use super::path::{Fronts, LowStart, Strategy};
 use super::search_state::{SearchState, Watcher};
 use crate::Error;
 use crate::measure::Verdict;
@@ -154,6 +154,8 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, Error> {
         return Err(Error::NoMold);
     }
     check_model(&scene.layup, scene.layup.settings.model)?;
+    let raised = LowStart::find(scene).map(|low| low.raised(scene));
+    let scene = raised.as_ref().unwrap_or(scene);
     // rolled and from a point are families of strategies, of which each is represented by its best
     let fronts = Fronts::new(scene).ok_or(Error::NoTarget)?;
     let state = SearchState::new(StrategyName::ALL.len(), watcher);

@@ -168,7 +168,7 @@ pub fn planned_cell(errors: Errors, sample: usize, layup: &Layup) -> Layup {
 }
 
 /// A layup as it is draped to rank a candidate.
-fn as_ranked(mut layup: Layup, mesh: Mesh) -> Layup {
+pub fn as_ranked(mut layup: Layup, mesh: Mesh) -> Layup {
     if mesh == Mesh::Coarse {
         let (pitch, radius) = (sheet::pitch(&layup.ply), layup.settings.pad.radius);
         let coarse = (TUNING.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));

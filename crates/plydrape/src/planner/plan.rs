@@ -4,7 +4,7 @@
 use super::checkpoint::Checkpoint;
 use super::decision::{Decided, Decision};
 use super::evaluation;
-use super::path;
+use super::path::{self, LowStart};
 use super::record::PlanRecord;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
@@ -45,7 +45,7 @@ impl Planned {
     }
 }
 
-/// Plans the gripper motion of a scene, from where it starts to its target, and judges it by the model that decides, with the errors of the
+/// Plans the gripper motion of a scene, from where it starts, or higher if that is too low ([`LowStart`]), to its target, and judges it by the model that decides, with the errors of the
 /// scene if it has any.
 ///
 /// The search continues from `checkpoint`, that of an earlier search for the same ply. `watcher` receives the progress;
@@ -86,6 +86,8 @@ pub fn plan_without_errors(
         return Err(Error::NoTarget);
     }
     outcome::check_model(&scene.layup, scene.layup.settings.model)?;
+    let raised = LowStart::find(scene).map(|low| low.raised(scene));
+    let scene = raised.as_ref().unwrap_or(scene);
     if let Some(checkpoint) = checkpoint {
         checkpoint.check(scene)?;
     }

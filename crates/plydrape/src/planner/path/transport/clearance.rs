@@ -132,6 +132,11 @@ impl<'a> Clearance<'a> {
         clearance
     }
 
+    /// Whether the ply is above the mold at the start, even if it hangs twice as deep as its lines.
+    pub fn starts_clear(&self) -> bool {
+        self.own > self.hang
+    }
+
     /// By how much the array, with its center at a place (m) and turned, is too low over the mold and the table (m).
     pub fn shortfall(&self, center: Point, rotation: &Rotation) -> f64 {
         let lowest = self.points.iter().map(|p| along(center, 1.0, turned(rotation, *p))[2]);
@@ -308,8 +313,8 @@ fn bilinear(grid: Grid, places: &[Point], [u, v]: [f64; 2]) -> Point {
     along(a, if v.is_finite() { v - j as f64 } else { 0.0 }, sub(b, a))
 }
 
-/// The most that a cell hangs below its grippers (m): its middle hangs below the middles of two of its edges as an edge
-/// along the other direction does, each as a parabola, `f² = 3/8 ℓ (L − ℓ)`.
+/// How far a cell hangs below its grippers (m) if it does not shear: its middle hangs below the middles of two of its edges as an edge
+/// along the other direction does, each as a parabola, `f² = 3/8 ℓ (L − ℓ)`. A heavy ply that shears hangs up to 1.3 times as deep.
 fn sag(ply: &Ply, places: &[Point]) -> f64 {
     let mut largest = [0.0_f64; 2];
     for pair in ply.neighbors() {

@@ -17,9 +17,12 @@ mod turn;
 use super::tuning::TUNING;
 use crate::geometry::Point;
 use crate::geometry::vector::between;
+use crate::mold::Mold;
 use crate::scene::Scene;
 use carriage::Carriage;
+use clearance::Clearance;
 use forming::formed;
+use turn::center;
 
 /// Positions (m) from the scene's start to a formation of the grippers, of a plan with this many steps; the formation itself
 /// is the next step. None without a mold or a start.
@@ -45,4 +48,10 @@ pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec
     };
     positions.extend((0..descent).map(down));
     Some(positions)
+}
+
+/// Whether the ply surely hangs clear of the mold at the start of a scene, so that nobody need hang it.
+pub fn is_surely_clear(scene: &Scene, mold: &Mold) -> bool {
+    let start = scene.layup.start();
+    Clearance::new(scene, mold, start, center(start)).starts_clear()
 }
