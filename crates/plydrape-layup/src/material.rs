@@ -232,8 +232,8 @@ impl ShearCurve {
 /// Mean of the monotone cubic through the points `(x, y)` between two places without a knot in between: Simpson's rule,
 /// which is exact for a cubic.
 fn simpson(x: &[f64], y: &[f64], from: f64, to: f64) -> f64 {
-    let at = |place: f64| monotone_cubic(x, y, place).0;
-    (at(from) + 4.0 * at(0.5 * (from + to)) + at(to)) / 6.0
+    let value = |place: f64| monotone_cubic(x, y, place).0;
+    (value(from) + 4.0 * value(0.5 * (from + to)) + value(to)) / 6.0
 }
 
 /// Value and slope at `at` of the monotone cubic through the points `(x, y)`, x ascending.

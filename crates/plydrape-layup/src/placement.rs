@@ -66,11 +66,11 @@ impl Layup {
                 }
             }
         }
-        let at = |world: &Pose| Tool { world: *world, ..tool.clone() };
+        let tool_at = |world: &Pose| Tool { world: *world, ..tool.clone() };
         let mut found: Vec<(f64, Placement)> = places
             .par_iter()
             .filter_map(|(world, yaw)| {
-                let course: ArmCourse = at(world).arm_along(&motion.times, &postures, &[])?;
+                let course: ArmCourse = tool_at(world).arm_along(&motion.times, &postures, &[])?;
                 let placement = Placement { world: *world, yaw: *yaw, keeping: course.keeping };
                 let free = course.peaks.freedom(tool.arm.as_ref()?);
                 (course.keeping > 0).then_some((free, placement))
@@ -81,7 +81,7 @@ impl Layup {
             |(free, placement): &(f64, Placement)| (free.min(FREE), placement.keeping, *free);
         found.sort_by(|a, b| worth(b).partial_cmp(&worth(a)).unwrap_or(Ordering::Equal));
         let clear = |placement: &Placement| {
-            let layup = Layup { tool: Some(at(&placement.world)), ..self.clone() };
+            let layup = Layup { tool: Some(tool_at(&placement.world)), ..self.clone() };
             // the plan is not this motion, so there is some room
             let room = FREE * clearance;
             let nearest = Nearest::of_arm(&layup, room, &motion);

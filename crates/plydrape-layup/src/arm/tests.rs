@@ -119,9 +119,9 @@ fn a_spherical_wrist_has_eight_configurations() {
 #[test]
 fn a_straight_wrist_is_singular() {
     let arm = arm();
-    let at = |angle: f64| arm.least_singular(&[0.3, 0.2, -0.4, 0.5, angle, -0.7]);
-    assert!(at(0.0) < 1e-12);
-    assert!(at(0.01) > 1e-4 && at(0.1) > 5.0 * at(0.01) && at(0.1) < 0.1);
+    let least = |angle: f64| arm.least_singular(&[0.3, 0.2, -0.4, 0.5, angle, -0.7]);
+    assert!(least(0.0) < 1e-12);
+    assert!(least(0.01) > 1e-4 && least(0.1) > 5.0 * least(0.01) && least(0.1) < 0.1);
 }
 
 /// A pose twice as far as the arm is long is missed by what lies between, and no configuration reaches it.

@@ -48,7 +48,7 @@ pub(crate) struct Apart {
 impl Solid {
     pub fn new(shape: &Shape) -> Self {
         let ball = shape.ball();
-        let at = |translation: [f64; 3]| ParryPose::from_translation(vector(translation));
+        let shifted = |translation: [f64; 3]| ParryPose::from_translation(vector(translation));
         let (parry, local) = match shape {
             Shape::Cylinder { radius, from, to } => {
                 let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
@@ -62,12 +62,12 @@ impl Solid {
                 };
                 let corners: Vec<Vector> = (0..8).map(corner).collect();
                 let hull = SharedShape::convex_hull(&corners);
-                (hull.unwrap_or_else(|| SharedShape::ball(0.0)), at([0.0; 3]))
+                (hull.unwrap_or_else(|| SharedShape::ball(0.0)), shifted([0.0; 3]))
             }
             Shape::Mesh { vertices, triangles } => {
                 let corners = vertices.iter().map(|p| vector(*p)).collect();
                 let mesh = TriMesh::with_flags(corners, triangles.clone(), TriMeshFlags::ORIENTED);
-                (mesh.map_or_else(|_| SharedShape::ball(0.0), SharedShape::new), at([0.0; 3]))
+                (mesh.map_or_else(|_| SharedShape::ball(0.0), SharedShape::new), shifted([0.0; 3]))
             }
         };
         let (point, closed) = match shape {

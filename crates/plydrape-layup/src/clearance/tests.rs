@@ -500,7 +500,7 @@ fn a_flange_is_judged_against_what_stands() {
 /// A layup that is a thousand times as large, its limit too, has distances a thousand times as large, at the same time.
 #[test]
 fn a_scaled_cell_has_scaled_clearances() {
-    let of = |scale: f64| {
+    let clearances = |scale: f64| {
         let bodies = vec![
             body("cup", Mount::Pad, cylinder(0.01 * scale, 0.0, 0.05 * scale)),
             body("stem", Mount::Stem, cylinder(0.004 * scale, 0.05 * scale, 0.2 * scale)),
@@ -523,7 +523,7 @@ fn a_scaled_cell_has_scaled_clearances() {
         let legs = poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
         along(&layup, LIMIT * scale, &Legs(legs), &[0.0, 1.0, 2.0], f64::INFINITY).unwrap()
     };
-    let (one, thousand) = (of(1.0), of(1e3));
+    let (one, thousand) = (clearances(1.0), clearances(1e3));
     assert!((thousand.distance / one.distance - 1e3).abs() < 1e-3, "{one:?} {thousand:?}");
     assert!((thousand.time - one.time).abs() < 1e-6);
     assert_eq!((thousand.part, thousand.near), (one.part, one.near));

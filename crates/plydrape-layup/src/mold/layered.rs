@@ -468,12 +468,12 @@ mod tests {
                 checked += 1;
                 let h = 1e-7;
                 let central = [0, 1, 2].map(|axis| {
-                    let at = |by: f64| {
+                    let distance_at = |by: f64| {
                         let mut q = top;
                         q[axis] += by;
                         layered.signed_distance(q)
                     };
-                    (at(h) - at(-h)) / (2.0 * h)
+                    (distance_at(h) - distance_at(-h)) / (2.0 * h)
                 });
                 assert!(distance(central, closest.normal) < 2.0 * STEEPEST * 2.5 * THICK + 1e-6);
             }

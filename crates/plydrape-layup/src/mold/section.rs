@@ -141,12 +141,12 @@ impl Section<'_> {
 
     /// One step along the curve.
     fn step(&self, p: [f64; 3], course: Course, length: f64) -> Option<Step> {
-        let at = |p| self.course(&self.mold.closest_point(p));
+        let course_at = |p| self.course(&self.mold.closest_point(p));
         let k1 = course.tangent;
-        let k2 = at(along(p, 0.5 * length, k1))?.tangent;
-        let half_way = at(along(p, 0.5 * length, k2))?;
+        let k2 = course_at(along(p, 0.5 * length, k1))?.tangent;
+        let half_way = course_at(along(p, 0.5 * length, k2))?;
         let k3 = half_way.tangent;
-        let k4 = at(along(p, length, k3))?.tangent;
+        let k4 = course_at(along(p, length, k3))?.tangent;
         let mean = [0, 1, 2].map(|n| (k1[n] + 2.0 * (k2[n] + k3[n]) + k4[n]) / 6.0);
         let mut next = along(p, length, mean);
         let on_mold = TUNING.on_mold * (length + norm(p));

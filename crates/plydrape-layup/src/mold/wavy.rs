@@ -105,9 +105,8 @@ mod tests {
     fn the_slopes_and_bends_of_waves_are_their_derivatives() {
         let (waves, h) = (waves(), 1e-5);
         for [x, y] in PLACES {
-            let at = |dx: f64, dy: f64| waves.at([x + dx, y + dy, 0.0]);
-            let wave = at(0.0, 0.0);
-            let [px, mx, py, my] = [at(h, 0.0), at(-h, 0.0), at(0.0, h), at(0.0, -h)];
+            let places = [[x, y], [x + h, y], [x - h, y], [x, y + h], [x, y - h]];
+            let [wave, px, mx, py, my] = places.map(|[x, y]| waves.at([x, y, 0.0]));
             let slope = |a: &Raise, b: &Raise| (a.height - b.height) / (2.0 * h);
             let bend = |a: &Raise, b: &Raise, n: usize| (a.gradient[n] - b.gradient[n]) / (2.0 * h);
             let near =
@@ -168,12 +167,12 @@ mod tests {
                     let p = [top[0], top[1], top[2] + height];
                     let gradient = mold.distance_gradient(p, &mold.closest_point(p));
                     let central = [0, 1, 2].map(|axis| {
-                        let at = |by: f64| {
+                        let distance_at = |by: f64| {
                             let mut q = p;
                             q[axis] += by;
                             mold.signed_distance(q)
                         };
-                        (at(h) - at(-h)) / (2.0 * h)
+                        (distance_at(h) - distance_at(-h)) / (2.0 * h)
                     });
                     let slope = waves().steepest();
                     let bend = slope * TAU / waves().wavelength;

@@ -39,12 +39,12 @@ impl Path {
             let before = if k == 0 { 0.0 } else { spacing[k - 1] };
             let share = before / (before + spacing[k]);
             for g in 0..grippers {
-                let at = |row: usize| row * grippers + g;
+                let index = |row: usize| row * grippers + g;
                 pieces.push([
                     polygon.knot(k, g),
-                    between(first[at(k)], first[at(k + 1)], share),
-                    second[at(k)],
-                    third[at(k)],
+                    between(first[index(k)], first[index(k + 1)], share),
+                    second[index(k)],
+                    third[index(k)],
                 ]);
             }
         }

@@ -216,14 +216,14 @@ fn trim_around_a_cylinder_is_measured_along_it() {
     let net =
         Net::drape(&mold, placement(&mold, [51, 11], 0.01, std::f64::consts::FRAC_PI_2)).unwrap();
     let boundary = net.boundary(&mold).unwrap();
-    let at = |arc: f64, x: f64| {
+    let point = |arc: f64, x: f64| {
         let (sin, cos) = (arc / radius).sin_cos();
         [x, radius * sin, radius * cos]
     };
     let mut points = Vec::new();
     let (from, to) = (-0.255, 0.243);
-    points.extend((0..=20).map(|n| at(from + (to - from) * f64::from(n) / 20.0, 0.056)));
-    points.extend((0..=20).rev().map(|n| at(from + (to - from) * f64::from(n) / 20.0, -0.056)));
+    points.extend((0..=20).map(|n| point(from + (to - from) * f64::from(n) / 20.0, 0.056)));
+    points.extend((0..=20).rev().map(|n| point(from + (to - from) * f64::from(n) / 20.0, -0.056)));
     let trim = boundary.trim(&mold, &Wanted::new(&mold, &points, 0.01).unwrap()).unwrap();
     let (beyond, short) = (trim.beyond.unwrap(), trim.short.unwrap());
     assert!((beyond.error - 0.007).abs() < 1e-5, "{beyond:?}");
@@ -236,12 +236,12 @@ fn trim_around_a_cylinder_is_measured_along_it() {
     );
     // 60 mm short all around: no chord is as long as its arc
     let wide = [
-        at(-0.31, -0.11),
-        at(0.0, -0.11),
-        at(0.31, -0.11),
-        at(0.31, 0.11),
-        at(0.0, 0.11),
-        at(-0.31, 0.11),
+        point(-0.31, -0.11),
+        point(0.0, -0.11),
+        point(0.31, -0.11),
+        point(0.31, 0.11),
+        point(0.0, 0.11),
+        point(-0.31, 0.11),
     ];
     let trim = boundary.trim(&mold, &Wanted::new(&mold, &wide, 1.0).unwrap()).unwrap();
     assert!(trim.beyond.is_none());

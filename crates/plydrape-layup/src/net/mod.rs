@@ -126,13 +126,13 @@ impl Net {
         let points = build.points;
 
         // beside the ply a node may lie beyond the mold
-        let at = |i: usize, j: usize| {
+        let corner = |i: usize, j: usize| {
             points[j * nu + i].as_ref().filter(|s| on_mold(s) || !coverage.node([i, j]))
         };
         let mut shear = Vec::with_capacity((nu - 1) * (nv - 1));
         for j in 0..nv - 1 {
             for i in 0..nu - 1 {
-                let ring = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                let ring = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
                 shear.push(match ring {
                     [Some(a), Some(b), Some(c), Some(d)] if coverage.counts([i, j]) => {
                         Some(CellShear::new([a, b, c, d], placement.edges))

@@ -48,7 +48,7 @@ impl Report {
             .collect();
 
         // by how much edges of the net differ from the mesh
-        let at = |i: usize, j: usize| {
+        let node = |i: usize, j: usize| {
             if i < nu && j < nv { points[j * nu + i].filter(|s| s.beyond == 0.0) } else { None }
         };
         let error = |a: Option<SurfacePoint>, b: Option<SurfacePoint>, width: f64| match (a, b) {
@@ -58,8 +58,8 @@ impl Report {
         let mut largest_edge_error = 0.0_f64;
         for j in 0..nv {
             for i in 0..nu {
-                let along_u = error(at(i, j), at(i + 1, j), placement.mesh[0]);
-                let along_v = error(at(i, j), at(i, j + 1), placement.mesh[1]);
+                let along_u = error(node(i, j), node(i + 1, j), placement.mesh[0]);
+                let along_v = error(node(i, j), node(i, j + 1), placement.mesh[1]);
                 largest_edge_error = largest_edge_error.max(along_u).max(along_v);
             }
         }

@@ -143,13 +143,13 @@ impl Lines {
         let Grid { nu, nv } = grid;
         let [a, b] = cell;
         let (across, along) = (nu.saturating_sub(1), nv.saturating_sub(1));
-        let at = |i: usize, j: usize| grid.index([i, j]);
-        let u = (0..nv).flat_map(|j| (0..across).map(move |i| [at(i, j), at(i + 1, j)]));
-        let v = (0..along).flat_map(|j| (0..nu).map(move |i| [at(i, j), at(i, j + 1)]));
+        let gripper = |id| grid.index(id);
+        let u = (0..nv).flat_map(|j| (0..across).map(move |i| [[i, j], [i + 1, j]].map(gripper)));
+        let v = (0..along).flat_map(|j| (0..nu).map(move |i| [[i, j], [i, j + 1]].map(gripper)));
         let u = u.map(|ends| Pair { ends, way: [a, 0.0] }).collect();
         let v = v.map(|ends| Pair { ends, way: [0.0, b] }).collect();
         let quad = |[i, j]: [usize; 2]| {
-            let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(gripper);
             fiber_quad(corners, cell)
         };
         let cells = (0..along).flat_map(|j| (0..across).map(move |i| [i, j])).map(quad).collect();
@@ -423,7 +423,7 @@ fn tributaries(
     let (along, across) = (direction, 1 - direction);
     let families = edges.iter().filter(|edges| !edges.is_empty()).count() as f64;
     let reach = |pair: &Pair| pair.ends.map(|n| places[n][along]);
-    let at = |pair: &Pair| places[pair.ends[0]][across];
+    let offset = |pair: &Pair| places[pair.ends[0]][across];
     let same = TUNING.same_yarn * width;
     let own = &edges[direction];
     let tributary = |pair: &Pair| {
@@ -431,7 +431,7 @@ fn tributaries(
         let [from, to] = reach(pair);
         let beside = |other: &&Pair| {
             let [a, b] = reach(other);
-            a < to && b > from && (at(other) - at(pair)).abs() > same
+            a < to && b > from && (offset(other) - offset(pair)).abs() > same
         };
         let others: Vec<&Pair> = own.iter().filter(beside).collect();
         let mut cuts: Vec<f64> = others.iter().flat_map(|other| reach(other)).collect();
@@ -444,7 +444,7 @@ fn tributaries(
             let middle = 0.5 * (a + b);
             let mut sides = [f64::INFINITY; 2];
             for other in &others {
-                let ([c, d], off) = (reach(other), at(other) - at(pair));
+                let ([c, d], off) = (reach(other), offset(other) - offset(pair));
                 if c < middle && d > middle {
                     let side = &mut sides[usize::from(off > 0.0)];
                     *side = side.min(off.abs());

@@ -17,12 +17,12 @@ fn with_holes(
 ) -> Ply {
     let turn = degrees.to_radians();
     let (sin, cos) = turn.sin_cos();
-    let at = |x: f64, y: f64| [0.1 * (cos * x - sin * y), 0.1 * (sin * x + cos * y)];
+    let turned = |[x, y]: [f64; 2]| [0.1 * (cos * x - sin * y), 0.1 * (sin * x + cos * y)];
     let [right, top] = [nu, nv].map(|count| count as f64 - 0.6);
-    let boundary = vec![at(-0.4, -0.4), at(right, -0.4), at(right, top), at(-0.4, top)];
-    let holes = holes.iter().map(|hole| hole.iter().map(|[x, y]| at(*x, *y)).collect()).collect();
+    let boundary = [[-0.4, -0.4], [right, -0.4], [right, top], [-0.4, top]].map(turned).to_vec();
+    let holes = holes.iter().map(|hole| hole.iter().copied().map(turned).collect()).collect();
     let ids = (0..nv).flat_map(|j| (0..nu).map(move |i| [i, j])).filter(|id| holds(*id));
-    let held = ids.map(|id| Held { id, place: at(id[0] as f64, id[1] as f64) }).collect();
+    let held = ids.map(|id| Held { id, place: turned(id.map(|k| k as f64)) }).collect();
     let outline = Outline::new(boundary, holes).unwrap();
     let cut = Cut { outline, held, angle: 0.0, turn, origin: [0.0; 2] };
     Ply { cut: Some(cut), ..cloth(Grid::NONE) }
@@ -138,8 +138,8 @@ fn rows_at_45_degrees_are_bias_lines() {
     // where a cup is off, its four cells are none, and its two fibers go on to the next cup; its four neighbors along the rows and
     // columns are joined by fibers, which are the sides of a cell
     let lines = held([5, 5], 45.0, |id| id != [2, 2]).lines();
-    let of = |fibers| lines.cells().iter().filter(|cell| cell.fibers == fibers).count();
-    assert_eq!([of(Fibers::Diagonals), of(Fibers::Sides)], [12, 1]);
+    let cells_with = |fibers| lines.cells().iter().filter(|cell| cell.fibers == fibers).count();
+    assert_eq!([cells_with(Fibers::Diagonals), cells_with(Fibers::Sides)], [12, 1]);
     let long = |n: &usize| lines.flat_length(*n, 1.0) > 0.2;
     assert_eq!((0..lines.edges()).filter(long).count(), 2);
 }

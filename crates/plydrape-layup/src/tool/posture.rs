@@ -313,8 +313,8 @@ mod tests {
         ) {
             let place = |n: usize| [0.1 * (n % 4) as f64, 0.12 * (n / 4) as f64, 0.02 * n as f64];
             let start: Vec<[f64; 3]> = (0..12).map(place).collect();
-            let of = |off: [f64; 3], p: [f64; 3]| turned(w, [0, 1, 2].map(|c| p[c] + off[c] + 0.3));
-            let asked: Vec<[f64; 3]> = start.iter().zip(&off).map(|(p, off)| of(*off, *p)).collect();
+            let turned_place = |off: [f64; 3], p: [f64; 3]| turned(w, [0, 1, 2].map(|c| p[c] + off[c] + 0.3));
+            let asked: Vec<[f64; 3]> = start.iter().zip(&off).map(|(p, off)| turned_place(*off, *p)).collect();
             let axis = |direction: [f64; 3], stroke: f64| {
                 Axis { name: "a".into(), direction, stroke: [-stroke, stroke], speed: 0.1 }
             };

@@ -18,12 +18,12 @@ fn molds() -> Vec<(&'static str, Mold)> {
 
 /// The mold, scaled by a factor.
 fn molds_of_size(size: f64) -> Vec<(&'static str, Mold)> {
-    let at = |place: [f64; 3]| Pose::new(place.map(|c| size * c), [0.15, -0.1, 0.7]);
-    let pose = at([0.1, -0.2, 0.05]);
+    let pose_at = |place: [f64; 3]| Pose::new(place.map(|c| size * c), [0.15, -0.1, 0.7]);
+    let pose = pose_at([0.1, -0.2, 0.05]);
     let saddle = Surface::Saddle(Saddle { radii: [0.6 * size, 0.9 * size] });
     let radius = 0.6 * size;
     // the middle of the tube lies under the places that are tried
-    let aside = at([0.9, -0.2, 0.05]);
+    let aside = pose_at([0.9, -0.2, 0.05]);
     let (ring_radius, tube_radius) = (0.85 * size, 0.5 * size);
     vec![
         ("plane", Mold::Plane(Plane { point: [0.0; 3], normal: [-0.28, 0.0, 0.96] })),
@@ -123,8 +123,8 @@ proptest! {
             let closest = mold.closest_point(p);
             let h = 1e-5;
             for n in 0..3 {
-                let at = |s: f64| { let mut q = p; q[n] += s; mold.signed_distance(q) };
-                let slope = (at(h) - at(-h)) / (2.0 * h);
+                let distance_at = |s: f64| { let mut q = p; q[n] += s; mold.signed_distance(q) };
+                let slope = (distance_at(h) - distance_at(-h)) / (2.0 * h);
                 prop_assert!((slope - closest.normal[n]).abs() < 1e-8, "{name}: {slope} {:?}", closest.normal);
             }
         }
@@ -143,8 +143,8 @@ proptest! {
             prop_assert!(dot(a, b).abs() < 1e-9 && dot(a, mold.normal(p)).abs() < 1e-9, "{name}");
             let t = [0, 1, 2].map(|n| angle.cos() * a[n] + angle.sin() * b[n]);
             let h = 1e-5;
-            let at = |s: f64| mold.normal([0, 1, 2].map(|n| p[n] + s * t[n]));
-            let turned = dot(sub(at(h), at(-h)), t) / (2.0 * h);
+            let normal_at = |s: f64| mold.normal([0, 1, 2].map(|n| p[n] + s * t[n]));
+            let turned = dot(sub(normal_at(h), normal_at(-h)), t) / (2.0 * h);
             prop_assert!((turned - bend.along(t)).abs() < 1e-7, "{name}: {turned} {bend:?}");
         }
     }

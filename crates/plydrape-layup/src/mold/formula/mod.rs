@@ -84,8 +84,8 @@ impl Formula {
     pub fn steepness(&self, range: [[f64; 2]; 2]) -> Steepness {
         let part = |n: usize, k: usize| {
             let [low, high] = range[n];
-            let at = |k: usize| low + (high - low) * k as f64 / TUNING.formula_parts as f64;
-            Interval(at(k), at(k + 1))
+            let bound = |k: usize| low + (high - low) * k as f64 / TUNING.formula_parts as f64;
+            Interval(bound(k), bound(k + 1))
         };
         let parts =
             (0..TUNING.formula_parts).flat_map(|j| (0..TUNING.formula_parts).map(move |i| [i, j]));

@@ -77,8 +77,8 @@ fn next_on_boundary(
 }
 
 fn boundary(points: &[[f64; 3]], vertices: Vec<u32>, surface: usize) -> Boundary {
-    let at = |n: usize| points[vertices[n % vertices.len()] as usize];
-    let length = (0..vertices.len()).map(|n| distance(at(n), at(n + 1))).sum();
+    let vertex = |n: usize| points[vertices[n % vertices.len()] as usize];
+    let length = (0..vertices.len()).map(|n| distance(vertex(n), vertex(n + 1))).sum();
     let bounds = super::bounds(vertices.iter().map(|n| points[*n as usize]));
     Boundary { vertices, length, bounds, surface, hole: false }
 }

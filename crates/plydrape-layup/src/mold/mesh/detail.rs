@@ -548,15 +548,15 @@ mod tests {
 
     /// A plate of 200 mm on a surface of height z, without its middle square of 40 mm.
     fn frame(z: impl Fn(f64, f64) -> f64) -> Vec<[Point; 3]> {
-        let at = |i: i32, j: i32| {
-            let [x, y] = [i, j].map(|n| 0.02 * f64::from(n));
+        let vertex = |node: [i32; 2]| {
+            let [x, y] = node.map(|n| 0.02 * f64::from(n));
             [x, y, z(x, y)]
         };
         let cells = (-5..5).flat_map(|i| (-5..5).map(move |j| (i, j)));
         let around = cells.filter(|(i, j)| !(-1..1).contains(i) || !(-1..1).contains(j));
         around
             .flat_map(|(i, j)| {
-                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(vertex);
                 [[a, b, c], [a, c, d]]
             })
             .collect()
@@ -672,9 +672,9 @@ mod tests {
         let mut out = Vec::new();
         for ends in points.windows(2) {
             for y in rows.windows(2) {
-                let at = |(x, z): (f64, f64), y: f64| [x, y, z];
-                let [a, b] = [at(ends[0], y[0]), at(ends[1], y[0])];
-                let [c, d] = [at(ends[1], y[1]), at(ends[0], y[1])];
+                let vertex = |(x, z): (f64, f64), y: f64| [x, y, z];
+                let [a, b] = [vertex(ends[0], y[0]), vertex(ends[1], y[0])];
+                let [c, d] = [vertex(ends[1], y[1]), vertex(ends[0], y[1])];
                 out.extend([[a, b, c], [a, c, d]]);
             }
         }
@@ -767,14 +767,14 @@ mod tests {
         let block = |x: f64, y: f64| if x.abs().max(y.abs()) < 0.03 { 0.02 } else { 0.0 };
         let cone = |x: f64, y: f64| -0.6 * x.hypot(y);
         for z in [block, cone] {
-            let at = |i: i32, j: i32| {
-                let [x, y] = [i, j].map(|n| 4e-3 * f64::from(n));
+            let vertex = |node: [i32; 2]| {
+                let [x, y] = node.map(|n| 4e-3 * f64::from(n));
                 [x, y, z(x, y)]
             };
             let cells = (-25..25).flat_map(|i| (-25..25).map(move |j| (i, j)));
             let triangles: Vec<[Point; 3]> = cells
                 .flat_map(|(i, j)| {
-                    let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                    let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(vertex);
                     [[a, b, c], [a, c, d]]
                 })
                 .collect();

@@ -127,8 +127,8 @@ fn merge(points: &[[f64; 3]], tolerance: f64, merged: &mut Finding) -> Vec<u32> 
             continue;
         }
         let p = points[n];
-        let at = |p: [f64; 3]| p.map(|x| (x / cell).floor() as i64);
-        let (low, high) = (at(p.map(|x| x - tolerance)), at(p.map(|x| x + tolerance)));
+        let cell_at = |p: [f64; 3]| p.map(|x| (x / cell).floor() as i64);
+        let (low, high) = (cell_at(p.map(|x| x - tolerance)), cell_at(p.map(|x| x + tolerance)));
         let mut near = None;
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
@@ -146,7 +146,7 @@ fn merge(points: &[[f64; 3]], tolerance: f64, merged: &mut Finding) -> Vec<u32> 
                 same[n] = other;
                 merged.note(n as u64 + 1, p);
             }
-            None => cells.entry(at(p)).or_default().push(n as u32),
+            None => cells.entry(cell_at(p)).or_default().push(n as u32),
         }
     }
     same

@@ -73,11 +73,11 @@ impl Soup {
 /// the one with the shortest diagonal first. A quadrilateral is thus split along its shorter diagonal, or
 /// along the only one that is inside.
 fn cut(points: &[[f64; 3]], corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
-    let at = |corner: u32| points[corner as usize];
+    let point = |corner: u32| points[corner as usize];
     // twice the vector area of the polygon
     let mut normal = [0.0; 3];
     for n in 1..corners.len().saturating_sub(1) {
-        let part = corner_normal([at(corners[0]), at(corners[n]), at(corners[n + 1])]);
+        let part = corner_normal([point(corners[0]), point(corners[n]), point(corners[n + 1])]);
         normal = [0, 1, 2].map(|c| normal[c] + part[c]);
     }
     let mut left = corners.to_vec();
@@ -86,7 +86,7 @@ fn cut(points: &[[f64; 3]], corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
         let ear = |n: usize| [left[(n + count - 1) % count], left[n], left[(n + 1) % count]];
         let mut best: Option<(f64, usize)> = None;
         for n in 0..count {
-            let [a, b, c] = ear(n).map(at);
+            let [a, b, c] = ear(n).map(point);
             let convex = dot(corner_normal([a, b, c]), normal) > 0.0;
             let length = distance(a, c);
             if !convex || best.is_some_and(|(shortest, _)| length >= shortest) {
@@ -95,7 +95,7 @@ fn cut(points: &[[f64; 3]], corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
             let free = left
                 .iter()
                 .filter(|corner| !ear(n).contains(corner))
-                .all(|&corner| !covers([a, b, c], at(corner), normal));
+                .all(|&corner| !covers([a, b, c], point(corner), normal));
             if free {
                 best = Some((length, n));
             }

@@ -218,14 +218,14 @@ mod tests {
     fn graded() -> impl Strategy<Value = Vec<Corners>> {
         (1..12_i32, 1..12_i32, 0.0..0.3).prop_map(|(nx, ny, height)| {
             let side = |k: i32, n: i32| 10f64.powf(4.0 * f64::from(k - n) / f64::from(n));
-            let at = |i: i32, j: i32| {
+            let vertex = |[i, j]: [i32; 2]| {
                 let (x, y) = (side(i, nx), side(j, ny));
                 [x, y, height * (7.0 * x).sin() * (5.0 * y).cos()]
             };
             let cells = (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j)));
             cells
                 .flat_map(|(i, j)| {
-                    let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                    let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(vertex);
                     [[a, b, c], [a, c, d]]
                 })
                 .collect()

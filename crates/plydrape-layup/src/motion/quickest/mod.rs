@@ -113,11 +113,11 @@ impl<'a> Course<'a> {
             .as_ref()
             .map(|(until, bounds)| (self.times.partition_point(|t| t < until), norms(bounds)));
         let bounds = norms(bounds);
-        let one = |g: usize| {
+        let moving = |g: usize| {
             let rates = self.times.iter().map(|t| [0, 1, 2].map(|n| self.motion.rate_of(g, *t, n)));
             Moving { rates: rates.collect(), bounds, early }
         };
-        (0..self.motion.grippers()).map(one).collect()
+        (0..self.motion.grippers()).map(moving).collect()
     }
 
     /// The quickest motion found along the same path, and what limits it; the motion as it is where none is quicker.
