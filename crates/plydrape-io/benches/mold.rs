@@ -20,7 +20,7 @@ fn height(x: f64, y: f64) -> f64 {
 
 /// The sheet as a binary STL file.
 static FILE: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let at = |i: usize, j: usize| {
+    let vertex = |[i, j]: [usize; 2]| {
         let (x, y) = (i as f64 / CELLS[0] as f64, j as f64 / CELLS[1] as f64);
         stl_io::Vertex::new([x, y, height(x, y)].map(|x| x as f32))
     };
@@ -28,7 +28,7 @@ static FILE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut triangles = Vec::new();
     for i in 0..CELLS[0] {
         for j in 0..CELLS[1] {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(vertex);
             triangles.push(stl_io::Triangle { normal, vertices: [a, b, c] });
             triangles.push(stl_io::Triangle { normal, vertices: [a, c, d] });
         }

@@ -60,15 +60,15 @@ fn scenes(folder: &Path) -> Vec<(String, Scene)> {
 
 /// A shallow doubly curved surface of 0.8 m by 0.6 m as an ASCII STL file.
 fn triangles() -> String {
-    let at = |i: usize, j: usize| {
-        let [x, y] = [i, j].map(|k| k as f64 / SQUARES as f64 - 0.5);
+    let vertex = |node: [usize; 2]| {
+        let [x, y] = node.map(|k| k as f64 / SQUARES as f64 - 0.5);
         let (x, y) = (0.8 * x, 0.6 * y);
         [x, y, -0.5 * x * x - 0.7 * y * y + 0.4 * x * y + 0.3 * x * x * x]
     };
     let mut text = String::from("solid mold\n");
     for i in 0..SQUARES {
         for j in 0..SQUARES {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(vertex);
             for corners in [[a, b, c], [a, c, d]] {
                 text.push_str("facet normal 0 0 1\nouter loop\n");
                 for [x, y, z] in corners {

@@ -45,8 +45,8 @@ fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     scene.layup.ply.grid.nv = side;
     scene.layup.settings.slopes = rule;
     let grid = scene.layup.ply.grid;
-    let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
-    let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
+    let places = (0..grid.grippers()).map(|n| grid.id(n).map(|k| 0.098 * k as f64));
+    let positions = places.map(|[x, y]| [x, y, 0.0]).collect();
     (
         Solver::new(&scene.layup.ply, &scene.layup.settings),
         positions,

@@ -65,8 +65,8 @@ fn every_place_of_a_gripper_has_an_answer() {
     let mut told = [0, 0];
     for n in 0..300_u32 {
         // a sequence that fills the box around the start evenly (Roberts 2018)
-        let at = |a: f64| (f64::from(n) * a).fract();
-        let (x, y, z) = (at(0.819_172_5), at(0.671_043_6), at(0.549_700_5));
+        let fraction = |a: f64| (f64::from(n) * a).fract();
+        let (x, y, z) = (fraction(0.819_172_5), fraction(0.671_043_6), fraction(0.549_700_5));
         let place = format!("[{}, {}, {}]", 0.08 * x - 0.02, 0.08 * y - 0.02, 0.01 + 0.15 * z);
         let scene = START.replacen("[0, 0, 0.075]", &place, 1).replace(
             "kind = \"plane\"\npoint = [0.147, 0.049, 0]",

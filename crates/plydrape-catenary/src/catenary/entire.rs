@@ -106,8 +106,7 @@ mod tests {
     fn derivatives_agree_with_central_differences() {
         let h = 1e-4;
         for y in [-31.0, -2.2, 0.3, 17.0] {
-            let at = |y: f64| entire(y, TERMS);
-            let (low, mid, high) = (at(y - h), at(y), at(y + h));
+            let [low, mid, high] = [y - h, y, y + h].map(|y| entire(y, TERMS));
             for n in 0..=4 {
                 let first = (high[n] - low[n]) / (2.0 * h);
                 let second = (slope(&high, n) - slope(&low, n)) / (2.0 * h);

@@ -59,10 +59,10 @@ impl Profile {
         let depth = |x: f64| rise / run * x - self.station(x).z;
         // the best of a grid, then golden sections around it
         const GRID: usize = 64;
-        let at = |n: usize| run * n as f64 / GRID as f64;
+        let x_at = |n: usize| run * n as f64 / GRID as f64;
         let best =
-            (0..=GRID).fold(0, |best, n| if depth(at(n)) > depth(at(best)) { n } else { best });
-        let (mut a, mut b) = (at(best.saturating_sub(1)), at((best + 1).min(GRID)));
+            (0..=GRID).fold(0, |best, n| if depth(x_at(n)) > depth(x_at(best)) { n } else { best });
+        let (mut a, mut b) = (x_at(best.saturating_sub(1)), x_at((best + 1).min(GRID)));
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         // 50 sections leave less than 1e-10 of the two grid widths
         for _ in 0..50 {

@@ -93,7 +93,7 @@ mod tests {
         {
             for held in 0..4 {
                 let base = [force, 0.31, -0.12, 0.098, 0.02, 3.0, rigidity];
-                let at = |x: &[f64; 7]| {
+                let profile_at = |x: &[f64; 7]| {
                     let end = |n: usize| {
                         let slope = EndCondition::Slope(x[1 + n]);
                         if held & (1 << n) == 0 { EndCondition::Free } else { slope }
@@ -109,7 +109,7 @@ mod tests {
                     };
                     Profile::new(&span, x[0])
                 };
-                let profile = at(&base);
+                let profile = profile_at(&base);
                 for t in [0.13, 0.5, 0.83] {
                     let read = |p: &Profile| {
                         let station = p.station(t * p.span.run);
@@ -126,7 +126,7 @@ mod tests {
                         let (mut low, mut high) = (base, base);
                         low[n] -= h;
                         high[n] += h;
-                        let (low, high) = (read(&at(&low)), read(&at(&high)));
+                        let (low, high) = (read(&profile_at(&low)), read(&profile_at(&high)));
                         for q in 0..3 {
                             assert!((found[q].value - values[q]).abs() < 1e-12);
                             let difference = (high[q] - low[q]) / (2.0 * h);

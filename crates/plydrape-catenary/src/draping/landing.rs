@@ -26,8 +26,8 @@ pub(crate) fn fabric(layup: &Layup, catenary: usize, share: f64) -> [f64; 2] {
 pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Option<Landing> {
     let (mold, drape) = (layup.mold.as_ref()?, layup.target.as_ref()?.drape.as_ref()?);
     let line = &contact.line;
-    let at = |arc: f64| fabric(layup, catenary, arc / contact.length);
-    let place = |arc: f64| drape.place(mold, at(arc));
+    let fabric_at = |arc: f64| fabric(layup, catenary, arc / contact.length);
+    let place = |arc: f64| drape.place(mold, fabric_at(arc));
     let errors = line
         .arc
         .iter()

@@ -132,7 +132,7 @@ impl<'a> Draping<'a> {
     /// until it no longer changes.
     fn cut_to(&mut self, goal: &[Point]) -> Equilibrium {
         let start = self.positions.clone();
-        let at = |fraction: f64| -> Vec<Point> {
+        let positions_at = |fraction: f64| -> Vec<Point> {
             start
                 .iter()
                 .zip(goal)
@@ -142,7 +142,7 @@ impl<'a> Draping<'a> {
         let (mut done, mut part) = (0.0, 1.0);
         loop {
             let next = f64::min(done + part, 1.0);
-            let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
+            let place = if next >= 1.0 { goal.to_vec() } else { positions_at(next) };
             let before = self.unsolved;
             let mut shape = self.solve(&place);
             let mut gaps = self.gaps(&shape);

@@ -48,11 +48,11 @@ fn gradients_of_distant_grippers_together_are_those_of_each_alone() {
 #[test]
 fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
     let (sin, cos) = 45_f64.to_radians().sin_cos();
-    let at = |[x, y]: [f64; 2]| [0.1 * (cos * x - sin * y), 0.1 * (sin * x + cos * y)];
-    let boundary = [[-0.4, -0.4], [2.4, -0.4], [2.4, 2.4], [-0.4, 2.4]].map(at).to_vec();
+    let turned = |[x, y]: [f64; 2]| [0.1 * (cos * x - sin * y), 0.1 * (sin * x + cos * y)];
+    let boundary = [[-0.4, -0.4], [2.4, -0.4], [2.4, 2.4], [-0.4, 2.4]].map(turned).to_vec();
     let outline = Outline::new(boundary, Vec::new()).unwrap();
     let ids = (0..9).map(|n| [n % 3, n / 3]);
-    let held = ids.map(|id| Held { id, place: at(id.map(|k| k as f64)) }).collect();
+    let held = ids.map(|id| Held { id, place: turned(id.map(|k| k as f64)) }).collect();
     let cut = Cut { outline, held, angle: 0.0, turn: 45_f64.to_radians(), origin: [0.0; 2] };
     let layup = layup(2);
     let ply =
@@ -67,8 +67,8 @@ fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
     let tilts = |positions: &[[f64; 3]]| -> Vec<f64> {
         let mut draping = Draping::new(&layup);
         draping.move_to(positions);
-        let of = |n| attitude(&draping.solver, &layup.ply, &neighbors, positions, n, None).tilt;
-        (0..positions.len()).map(of).collect()
+        let tilt = |n| attitude(&draping.solver, &layup.ply, &neighbors, positions, n, None).tilt;
+        (0..positions.len()).map(tilt).collect()
     };
     let mut draping = Draping::new(&layup);
     let shape = draping.move_to(&positions);

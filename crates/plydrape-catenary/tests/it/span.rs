@@ -277,7 +277,7 @@ proptest! {
         prop_assume!((kappa - 25.0).abs() > 0.1 && force - span.buckling_force() > 1e-3 * unit);
 
         let held = |end: usize| matches!(span.ends[end], EndCondition::Slope(_));
-        let at = |variable: usize, delta: f64| {
+        let profile_with = |variable: usize, delta: f64| {
             let (mut s, mut h) = (span, force);
             let mut bend = |end: usize| if let EndCondition::Slope(v) = &mut s.ends[end] { *v += delta };
             match variable {
@@ -305,7 +305,7 @@ proptest! {
             if (name == "first curvature" && !held(0)) || (name == "second curvature" && !held(1)) {
                 continue;
             }
-            let jet = read(&at(0, 0.0));
+            let jet = read(&profile_with(0, 0.0));
             // sizes of the derivatives, per relative change of each variable
             let size = (0..7).map(|i| (jet.gradient[i] * scale[i]).abs()).fold(jet.value.abs(), f64::max);
             let bend = (0..49).map(|n| (jet.hessian[n / 7][n % 7] * scale[n / 7] * scale[n % 7]).abs())
@@ -318,7 +318,7 @@ proptest! {
                 }
                 // near buckling only a small part of the change of H, ℓ or EI may be spent
                 let h = 2e-6 * scale[i] * ((force - span.buckling_force()) / (10.0 * unit)).min(1.0);
-                let (low, high) = (read(&at(i, -h)), read(&at(i, h)));
+                let (low, high) = (read(&profile_with(i, -h)), read(&profile_with(i, h)));
                 let slope = (high.value - low.value) / (2.0 * h);
                 prop_assert!(((slope - jet.gradient[i]) * scale[i]).abs() < 2e-6 * bend,
                     "{name}, variable {i}: {slope} for {}", jet.gradient[i]);

@@ -331,10 +331,11 @@ fn a_start_many_plies_off_is_warned_of_at_any_scale() {
     // diagonal of 3 × 1 cells of 100
     let diagonal = 100.0 * 10f64.sqrt();
     for unit in ["um", "mm", "cm"] {
-        let at = |share: f64| in_unit(unit).replace("\"10 ", &format!("\"{} ", -share * diagonal));
-        let near = warnings(&at(19.0));
+        let text =
+            |share: f64| in_unit(unit).replace("\"10 ", &format!("\"{} ", -share * diagonal));
+        let near = warnings(&text(19.0));
         assert!(near.is_empty(), "{unit}: {near:?}");
-        let far = warning(&at(21.0));
+        let far = warning(&text(21.0));
         assert!(far.contains("gripper g3_1 starts") && far.contains("21 times"), "{far}");
     }
     let kilometers = warning(&in_unit("mm").replace("\"10 mm\"", "\"5000 m\""));

@@ -141,7 +141,7 @@ pub fn squares_of_forces(solver: &Solver, slopes: &[f64]) -> f64 {
             let slope = match element.ends[end] {
                 End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
-                    let at = |source| match source {
+                    let slope_from = |source| match source {
                         SlopeSource::Prescribed(s) => s,
                         SlopeSource::Shared(j) => slopes[j],
                         SlopeSource::Outcome(e, k) => {
@@ -149,7 +149,7 @@ pub fn squares_of_forces(solver: &Solver, slopes: &[f64]) -> f64 {
                             pair[k]
                         }
                     };
-                    plane.share[0] * at(plane.source[0]) + plane.share[1] * at(plane.source[1])
+                    (0..2).map(|k| plane.share[k] * slope_from(plane.source[k])).sum()
                 }
                 _ => continue,
             };

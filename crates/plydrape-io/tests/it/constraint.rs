@@ -8,11 +8,8 @@ use plydrape::ply::{Grid, Lines, shear};
 /// Parallelogram cells of sides 97.5 mm, sheared by `angle` (rad) in the horizontal plane.
 fn sheared(grid: Grid, angle: f64) -> Vec<Point> {
     let side = 0.0975;
-    let place = |n| grid.id(n).map(|k| side * k as f64);
-    let at = |n| place(n);
-    (0..grid.grippers())
-        .map(|n| [at(n)[0] + at(n)[1] * angle.sin(), at(n)[1] * angle.cos(), 0.0])
-        .collect()
+    let places = (0..grid.grippers()).map(|n| grid.id(n).map(|k| side * k as f64));
+    places.map(|[u, v]| [u + v * angle.sin(), v * angle.cos(), 0.0]).collect()
 }
 
 /// The same turned about z by `turn`, then tilted so that it climbs by `climb` (rad) towards `towards`.
@@ -112,10 +109,10 @@ fn where_shearing_cells_meet_their_planes_are_averaged() {
     positions[5][2] = 0.03;
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
     solver.solve(&positions, &free(&ply));
-    let at = |n: usize| solver.problem().constraints[n].expect("on a stretched diagonal").normal;
+    let normal = |n: usize| solver.problem().constraints[n].expect("a stretched diagonal").normal;
     // gripper 4 ends the first cell's diagonal, 1 begins the second's, 0 and 5 see one cell alone
-    assert_eq!(at(0), at(4));
-    assert_eq!(at(1), at(5));
+    assert_eq!(normal(0), normal(4));
+    assert_eq!(normal(1), normal(5));
     let ply = self::paper_ply(3, 3);
     let mut positions = sheared(ply.grid, 0.3);
     for n in [2, 5, 8] {
@@ -123,12 +120,12 @@ fn where_shearing_cells_meet_their_planes_are_averaged() {
     }
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
     solver.solve(&positions, &free(&ply));
-    let at = |n: usize| solver.problem().constraints[n].expect("on a stretched diagonal").normal;
+    let normal = |n: usize| solver.problem().constraints[n].expect("a stretched diagonal").normal;
     // the middle gripper: lower left cell's plane (level) and upper right one's
-    let sum = [0, 1, 2].map(|k| at(0)[k] + at(8)[k]);
+    let sum = [0, 1, 2].map(|k| normal(0)[k] + normal(8)[k]);
     let size = sum.iter().map(|x| x * x).sum::<f64>().sqrt();
     for k in 0..3 {
-        assert!((at(4)[k] - sum[k] / size).abs() < 1e-14);
+        assert!((normal(4)[k] - sum[k] / size).abs() < 1e-14);
     }
 }
 

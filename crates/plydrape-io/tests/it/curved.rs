@@ -143,7 +143,7 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
         let trough = Mold::Cylinder(Cylinder { pose, radius, face: Face::Inside });
         // let down level, taut, until the grippers meet the walls
         let wall = radius - f64::sqrt(radius * radius - half * half);
-        let at = |t: f64| {
+        let positions_at = |t: f64| {
             let z = wall + 0.02 * (1.0 - t);
             vec![[-half, 0.0, z], [half, 0.0, z]]
         };
@@ -154,7 +154,7 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
             end: ContactEnd::Free,
             ..ContactSettings::default()
         };
-        let positions = (0..20).map(|n| at(f64::from(n) / 19.0)).collect();
+        let positions = (0..20).map(|n| positions_at(f64::from(n) / 19.0)).collect();
         let mut scene = strip(2, trough, contact, positions);
         // a parabola longer than its chord by a part e sags by √(3e/8) of it
         let (length, excess) = (2.0 * half, 1e-8_f64);
@@ -175,11 +175,11 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
 
 /// The cap of a sphere of radius R with its top at the origin, as an OBJ of n × n squares.
 fn cap(radius: f64, n: usize) -> Mold {
-    let at = |k: usize| -0.1 + 0.5 * k as f64 / n as f64;
+    let coordinate = |k: usize| -0.1 + 0.5 * k as f64 / n as f64;
     let mut text = String::new();
     for j in 0..=n {
         for i in 0..=n {
-            let (x, y) = (at(i), at(j) - 0.15);
+            let (x, y) = (coordinate(i), coordinate(j) - 0.15);
             let z = (radius * radius - x * x - y * y).sqrt() - radius;
             text += &format!("v {x:.17} {y:.17} {z:.17}\n");
         }
@@ -237,14 +237,14 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
             end: ContactEnd::Tangent,
             ..ContactSettings::default()
         };
-        let at = |t: f64| -> Vec<[f64; 3]> {
+        let positions_at = |t: f64| -> Vec<[f64; 3]> {
             let mix = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
             first.iter().zip(last).map(mix).collect()
         };
         let part = |n: usize| 0.96 * n as f64 / (steps - 1) as f64;
         scene.layup.motion = Motion {
             times: (0..steps).map(|n| n as f64).collect(),
-            positions: (0..steps).map(|n| at(part(n))).collect(),
+            positions: (0..steps).map(|n| positions_at(part(n))).collect(),
         };
         let result = drape(&scene);
         let last = result.steps.last().expect("steps");

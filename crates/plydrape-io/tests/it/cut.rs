@@ -75,7 +75,7 @@ fn a_ply_with_a_cup_off_lies_on_a_formula_as_on_a_plane() {
 /// The drawing may lie anywhere: turned and moved with its array and its warp, the ply and its cups are the same.
 #[test]
 fn a_drawing_may_lie_anywhere() {
-    let at = |turn: f64, warp: &str| {
+    let drawn = |turn: f64, warp: &str| {
         let (sin, cos) = turn.to_radians().sin_cos();
         let place =
             |x: f64, y: f64| format!("[{}, {}]", 0.7 + cos * x - sin * y, cos * y + sin * x - 0.2);
@@ -90,9 +90,10 @@ fn a_drawing_may_lie_anywhere() {
         parse(&ply, "").layup.ply
     };
     // along the yarns, and at 40 degrees to them
-    for (here, there) in
-        [(at(0.0, "0 deg"), at(37.0, "37 deg")), (at(0.0, "40 deg"), at(37.0, "77 deg"))]
-    {
+    for (here, there) in [
+        (drawn(0.0, "0 deg"), drawn(37.0, "37 deg")),
+        (drawn(0.0, "40 deg"), drawn(37.0, "77 deg")),
+    ] {
         assert_eq!(here.grid, there.grid);
         assert_eq!(here.grippers(), there.grippers());
         let [a, b] = [&here, &there].map(|ply| ply.cut.as_ref().unwrap());

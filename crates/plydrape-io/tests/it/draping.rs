@@ -196,10 +196,11 @@ fn contact_converges_in_steps_and_tolerance() {
             end: ContactEnd::Free,
             ..ContactSettings::default()
         };
-        let at = |t: f64| vec![[0.0, 0.0, 0.012 - 0.008 * t], [0.098, 0.0, 0.012 - 0.006 * t]];
+        let positions_at =
+            |t: f64| vec![[0.0, 0.0, 0.012 - 0.008 * t], [0.098, 0.0, 0.012 - 0.006 * t]];
         scene.layup.motion = Motion {
             times: (0..steps).map(|n| n as f64).collect(),
-            positions: (0..steps).map(|n| at(n as f64 / (steps - 1) as f64)).collect(),
+            positions: (0..steps).map(|n| positions_at(n as f64 / (steps - 1) as f64)).collect(),
         };
         let result = drape(&scene);
         let last = lines(result.steps.last().expect("steps"))[0].clone();

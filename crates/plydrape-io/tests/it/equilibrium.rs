@@ -198,7 +198,7 @@ proptest! {
                 direction.rigidity[n] += factor * part.rigidity[n];
             }
         }
-        let at = |h: f64| {
+        let solved_at = |h: f64| {
             let mut ply = ply.clone();
             ply.cell[0] *= 1.0 + h * 0.01 * along_u;
             ply.cell[1] *= 1.0 + h * 0.01 * along_v;
@@ -213,7 +213,7 @@ proptest! {
             (solver, outcome)
         };
         let h = 1e-5;
-        let ((middle, outcome), (low, _), (high, _)) = (at(0.0), at(-h), at(h));
+        let ((middle, outcome), (low, _), (high, _)) = (solved_at(0.0), solved_at(-h), solved_at(h));
         prop_assume!(outcome.status == Status::Converged);
         // the state is differentiable here: the same spans, shear and active bounds on both sides
         let bound = settings.max_tilt.tan();

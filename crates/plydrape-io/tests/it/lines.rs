@@ -56,11 +56,11 @@ fn a_whole_rectangle_that_is_cut_has_the_states_of_its_array() {
 
 fn solved(scene: &Scene, spacing: f64) -> (Solver, Vec<[f64; 3]>) {
     let ply = &scene.layup.ply;
-    let at = |n: usize| {
+    let position = |n: usize| {
         let [i, j] = ply.id(n).map(|k| spacing * k as f64);
         [i, j, 0.05]
     };
-    let positions: Vec<_> = (0..ply.grippers()).map(at).collect();
+    let positions: Vec<_> = (0..ply.grippers()).map(position).collect();
     let mut solver = Solver::new(ply, &scene.layup.settings);
     let contacts = vec![None; ply.lines().catenaries()];
     let equilibrium = solver.solve(&positions, &contacts);
@@ -153,11 +153,11 @@ fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
         let (long, short) = (0.108, f64::sqrt(d * d - 0.108 * 0.108));
         // a little less across, so that fibers and columns hang
         let short_now = short - 5e-4;
-        let at = |n: usize| {
+        let position = |n: usize| {
             let [i, j] = ply.id(n).map(|k| k as f64);
             [long * i, short_now * j, 0.05]
         };
-        let positions: Vec<_> = (0..9).map(at).collect();
+        let positions: Vec<_> = (0..9).map(position).collect();
         let mut solver = Solver::new(ply, &scene.layup.settings);
         solver.solve(&positions, &vec![None; lines.catenaries()]);
         let problem = solver.problem();
@@ -251,11 +251,11 @@ fn a_side_of_two_cells_has_the_mean_of_what_they_leave_it() {
     let scene = parse(&array([3, 2], "warp = \"45 deg\""), "");
     let (ply, lines) = (&scene.layup.ply, scene.layup.ply.lines());
     let short = f64::sqrt(2.0 * 0.1 * 0.1 - 0.108 * 0.108);
-    let at = |n: usize| {
+    let position = |n: usize| {
         let [i, j] = ply.id(n);
         [[0.0, 0.108, 0.108 + 0.099][i], (short - 5e-4) * j as f64, 0.05]
     };
-    let positions: Vec<_> = (0..6).map(at).collect();
+    let positions: Vec<_> = (0..6).map(position).collect();
     let mut solver = Solver::new(ply, &scene.layup.settings);
     solver.solve(&positions, &vec![None; lines.catenaries()]);
     assert!(solver.problem().shearing[0].is_some() && solver.problem().shearing[1].is_none());

@@ -130,8 +130,8 @@ fn by_search([a, b, c]: [Point; 3], p: Point) -> f64 {
         }
         f(0.5 * (low + high))
     };
-    let at = |u: f64, v: f64| [0, 1, 2].map(|n| a[n] + u * (b[n] - a[n] + v * (c[n] - b[n])));
-    least(&|u| least(&|v| distance(p, at(u, v))))
+    let point = |u: f64, v: f64| [0, 1, 2].map(|n| a[n] + u * (b[n] - a[n] + v * (c[n] - b[n])));
+    least(&|u| least(&|v| distance(p, point(u, v))))
 }
 
 fn corners(mesh: &Mesh, triangle: usize) -> [Point; 3] {
@@ -369,12 +369,12 @@ fn sections_over_a_sphere_converge_to_great_circles_as_the_square_of_the_mesh_si
     for k in [8, 16, 32] {
         let sphere = sphere(k);
         let heading = [0.6, 0.8];
-        let at = |angle: f64| {
+        let point = |angle: f64| {
             let p = [angle.sin() * heading[0], angle.sin() * heading[1], angle.cos()];
             sphere.closest_point(p).point
         };
         // closest points of points in a plane of the circle are in it only about; start where the ray drops
-        let [a, b] = [at(-0.7), at(0.7)].map(|p| sphere.highest_point([p[0], p[1]]).unwrap());
+        let [a, b] = [point(-0.7), point(0.7)].map(|p| sphere.highest_point([p[0], p[1]]).unwrap());
         let run = [0, 1].map(|n| b[n] - a[n]);
         let curve = sphere.section_to(a, b).unwrap();
         check(&sphere, &curve);

@@ -130,15 +130,15 @@ fn obj_is_read_with_polygons_negative_indices_and_all_that_stands_beside() {
 /// The same wavy sheet, read by `tobj` and `stl_io`: the same vertices and as many triangles.
 #[test]
 fn the_readers_agree_with_those_of_other_programs() {
-    let at = |n: usize| {
+    let vertex = |n: usize| {
         let (x, y) = ((n % 6) as f64 / 7.0, (n / 6) as f64 / 9.0);
         [x, y, 0.1 * (5.0 * x + 3.0 * y).sin()].map(|x| f64::from(x as f32))
     };
     let (mut obj, mut triangles) = (String::new(), Vec::new());
-    (0..36).map(at).for_each(|[x, y, z]| obj += &format!("v {x:?} {y:?} {z:?}\n"));
+    (0..36).map(vertex).for_each(|[x, y, z]| obj += &format!("v {x:?} {y:?} {z:?}\n"));
     for n in (0..30).filter(|n| n % 6 < 5) {
         obj += &format!("f {} {} {} {}\n", n + 1, n + 2, n + 8, n + 7);
-        triangles.extend([[n, n + 1, n + 7], [n, n + 7, n + 6]].map(|t| t.map(at)));
+        triangles.extend([[n, n + 1, n + 7], [n, n + 7, n + 6]].map(|t| t.map(vertex)));
     }
     let ours = read("a.obj", &obj).0;
     let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
@@ -212,8 +212,8 @@ fn a_flat_abaqus_file_is_read() {
         report.to_string().ends_with("elements of type MASS, which are no surface, left out: 1")
     );
     assert!(report.warnings().is_empty());
-    let at = |p: Point| mesh.vertices().iter().position(|q| *q == p).unwrap() as u32;
-    let diagonal = [at([1.0, 0.0, 0.0]), at([0.0, 1.0, 0.0])];
+    let index_of = |p: Point| mesh.vertices().iter().position(|q| *q == p).unwrap() as u32;
+    let diagonal = [index_of([1.0, 0.0, 0.0]), index_of([0.0, 1.0, 0.0])];
     let along = mesh.triangles().iter().filter(|t| diagonal.iter().all(|n| t.contains(n))).count();
     assert_eq!(along, 2);
 }

@@ -171,8 +171,8 @@ fn net_on_a_cylinder_is_the_flat_one() {
                 let [x, y, z] = pose.local(p);
                 [x, radius * y.atan2(z)]
             };
-            let at = |n: [usize; 2]| developed(net.node(n).expect("placed"));
-            let [o, u, v] = [at([4, 13]), at([5, 13]), at([4, 14])];
+            let node = |n: [usize; 2]| developed(net.node(n).expect("placed"));
+            let [o, u, v] = [node([4, 13]), node([5, 13]), node([4, 14])];
             let side = |p: [f64; 2]| [0, 1].map(|n| p[n] - o[n]);
             let (u, v) = (side(u), side(v));
             assert!((u[0].hypot(u[1]) - 0.02).abs() < 1e-14);
@@ -226,21 +226,21 @@ fn geodesic_generators_of_a_sphere_are_great_circles() {
             ..published()
         };
         let net = drape(&mold, layup);
-        let at = |n: [usize; 2]| net.node(n).expect("placed");
+        let node = |n: [usize; 2]| net.node(n).expect("placed");
         // two nodes span the circle's plane; each node is one arc further
         let arc = match edges {
             EdgeRule::Along => 0.075 / 0.8,
             EdgeRule::Chord => 2.0 * (0.075_f64 / 1.6).asin(),
         };
         for n in 0..24 {
-            for p in [at([n, 11]), at([11, n])] {
+            for p in [node([n, 11]), node([11, n])] {
                 let turned = arc * (n as f64 - 11.0);
-                assert!((dot(p, at([11, 11])) / 0.64 - turned.cos()).abs() < 1e-13);
+                assert!((dot(p, node([11, 11])) / 0.64 - turned.cos()).abs() < 1e-13);
             }
-            let [a, b] = [at([11, 11]), at([12, 11])];
+            let [a, b] = [node([11, 11]), node([12, 11])];
             let across =
                 [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-            assert!(dot(across, at([n, 11])).abs() < 1e-14);
+            assert!(dot(across, node([n, 11])).abs() < 1e-14);
         }
     }
 }
@@ -480,9 +480,9 @@ fn meshed(
     keep: impl Fn(usize, usize) -> bool,
 ) -> Mold {
     let mut text = String::new();
-    let at = |k: usize| k as f64 / n as f64 - 0.5;
+    let coordinate = |k: usize| k as f64 / n as f64 - 0.5;
     for (i, j) in (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j))) {
-        let [x, y, z] = place([at(i), at(j)]);
+        let [x, y, z] = place([coordinate(i), coordinate(j)]);
         writeln!(text, "v {x:?} {y:?} {z:?}").unwrap();
     }
     for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {

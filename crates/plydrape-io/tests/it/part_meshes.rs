@@ -50,11 +50,11 @@ fn stl(triangles: &[[Point; 3]]) -> String {
 
 /// A patch of nx by ny cells over the unit square, in its place (mm).
 fn patch(nx: usize, ny: usize, place: impl Fn(f64, f64) -> Point) -> Vec<[Point; 3]> {
-    let at = |i: usize, j: usize| place(i as f64 / nx as f64, j as f64 / ny as f64);
+    let vertex = |[i, j]: [usize; 2]| place(i as f64 / nx as f64, j as f64 / ny as f64);
     let cells = (0..nx).flat_map(|i| (0..ny).map(move |j| (i, j)));
     cells
         .flat_map(|(i, j)| {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(vertex);
             [[a, b, c], [a, c, d]]
         })
         .collect()

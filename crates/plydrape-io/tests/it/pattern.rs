@@ -13,12 +13,12 @@ fn ply() -> Outline {
 }
 
 fn grippers() -> Vec<Gripper> {
-    let of = |i: usize, j: usize| Gripper {
+    let gripper = |i: usize, j: usize| Gripper {
         name: format!("g{i}_{j}"),
         place: [0.15 + 0.1 * i as f64, 0.05 + 0.1 * j as f64],
         radius: 0.012,
     };
-    (0..3).flat_map(|i| (0..2).map(move |j| of(i, j))).collect()
+    (0..3).flat_map(|i| (0..2).map(move |j| gripper(i, j))).collect()
 }
 
 const TITLE: &str = "Ply 3 – Größe 5 µm ^ (45°)";

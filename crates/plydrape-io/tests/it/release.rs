@@ -78,10 +78,10 @@ fn a_result_has_the_events_and_the_state_after_the_release() {
 /// the time at which its trajectory ends. The last step is measured after the release, and keeps its own time.
 #[test]
 fn the_duration_of_a_motion_ends_with_the_release() {
-    let of = |limit: &str| {
+    let scene = |limit: &str| {
         flat(&format!("[limits]\nduration = \"{limit}\"\n[release]\ndwell = \"2 s\"\n"))
     };
-    let (result, _dir) = draped(&of("8 s"));
+    let (result, _dir) = draped(&scene("8 s"));
     let end = result.steps.last().unwrap().time;
     assert_eq!(end, 7.0);
     let verdict = |result: &ResultFile| {
@@ -98,7 +98,7 @@ fn the_duration_of_a_motion_ends_with_the_release() {
     assert!(csv::trajectory(&result).unwrap().lines().last().unwrap().starts_with("9.0,g3_1,"));
     let back = read::parse(result.text().unwrap().as_bytes(), Path::new("result.json")).unwrap();
     assert_eq!(verdict(&back), (9.0, false));
-    let enough = of("9 s");
+    let enough = scene("9 s");
     let (kept, _dir) = draped(&enough);
     assert_eq!(verdict(&kept), (9.0, true));
 }

@@ -112,12 +112,12 @@ fn slope_residual(solver: &Solver, bound: f64) -> f64 {
     let mut worst = 0.0_f64;
     for j in 0..slopes.len() {
         let h = 1e-4;
-        let at = |x: f64| {
+        let energy = |x: f64| {
             let mut moved = slopes.clone();
             moved[j] += x;
             0.5 * squares_of_forces(solver, &moved)
         };
-        let (low, middle, high) = (at(-h), at(0.0), at(h));
+        let (low, middle, high) = (energy(-h), energy(0.0), energy(h));
         let gradient = (high - low) / (2.0 * h);
         let curvature = (high - 2.0 * middle + low) / (h * h);
         let held = slopes[j].abs() >= bound && gradient * slopes[j] < 0.0;
@@ -204,12 +204,12 @@ fn balanced_moments_are_a_stable_state() {
         let free: Vec<usize> = (0..slopes.len()).filter(|j| slopes[*j].abs() < bound).collect();
         let mut matrix = vec![vec![0.0; free.len()]; free.len()];
         for (column, j) in free.iter().enumerate() {
-            let at = |x: f64| {
+            let jumps_at = |x: f64| {
                 let mut moved = slopes.clone();
                 moved[*j] += x;
                 jumps(&moved)
             };
-            let (low, high) = (at(-1e-5), at(1e-5));
+            let (low, high) = (jumps_at(-1e-5), jumps_at(1e-5));
             for (row, i) in free.iter().enumerate() {
                 matrix[row][column] = (high[*i] - low[*i]) / 2e-5;
             }

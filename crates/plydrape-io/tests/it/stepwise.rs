@@ -427,13 +427,14 @@ fn a_target_out_of_reach_is_reported_with_the_way_that_is_missing() {
     scene.plan.move_limit = Some(1e-3);
     let plan = plan(&scene);
     let targets = &scene.layup.target.as_ref().expect("a target").grippers;
-    let way = |n: usize| distance(scene.layup.motion.positions[0][n], targets[n]);
-    let farthest = (0..8).max_by(|a, b| way(*a).total_cmp(&way(*b))).expect("grippers");
+    let starts = &scene.layup.motion.positions[0];
+    let far: Vec<f64> = starts.iter().zip(targets).map(|(p, q)| distance(*p, *q)).collect();
+    let farthest = (0..8).max_by(|a, b| far[*a].total_cmp(&far[*b])).expect("grippers");
     let Outcome::OutOfReach(error) = plan.outcome else {
         panic!("{:?}", plan.outcome);
     };
     assert_eq!(error.gripper, scene.layup.ply.grid.id(farthest));
-    assert!((error.distance - (way(farthest) - 0.01)).abs() < 1e-12, "{error:?}");
+    assert!((error.distance - (far[farthest] - 0.01)).abs() < 1e-12, "{error:?}");
     assert!(plan.positions.len() <= 11);
 }
 

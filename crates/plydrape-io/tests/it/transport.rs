@@ -88,9 +88,9 @@ fn carried(positions: &[Vec<Point>], steps: usize) -> usize {
 fn rounded(planned: &[Vec<Point>], parts: usize) -> Vec<Vec<Point>> {
     let mut out = vec![planned[0].clone()];
     let mirrored = |k: usize, n: usize, g: usize| -> Point {
-        let at = |k: usize| planned[k.min(planned.len() - 1)][g];
-        let (a, b) = (at(0), at(1));
-        if k + n == 0 { [0, 1, 2].map(|c| 2.0 * a[c] - b[c]) } else { at(k + n - 1) }
+        let planned_at = |k: usize| planned[k.min(planned.len() - 1)][g];
+        let (a, b) = (planned_at(0), planned_at(1));
+        if k + n == 0 { [0, 1, 2].map(|c| 2.0 * a[c] - b[c]) } else { planned_at(k + n - 1) }
     };
     for k in 0..planned.len() - 1 {
         for part in 1..=parts {
@@ -226,10 +226,10 @@ fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> ([f64; 2], bool) {
         for b in 0..=(5 * (grid.nv - 1)) {
             let (i, j) = ((a / 5).min(grid.nu - 2), (b / 5).min(grid.nv - 2));
             let [s, t] = [a as f64 / 5.0 - i as f64, b as f64 / 5.0 - j as f64];
-            let at = |i: usize, j: usize| places[grid.index([i, j])];
+            let corner = |i: usize, j: usize| places[grid.index([i, j])];
             let p: Point = [0, 1, 2].map(|n| {
-                (1.0 - t) * ((1.0 - s) * at(i, j)[n] + s * at(i + 1, j)[n])
-                    + t * ((1.0 - s) * at(i, j + 1)[n] + s * at(i + 1, j + 1)[n])
+                (1.0 - t) * ((1.0 - s) * corner(i, j)[n] + s * corner(i + 1, j)[n])
+                    + t * ((1.0 - s) * corner(i, j + 1)[n] + s * corner(i + 1, j + 1)[n])
             });
             least[1] = least[1].min(p[2] - sag);
             match mold.highest_point([p[0], p[1]]) {

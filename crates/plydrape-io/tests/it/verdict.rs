@@ -34,14 +34,14 @@ fn motion(positions: Vec<Vec<Point>>) -> Motion {
 fn in_steps(scene: &Scene, steps: usize) -> Motion {
     let (first, last) =
         (&scene.layup.motion.positions[0], scene.layup.motion.positions.last().expect("steps"));
-    let at = |t: f64| -> Vec<Point> {
+    let positions_at = |t: f64| -> Vec<Point> {
         let mix = |(a, b): (&Point, &Point)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
         first.iter().zip(last).map(mix).collect()
     };
     let duration = scene.layup.motion.times.last().expect("steps");
     Motion {
         times: (0..steps).map(|n| duration * n as f64 / (steps - 1) as f64).collect(),
-        positions: (0..steps).map(|n| at(n as f64 / (steps - 1) as f64)).collect(),
+        positions: (0..steps).map(|n| positions_at(n as f64 / (steps - 1) as f64)).collect(),
     }
 }
 

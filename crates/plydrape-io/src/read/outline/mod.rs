@@ -451,9 +451,9 @@ fn lines(ring: &Ring) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
 /// Area of a closed line (m²), whatever its sense.
 fn area(ring: &Ring) -> f64 {
     let origin = ring[0];
-    let to = |p: [f64; 2]| [p[0] - origin[0], p[1] - origin[1]];
+    let from_origin = |p: [f64; 2]| [p[0] - origin[0], p[1] - origin[1]];
     let twice = lines(ring).map(|[a, b]| {
-        let (a, b) = (to(a), to(b));
+        let (a, b) = (from_origin(a), from_origin(b));
         a[0] * b[1] - a[1] * b[0]
     });
     0.5 * twice.sum::<f64>().abs()

@@ -32,9 +32,9 @@ fn smooth(x: f64) -> f64 {
 pub fn cell(axes: usize, samples: usize) -> Program {
     let times: Vec<f64> =
         (0..samples).map(|k| DURATION * k as f64 / (samples - 1) as f64).collect();
-    let way = |t: f64| 0.5 * smooth(t / 4.5) + 0.5 * smooth((t - 5.0) / 5.0);
+    let progress = |t: f64| 0.5 * smooth(t / 4.5) + 0.5 * smooth((t - 5.0) / 5.0);
     let flange = |t: f64| {
-        let s = way(t);
+        let s = progress(t);
         let (sin, cos) = (1.7 * s).sin_cos();
         // beyond half a turn, and over a pole of the angles about z, y and x
         let turn = [2.2 * s, -1.9 * s, 2.9 * s];
@@ -44,9 +44,9 @@ pub fn cell(axes: usize, samples: usize) -> Program {
             axes: unit.map(|e| turned(turn, e)),
         }
     };
-    let height = |n: usize, t: f64| 0.05 * (3.0 * way(t) + n as f64).sin();
+    let height = |n: usize, t: f64| 0.05 * (3.0 * progress(t) + n as f64).sin();
     let place = |n: usize| [0.1 * (n % 2) as f64 - 0.05, 0.1 * (n / 2) as f64 - 0.05, 0.12];
-    let lean = |t: f64| 0.1 * way(t);
+    let lean = |t: f64| 0.1 * progress(t);
     let pad = |n: usize, t: f64| {
         let [x, y, z] = place(n);
         let own = if n < axes { height(n, t) } else { 0.0 };

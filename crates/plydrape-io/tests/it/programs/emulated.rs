@@ -41,14 +41,14 @@ fn off(program: &Program, center: &[Pose], arm: &Pose, strokes: &[f64], near: &m
     *near = around.min_by(|a, b| away(&center[*a]).total_cmp(&away(&center[*b]))).unwrap();
     let k = *near;
     // the strokes of the samples around, and between them where the arm is between
-    let of = |k: usize| program.axes.iter().map(move |axis| axis.values[k]);
+    let strokes_at = |k: usize| program.axes.iter().map(move |axis| axis.values[k]);
     let mut least = f64::INFINITY;
     for pair in [[k.saturating_sub(1), k], [k, (k + 1).min(center.len() - 1)]] {
         let way = sub(center[pair[1]].position, center[pair[0]].position);
         let square = dot(way, way);
         let part = sub(arm.position, center[pair[0]].position);
         let share = if square > 0.0 { (dot(part, way) / square).clamp(0.0, 1.0) } else { 0.0 };
-        let due = of(pair[0]).zip(of(pair[1])).map(|(a, b)| a + share * (b - a));
+        let due = strokes_at(pair[0]).zip(strokes_at(pair[1])).map(|(a, b)| a + share * (b - a));
         let worst = due.zip(strokes).map(|(due, is)| (due - is).abs()).fold(0.0, f64::max);
         least = least.min(worst);
     }

@@ -21,7 +21,7 @@ type Spline = (Vec<((Pose, Vec<f64>), f64)>, Option<f64>);
 
 /// Reads all programs, and plays the first, which calls the others.
 pub fn play(files: &Files) -> Played {
-    let of = |ending: &str| -> Vec<(String, String)> {
+    let texts_ending = |ending: &str| -> Vec<(String, String)> {
         let own = files.iter().filter(|(name, _)| name.ends_with(ending));
         own.map(|(name, bytes)| {
             (
@@ -31,7 +31,7 @@ pub fn play(files: &Files) -> Played {
         })
         .collect()
     };
-    let (sources, lists) = (of(".src"), of(".dat"));
+    let (sources, lists) = (texts_ending(".src"), texts_ending(".dat"));
     assert_eq!(sources.len(), lists.len());
     let all: BTreeMap<String, (String, Data)> = sources
         .iter()
