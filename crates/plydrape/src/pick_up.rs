@@ -84,7 +84,7 @@ impl Offset {
     #[must_use]
     pub fn about(&self, point: Place) -> Offset {
         let given = Moved::new(self.about.unwrap_or(point), self.shift, self.yaw);
-        let [x, y, _] = given.way([point[0], point[1], 0.0]);
+        let [x, y, _] = given.displacement([point[0], point[1], 0.0]);
         Offset { shift: [x, y], yaw: self.yaw, about: Some(point) }
     }
 }
@@ -122,7 +122,7 @@ impl Moved {
 
     /// How far it moves a point (m).
     #[must_use]
-    pub fn way(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
+    pub fn displacement(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
         let [x, y] = [x - self.axis[0], y - self.axis[1]];
         let [dx, dy] = self.shift;
         [dx - self.versine * x - self.sine * y, dy + self.sine * x - self.versine * y, 0.0]
@@ -131,8 +131,8 @@ impl Moved {
     /// Where it brings a point (m).
     #[must_use]
     pub fn place(&self, p: [f64; 3]) -> [f64; 3] {
-        let way = self.way(p);
-        [0, 1, 2].map(|c| p[c] + way[c])
+        let displacement = self.displacement(p);
+        [0, 1, 2].map(|c| p[c] + displacement[c])
     }
 
     /// What it makes of a vector.

@@ -21,7 +21,7 @@ impl Coloring {
 
     /// Groups for a ply; where its cups are no whole array, each of them is a group of its own, because lines of several pitches
     /// carry an influence farther.
-    pub fn of(ply: &Ply, reach: usize) -> Self {
+    pub fn from_ply(ply: &Ply, reach: usize) -> Self {
         let grid = ply.rows();
         Coloring::new(grid, if ply.grid == Grid::NONE { grid.grippers() } else { reach })
     }

@@ -34,7 +34,7 @@ impl StateDerivatives {
         let whole = rows.nu.max(rows.nv);
         let mut reach = if negligible > 0.0 { TUNING.reach } else { whole };
         loop {
-            let coloring = Coloring::of(ply, reach);
+            let coloring = Coloring::from_ply(ply, reach);
             let mut gathered = Gathered::new(ply, solver, positions.len(), negligible);
             let mut direction = Direction::none(positions.len());
             for group in 0..coloring.groups() {

@@ -7,11 +7,11 @@ mod cups;
 mod drawing;
 mod limits;
 mod mold;
+mod motion;
 mod rules;
 mod shear;
 mod sheet;
 mod warnings;
-mod way;
 
 use crate::failure::{Done, Failure};
 use crate::model;
@@ -165,7 +165,7 @@ fn summary(scene: &SceneFile) -> Vec<SummaryLine> {
     lines.extend(weight(ply).map(|text| ("", text)));
     lines.extend(scatter(&ply.material).map(|text| ("", format!("scatter: {text}"))));
     lines.extend(mold::mold(scene));
-    lines.extend(way::way(scene));
+    lines.extend(motion::motion(scene));
     lines.extend(rules::tool(scene));
     lines.extend(bodies::bodies(scene));
     lines.extend(rules::pick_up(scene));

@@ -1,6 +1,6 @@
 //! What is possible but hardly meant: places far off, plies of no known cloth, grippers in the mold.
 
-use super::way::longest;
+use super::motion::longest;
 use crate::mesh;
 use crate::numbers::{millimeters, short};
 use plydrape::bodies::Obstacle;

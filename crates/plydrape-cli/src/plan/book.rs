@@ -124,7 +124,7 @@ pub fn plan(
                     let Some(slot) = folders.get(n) else { break };
                     let claimed = slot.lock().ok().and_then(|mut folder| folder.take());
                     let Some(folder) = claimed else { break };
-                    let found = one(arguments, &book, n, folder, &eyes, time)
+                    let found = plan_ply(arguments, &book, n, folder, &eyes, time)
                         .map_err(|cause| of_ply(&book.plies[n].name, cause));
                     eyes.finished(found.is_err());
                     if let Ok(mut place) = planned[n].lock() {
@@ -198,7 +198,7 @@ impl<'a> Infeasible<'a> {
 }
 
 /// Plans one ply and stages its files.
-fn one(
+fn plan_ply(
     arguments: &Arguments,
     book: &Book,
     index: usize,

@@ -240,30 +240,30 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// The links that carry a link one after another, itself first, and where it is in each; no farther than `end`.
-    fn way(&self, link: &'a str, end: &str) -> Result<Vec<(&'a str, Pose)>, Error> {
-        let mut way = vec![(link, Pose::ORIGIN)];
+    fn chain(&self, link: &'a str, end: &str) -> Result<Vec<(&'a str, Pose)>, Error> {
+        let mut chain = vec![(link, Pose::ORIGIN)];
         let (mut now, mut pose) = (link, Pose::ORIGIN);
         while let Some(joint) = self.carried.get(now).filter(|_| now != end) {
             pose = joint.origin.compose(&pose);
             now = joint.parent;
-            if way.len() > self.carried.len() {
+            if chain.len() > self.carried.len() {
                 return Err(self.fault(
                     joint.node,
                     "the links carry each other in a circle".into(),
                     "let one link carry all",
                 ));
             }
-            way.push((now, pose));
+            chain.push((now, pose));
         }
-        Ok(way)
+        Ok(chain)
     }
 
     fn arm(&self, name: &str, foot: &'a str, flange: &'a str) -> Result<Urdf, Error> {
         // up from the flange, and from the foot, whose frame may itself be fixed to the first link
-        let mut up: Vec<&str> = self.way(flange, foot)?.into_iter().map(|(link, _)| link).collect();
+        let mut up: Vec<_> = self.chain(flange, foot)?.into_iter().map(|(link, _)| link).collect();
         let mut before = Pose::ORIGIN;
         if up.last() != Some(&foot) {
-            let from_foot = self.way(foot, "")?;
+            let from_foot = self.chain(foot, "")?;
             let common = from_foot.iter().find(|(link, _)| up.contains(link));
             let Some((common, pose)) = common else {
                 let message =

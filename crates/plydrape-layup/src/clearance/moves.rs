@@ -24,7 +24,7 @@ pub(crate) trait Moves {
     fn pose(&self, of: Origin, time: f64) -> Pose;
 
     /// How far something goes at most between two times (m), as seen from another thing that is not turned, or in space.
-    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64;
+    fn travel(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64;
 
     /// By how much something turns at most between two times (rad).
     fn turn(&self, of: Origin, times: [f64; 2]) -> f64;
@@ -33,8 +33,8 @@ pub(crate) trait Moves {
     /// farthest point from there (m); or of one body and what stands still.
     fn change(&self, one: Reach, other: Option<Reach>, times: [f64; 2]) -> f64 {
         let turned = |(of, reach): Reach| reach * self.turn(of, times);
-        let way = self.way(one.0, other.map(|(of, _)| of), times);
-        way + turned(one) + other.map_or(0.0, turned)
+        let travel = self.travel(one.0, other.map(|(of, _)| of), times);
+        travel + turned(one) + other.map_or(0.0, turned)
     }
 
     /// Whether there is a flange.
@@ -100,7 +100,7 @@ impl Leg {
         Pose::of_quaternion(position, slerp(a, b, time))
     }
 
-    fn way(&self) -> [f64; 3] {
+    fn displacement(&self) -> [f64; 3] {
         sub(self.ends[1].position, self.ends[0].position)
     }
 }
@@ -137,9 +137,9 @@ impl Moves for Straight {
         self.leg(of).at(time)
     }
 
-    fn way(&self, of: Origin, seen_from: Option<Origin>, [from, to]: [f64; 2]) -> f64 {
-        let other = seen_from.map_or([0.0; 3], |other| self.leg(other).way());
-        norm(sub(self.leg(of).way(), other)) * (to - from)
+    fn travel(&self, of: Origin, seen_from: Option<Origin>, [from, to]: [f64; 2]) -> f64 {
+        let other = seen_from.map_or([0.0; 3], |other| self.leg(other).displacement());
+        norm(sub(self.leg(of).displacement(), other)) * (to - from)
     }
 
     fn turn(&self, of: Origin, [from, to]: [f64; 2]) -> f64 {
@@ -152,10 +152,10 @@ impl Moves for Straight {
         let ((of, reach), takes) = (one, to - from);
         let a = self.leg(of);
         let Some((other, its_reach)) = other else {
-            return takes * (norm(a.way()) + reach * a.turn);
+            return takes * (norm(a.displacement()) + reach * a.turn);
         };
         let b = self.leg(other);
-        let rate = sub(b.way(), a.way());
+        let rate = sub(b.displacement(), a.displacement());
         let still = norm(rate) + reach * a.turn + its_reach * b.turn;
         let begin = sub(b.ends[0].position, a.ends[0].position);
         // q is linear, and so is the rate: it is largest at an end
@@ -200,9 +200,9 @@ impl Moves for Legs {
         leg.pose(of, time)
     }
 
-    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+    fn travel(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
         let (leg, times) = self.within(times);
-        leg.way(of, seen_from, times)
+        leg.travel(of, seen_from, times)
     }
 
     fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
@@ -250,8 +250,8 @@ impl Moves for Planned<'_> {
         }
     }
 
-    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
-        self.motion.way(Self::gripper(of), seen_from.map(Self::gripper), times)
+    fn travel(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+        self.motion.travel(Self::gripper(of), seen_from.map(Self::gripper), times)
     }
 
     fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {

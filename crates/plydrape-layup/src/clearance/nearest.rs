@@ -174,7 +174,7 @@ impl Nearest {
         let times = within(&motion.samples(rate).ok()?);
         let poses = |t: &f64| {
             let positions = motion.at(*t);
-            Poses::of(layup, &positions, &attitudes.at(*t), &positions)
+            Poses::new(layup, &positions, &attitudes.at(*t), &positions)
         };
         let mut poses: Vec<Poses> = times.par_iter().map(poses).collect();
         // the arm begins where the motion does, also where a part of it is asked for

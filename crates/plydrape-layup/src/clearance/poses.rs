@@ -34,7 +34,7 @@ impl Poses {
 
     /// Of the grippers of a layup, with the stems and the flange of its tool if one carries them.
     #[must_use]
-    pub fn of(
+    pub fn new(
         layup: &Layup,
         positions: &[[f64; 3]],
         turned: &[[f64; 4]],
@@ -56,7 +56,7 @@ impl Poses {
             Some(fixed) => vec![fixed; positions.len()],
             None => orientations(&layup.ply, neighbors, positions),
         };
-        Poses::of(layup, positions, &turned, positions)
+        Poses::new(layup, positions, &turned, positions)
     }
 
     /// The same carried as one body: each place p becomes `center + R (p − from)`. Stems turn with a flange, and stay upright without.

@@ -422,7 +422,7 @@ fn ways_and_turns_of_a_motion_are_bounds() {
             turned += turn.min(std::f64::consts::TAU - turn);
         }
         let times = [pair[0], pair[1]];
-        let bound = |other| moves.way(Origin::Pad(0), other, times);
+        let bound = |other| moves.travel(Origin::Pad(0), other, times);
         assert!(own <= bound(None) * (1.0 + 1e-9) && bound(None) < 1.3 * own + 1e-6);
         assert!(seen <= bound(Some(Origin::Pad(1))) * (1.0 + 1e-9));
         let turn = moves.turn(Origin::Pad(0), times);
@@ -565,6 +565,6 @@ fn legs_are_straight_ways_one_after_the_other() {
     ]);
     assert_eq!(legs.pose(Origin::Stem(0), 1.5).position, [1.5, 2.5, 0.0]);
     assert_eq!(legs.pose(Origin::Stem(0), 2.0).position, [2.0, 4.0, 0.0]);
-    let way = legs.way(Origin::Pad(0), None, [1.0, 2.0]);
-    assert!((way - 10.0_f64.sqrt()).abs() < 1e-12, "{way}");
+    let travel = legs.travel(Origin::Pad(0), None, [1.0, 2.0]);
+    assert!((travel - 10.0_f64.sqrt()).abs() < 1e-12, "{travel}");
 }

@@ -280,10 +280,10 @@ impl TimedMotion {
     /// Along a span of the path the derivative p' is a parabola, so |p'| is at most the larger one of its ends and |p'''| Δs²/8. The
     /// difference of two grippers' paths is such a path, too.
     #[must_use]
-    pub fn way(&self, gripper: usize, seen_from: Option<usize>, [t0, t1]: [f64; 2]) -> f64 {
+    pub fn travel(&self, gripper: usize, seen_from: Option<usize>, [t0, t1]: [f64; 2]) -> f64 {
         let Some(path) = &self.path else { return 0.0 };
         let [from, to] = [t0, t1].map(|t| self.law.at(t)[0]);
-        let mut way = 0.0;
+        let mut travel = 0.0;
         for span in path.span(from)..=path.span(to) {
             let begin = from.max(path.knots[span]);
             let end = to.min(path.knots[span + 1]);
@@ -294,9 +294,9 @@ impl TimedMotion {
             };
             let ([first, third], [last, _]) = (slope(begin), slope(end));
             let parts = (end - begin).max(0.0);
-            way += parts * (first.max(last) + third * parts.powi(2) / 8.0);
+            travel += parts * (first.max(last) + third * parts.powi(2) / 8.0);
         }
-        way
+        travel
     }
 
     /// Velocity of the grippers at a time from 0 to the end (m/s).

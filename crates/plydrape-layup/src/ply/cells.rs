@@ -18,7 +18,7 @@ pub(super) fn fiber_cells(
     let (ahead, above) = (next(u), next(v));
     let same = TUNING.same_yarn * pitch[0].min(pitch[1]);
     let mut cells = Vec::new();
-    for Pair { ends: [low, right], way } in u {
+    for Pair { ends: [low, right], offset } in u {
         let (Some(left), Some(top)) = (above.get(low), above.get(right)) else { continue };
         if ahead.get(left) != Some(top) {
             continue;
@@ -29,7 +29,7 @@ pub(super) fn fiber_cells(
         let diagonals = [[*low, *top], [*right, *left]].map(|ends| ends.map(|n| places[n]));
         let is_there = diagonals.iter().all(|line| outline.has_line(*line));
         if is_there && !places.iter().any(inside) {
-            let trellis = [way[0], q[1] - p[1]];
+            let trellis = [offset[0], q[1] - p[1]];
             cells.push(fiber_quad([*low, *right, *top, *left], trellis));
         }
     }
@@ -63,10 +63,10 @@ pub(super) fn bias_cells(
         };
         for across in near.filter(meets) {
             let ([left, right], [low, high]) = (along.ends, across.ends);
-            let half = [0.5 * along.way[0], 0.5 * across.way[1]];
+            let half = [0.5 * along.offset[0], 0.5 * across.offset[1]];
             // sides of the cell are bias lines between ends of the two diagonals
-            let rising = |ends| Pair { ends, way: half };
-            let falling = |ends| Pair { ends, way: [-half[0], half[1]] };
+            let rising = |ends| Pair { ends, offset: half };
+            let falling = |ends| Pair { ends, offset: [-half[0], half[1]] };
             let bias = [
                 vec![rising([low, right]), rising([left, high])],
                 vec![falling([right, high]), falling([low, left])],

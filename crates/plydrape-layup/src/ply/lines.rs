@@ -37,9 +37,9 @@ pub struct Lines {
 struct FabricLine {
     catenary: Catenary,
     ends: [usize; 2],
-    /// Where its first end is in the fabric, and its way to the second one, in pitches along u and along v.
+    /// Where its first end is in the fabric, and the offset of the second one from it, in pitches along u and along v.
     start: [f64; 2],
-    way: [f64; 2],
+    offset: [f64; 2],
     /// Share of its forces that is the ply's.
     tributary: f64,
 }
@@ -84,11 +84,11 @@ impl BiasLines {
     }
 }
 
-/// Two grippers, and the way through the fabric from the first to the second along u and v (m).
+/// Two grippers, and the offset through the fabric of the second from the first along u and v (m).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     pub ends: [usize; 2],
-    pub way: [f64; 2],
+    pub offset: [f64; 2],
 }
 
 /// A cell as geometry has it: its corners, its trellis, and its bias lines of each direction.
@@ -114,8 +114,8 @@ impl Ply {
     /// Lines between cups; none where the sheet alone can drape it.
     #[must_use]
     pub fn lines(&self) -> Arc<Lines> {
-        let lines = self.found.0.get_or_init(|| Arc::new(Lines::of(self)));
-        if lines.are_of(self) { Arc::clone(lines) } else { Arc::new(Lines::of(self)) }
+        let lines = self.found.0.get_or_init(|| Arc::new(Lines::from_ply(self)));
+        if lines.are_of(self) { Arc::clone(lines) } else { Arc::new(Lines::from_ply(self)) }
     }
 
     /// Whether catenaries hang between its cups.
@@ -126,7 +126,7 @@ impl Ply {
 }
 
 impl Lines {
-    fn of(ply: &Ply) -> Lines {
+    fn from_ply(ply: &Ply) -> Lines {
         match &ply.cut {
             None => Lines::array(ply.grid, ply.cell),
             Some(cut) => Lines::found(ply, &cut.outline),
@@ -146,8 +146,8 @@ impl Lines {
         let gripper = |id| grid.index(id);
         let u = (0..nv).flat_map(|j| (0..across).map(move |i| [[i, j], [i + 1, j]].map(gripper)));
         let v = (0..along).flat_map(|j| (0..nu).map(move |i| [[i, j], [i, j + 1]].map(gripper)));
-        let u = u.map(|ends| Pair { ends, way: [a, 0.0] }).collect();
-        let v = v.map(|ends| Pair { ends, way: [0.0, b] }).collect();
+        let u = u.map(|ends| Pair { ends, offset: [a, 0.0] }).collect();
+        let v = v.map(|ends| Pair { ends, offset: [0.0, b] }).collect();
         let quad = |[i, j]: [usize; 2]| {
             let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(gripper);
             fiber_quad(corners, cell)
@@ -209,10 +209,10 @@ impl Lines {
         let fibers = edges[0].len() + edges[1].len();
         let (pitch, mut beside) = (self.pitch, vec![[[None; 2]; 2]; self.grippers]);
         let mut lines = Vec::with_capacity(fibers + 2 * quads.len());
-        let line = |kind, Pair { ends, way }: Pair| {
+        let line = |kind, Pair { ends, offset: [a, b] }: Pair| {
             let [(from, start), (to, _)] = ends.map(&at);
-            let way = [0, 1].map(|d| way[d] / pitch[d]);
-            FabricLine { catenary: Catenary { kind, from, to }, ends, start, way, tributary: 1.0 }
+            let (catenary, offset) = (Catenary { kind, from, to }, [a / pitch[0], b / pitch[1]]);
+            FabricLine { catenary, ends, start, offset, tributary: 1.0 }
         };
         // fiber lines first; each gripper knows those that begin and end at it
         for (d, kind) in [Kind::EdgeU, Kind::EdgeV].into_iter().enumerate() {
@@ -315,7 +315,7 @@ impl Lines {
     /// Fabric length (m) of a line of the flat ply, `factor` times that of the nominal one.
     #[must_use]
     pub fn flat_length(&self, index: usize, factor: f64) -> f64 {
-        let [a, b] = self.way(index).map(|way| way * factor);
+        let [a, b] = self.offset(index).map(|offset| offset * factor);
         match self.catenary(index).kind {
             Kind::EdgeU => a,
             Kind::EdgeV => b,
@@ -323,17 +323,17 @@ impl Lines {
         }
     }
 
-    /// Way through the fabric from the first end of a line to its second along u and along v (m), of the nominal ply.
+    /// Offset through the fabric of the second end of a line from its first along u and along v (m), of the nominal ply.
     #[must_use]
-    pub fn way(&self, index: usize) -> [f64; 2] {
-        [0, 1].map(|d| self.pitch[d] * self.lines[index].way[d])
+    pub fn offset(&self, index: usize) -> [f64; 2] {
+        [0, 1].map(|d| self.pitch[d] * self.lines[index].offset[d])
     }
 
     /// Fabric coordinates (m) of a line at a share of its length from its first end.
     #[must_use]
     pub fn point(&self, index: usize, share: f64) -> [f64; 2] {
-        let FabricLine { start, way, .. } = &self.lines[index];
-        [0, 1].map(|d| self.pitch[d] * (start[d] + share * way[d]))
+        let FabricLine { start, offset, .. } = &self.lines[index];
+        [0, 1].map(|d| self.pitch[d] * (start[d] + share * offset[d]))
     }
 
     /// Share of a fiber line's forces that is the ply's.
@@ -371,7 +371,7 @@ impl Lines {
 pub(super) fn fiber_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
     let [low, right, top, left] = corners;
     let [a, b] = trellis;
-    let pair = |ends, way| vec![Pair { ends, way }];
+    let pair = |ends, offset| vec![Pair { ends, offset }];
     let bias = [pair([low, top], [a, b]), pair([right, left], [-a, b])];
     let name = corners.into_iter().min().unwrap_or(low);
     Quad { name, corners, trellis, fibers: Fibers::Sides, bias }
@@ -396,9 +396,9 @@ fn fiber_lines(
             let [a, b] = ends.map(|n| places[n]);
             let length = b[along] - a[along];
             if length <= (2.0 + TUNING.same_yarn) * pitch[along] && outline.has_line([a, b]) {
-                let mut way = [0.0; 2];
-                way[along] = length;
-                pairs.push(Pair { ends, way });
+                let mut offset = [0.0; 2];
+                offset[along] = length;
+                pairs.push(Pair { ends, offset });
             }
         }
     }
@@ -423,7 +423,7 @@ fn tributaries(
     let (along, across) = (direction, 1 - direction);
     let families = edges.iter().filter(|edges| !edges.is_empty()).count() as f64;
     let reach = |pair: &Pair| pair.ends.map(|n| places[n][along]);
-    let offset = |pair: &Pair| places[pair.ends[0]][across];
+    let place_across = |pair: &Pair| places[pair.ends[0]][across];
     let same = TUNING.same_yarn * width;
     let own = &edges[direction];
     let tributary = |pair: &Pair| {
@@ -431,7 +431,7 @@ fn tributaries(
         let [from, to] = reach(pair);
         let beside = |other: &&Pair| {
             let [a, b] = reach(other);
-            a < to && b > from && (offset(other) - offset(pair)).abs() > same
+            a < to && b > from && (place_across(other) - place_across(pair)).abs() > same
         };
         let others: Vec<&Pair> = own.iter().filter(beside).collect();
         let mut cuts: Vec<f64> = others.iter().flat_map(|other| reach(other)).collect();
@@ -444,7 +444,7 @@ fn tributaries(
             let middle = 0.5 * (a + b);
             let mut sides = [f64::INFINITY; 2];
             for other in &others {
-                let ([c, d], off) = (reach(other), offset(other) - offset(pair));
+                let ([c, d], off) = (reach(other), place_across(other) - place_across(pair));
                 if c < middle && d > middle {
                     let side = &mut sides[usize::from(off > 0.0)];
                     *side = side.min(off.abs());

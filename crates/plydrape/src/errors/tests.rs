@@ -323,7 +323,7 @@ fn a_cell_stands_as_its_tool_does_with_the_errors_of_its_frame() {
     let poses = |layup: &Layup, step: usize| {
         let places = &layup.motion.positions[step];
         let level = vec![[0.0, 0.0, 0.0, 1.0]; places.len()];
-        Poses::of(layup, places, &level, places)
+        Poses::new(layup, places, &level, places)
     };
     let real = draw.apply(&layup);
     for step in 0..3 {

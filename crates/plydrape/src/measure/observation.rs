@@ -61,7 +61,7 @@ impl Past {
     /// Where everything was that bodies are mounted on.
     #[must_use]
     pub fn poses(&self, layup: &Layup) -> Poses {
-        Poses::of(layup, &self.positions, &self.quaternions, &self.commanded)
+        Poses::new(layup, &self.positions, &self.quaternions, &self.commanded)
     }
 
     /// Times (s) and orientations (x, y, z, w) of the steps before, the last one at the end.
@@ -78,7 +78,7 @@ impl Observation<'_> {
         let grippers = &self.state.grippers;
         let positions: Vec<Point> = grippers.iter().map(|gripper| gripper.position).collect();
         let turned: Vec<[f64; 4]> = grippers.iter().map(|gripper| gripper.quaternion).collect();
-        Poses::of(self.layup, &positions, &turned, &self.commanded())
+        Poses::new(self.layup, &positions, &turned, &self.commanded())
     }
 
     /// Where the robot holds the grippers (m).

@@ -219,7 +219,7 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
         on_mold.then(|| fixed.unwrap_or_else(|| oriented(closest.normal, x_axis(own))))
     };
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
-    let poses = Poses::of(&scene.layup, &target.grippers, &turned?, &target.grippers);
+    let poses = Poses::new(&scene.layup, &target.grippers, &turned?, &target.grippers);
     let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
     let nearest = clearance::at(&scene.layup, least, &poses)?;
     let at = format!("{} at the target", nearest.label(&scene.layup));

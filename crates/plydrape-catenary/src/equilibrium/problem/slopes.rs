@@ -136,7 +136,7 @@ impl<T: Number> Slopes<T> {
             return End::Prescribed(constraint.blend(free, along));
         }
         // the fiber lines between which it leaves, before the gripper (0) or behind it (1); at a boundary those that go on
-        let away = around.lines.way(catenary);
+        let away = around.lines.offset(catenary);
         let fibers = [0, 1].map(|d| {
             let side = usize::from((away[d] > 0.0) == (end == 0));
             let beside = around.lines.beside(gripper, d);

@@ -156,7 +156,7 @@ const WIDER: f64 = 1.6;
 /// The largest radius of the zone of a sample between two others, and the distance at which it is passed (m), both at most
 /// as large as they may be. The smallest radius is always taken: a controller makes it as small as it needs.
 fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> (f64, f64) {
-    let lengths = [track.way(from, at), track.way(at, to)];
+    let lengths = [track.distance(from, at), track.distance(at, to)];
     let half = 0.5 * lengths[0].min(lengths[1]);
     let off = |radius: f64| {
         let shares = |radius: f64| {

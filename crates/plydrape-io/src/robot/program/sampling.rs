@@ -231,8 +231,8 @@ impl<'a> Track<'a> {
         })
     }
 
-    /// The way of the center from sample a to sample b, or of an axis without one (m).
-    pub fn way(&self, a: usize, b: usize) -> f64 {
+    /// Distance of the center from sample a to sample b, or of an axis without one (m).
+    pub fn distance(&self, a: usize, b: usize) -> f64 {
         let center = self.center.as_ref();
         center.map_or_else(
             || self.movement(a, b).position,

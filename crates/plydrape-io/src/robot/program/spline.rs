@@ -76,7 +76,7 @@ fn errors(track: &Track, run: &[usize]) -> Vec<Deviation> {
     for pair in run.windows(2) {
         let last = knots[knots.len() - 1];
         // where the center stands and an axis moves, the way is that of the axis
-        let way = track.way(pair[0], pair[1]).max(f64::MIN_POSITIVE);
+        let way = track.distance(pair[0], pair[1]).max(f64::MIN_POSITIVE);
         knots.push(last + way.max(1e-9 * last));
     }
     let splines = [cubic(&knots, &rows), quintic(&knots, &rows)];

@@ -91,7 +91,7 @@ pub(super) fn find(
                 }
                 let mut columns = Vec::with_capacity(expected.len());
                 for (n, (column, places)) in expected.iter().zip(&places).enumerate() {
-                    columns.push(one(&titles, column, places, chosen(n))?);
+                    columns.push(column_place(&titles, column, places, chosen(n))?);
                 }
                 let fields = titles.fields.len();
                 return Ok(Header { separator, rows: line.end, span: line, fields, columns });
@@ -170,7 +170,7 @@ fn named(expected: &[Column]) -> String {
 }
 
 /// The place of a column, and the size of its unit; refuses two columns of one name.
-fn one(
+fn column_place(
     titles: &Titles,
     column: &Column,
     places: &[usize],

@@ -100,7 +100,7 @@ pub(super) fn all(book: &Book, plies: &[PlyRecord]) -> String {
 pub(super) const COLORS: usize = 6;
 
 /// One ply with its yarns, over those that it lies on.
-pub(super) fn one(book: &Book, index: usize) -> String {
+pub(super) fn ply(book: &Book, index: usize) -> String {
     let (plan, ply) = (PlanView::new(book), &book.plies[index]);
     let mut body = String::new();
     for lower in &ply.lies_on {

@@ -79,7 +79,7 @@ fn figure(book: &Book, n: usize, ply: &PlyRecord) -> String {
     };
     format!(
         "<figure>{}<figcaption>{}: {}{heading}</figcaption></figure>\n",
-        drawing::one(book, n),
+        drawing::ply(book, n),
         n + 1,
         text(&ply.name)
     )

@@ -28,7 +28,7 @@ pub fn corrected(
         .positions()
         .iter()
         .zip(moved)
-        .map(|(places, moved)| places.iter().map(|p| moved.way(*p)).collect())
+        .map(|(places, moved)| places.iter().map(|p| moved.displacement(*p)).collect())
         .collect();
     let none = vec![[0.0; 3]; motion.grippers()];
     let mut shifts: Vec<Vec<[f64; 3]>> = ways

@@ -174,8 +174,8 @@ impl Shapes {
                 }
                 let shortfall = |n: usize| {
                     let ends = [a.1[n], b.1[n]];
-                    let way = norm(ways[0].way(ends[0])).max(norm(ways[1].way(ends[1])));
-                    if least[n] - way > self.tolerance {
+                    let [p, q] = [0, 1].map(|k| norm(ways[k].displacement(ends[k])));
+                    if least[n] - p.max(q) > self.tolerance {
                         return None;
                     }
                     let places = [ways[0].place(ends[0]), ways[1].place(ends[1])];

@@ -491,7 +491,7 @@ fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
         let samples = motion.samples(rate).unwrap();
         let alone = samples.iter().map(|t| {
             let positions = motion.at(*t);
-            let poses = Poses::of(&scene.layup, &positions, &attitudes.at(*t), &positions);
+            let poses = Poses::new(&scene.layup, &positions, &attitudes.at(*t), &positions);
             1e3 * clearance::at(&scene.layup, least, &poses).unwrap().distance
         });
         let least = alone.fold(f64::INFINITY, f64::min);

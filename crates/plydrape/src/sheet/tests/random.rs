@@ -31,8 +31,8 @@ impl Random {
         ((self.next() * count as f64) as usize).min(count - 1)
     }
 
-    fn one<T: Clone>(&mut self, of: &[T]) -> T {
-        of[self.below(of.len())].clone()
+    fn choice<T: Clone>(&mut self, values: &[T]) -> T {
+        values[self.below(values.len())].clone()
     }
 }
 
@@ -44,18 +44,18 @@ fn layup(seed: u64) -> Layup {
     let mut r = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
     let grid = Grid { nu: 2 + r.below(2), nv: 1 + r.below(3) };
     let cell = [r.between(0.05, 0.15), r.between(0.05, 0.15)];
-    let slope = r.one(&[0.0, 0.1, 5.0, 1e4]);
+    let slope = r.choice(&[0.0, 0.1, 5.0, 1e4]);
     let table = TensionLaw::Table { strain: vec![0.0, 0.002, 0.01], force: vec![0.0, 5.0, 2e3] };
     let material = Material {
         name: "random".into(),
         source: "made up".into(),
         section: Section::Areal {
-            mass: r.one(&[0.05, 0.5, 3.0]),
-            warp_rigidity: r.one(&[0.0, 1e-5, 1e-2]),
-            weft_rigidity: r.one(&[1e-6, 1e-4]),
+            mass: r.choice(&[0.05, 0.5, 3.0]),
+            warp_rigidity: r.choice(&[0.0, 1e-5, 1e-2]),
+            weft_rigidity: r.choice(&[1e-6, 1e-4]),
         },
         shear_curve: Some(linear(slope)),
-        tension: Some(r.one(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
+        tension: Some(r.choice(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
         locking_angle: None,
         shear_rate: None,
         moment: Default::default(),
@@ -65,21 +65,22 @@ fn layup(seed: u64) -> Layup {
     let side = cell[0].min(cell[1]);
     let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
     settings.sheet.mesh = Some(side / r.between(2.0, 3.0));
-    settings.sheet.overhang = r.one(&[0.0, 0.02]);
-    settings.sheet.time = r.one(&[SheetTime::QuasiStatic, SheetTime::QuasiStatic, SheetTime::Real]);
-    settings.max_tilt = r.one(&[0.05, 0.7]);
+    settings.sheet.overhang = r.choice(&[0.0, 0.02]);
+    settings.sheet.time =
+        r.choice(&[SheetTime::QuasiStatic, SheetTime::QuasiStatic, SheetTime::Real]);
+    settings.max_tilt = r.choice(&[0.05, 0.7]);
     settings.pad = PadSettings {
-        radius: r.one(&[0.0, 0.0, 0.01, 0.04]),
-        lateral_stiffness: r.one(&[None, Some(2e3)]),
-        axial_stiffness: r.one(&[None, Some(5e3), Some(1.0)]),
+        radius: r.choice(&[0.0, 0.0, 0.01, 0.04]),
+        lateral_stiffness: r.choice(&[None, Some(2e3)]),
+        axial_stiffness: r.choice(&[None, Some(5e3), Some(1.0)]),
         ..PadSettings::default()
     };
     let mu = r.between(0.0, 1.5);
     settings.contact.friction =
-        r.one(&[Friction::Stick, Friction::StickForEver, Friction::Coulomb(mu)]);
-    settings.contact.tack = r.one(&[0.0, 90.0]);
+        r.choice(&[Friction::Stick, Friction::StickForEver, Friction::Coulomb(mu)]);
+    settings.contact.tack = r.choice(&[0.0, 90.0]);
     let pose = Pose::new([0.1, 0.05, -0.3], [0.0; 3]);
-    let mold = r.one(&[
+    let mold = r.choice(&[
         None,
         Some(plane(0.0)),
         Some(plane(0.4)),
@@ -88,7 +89,7 @@ fn layup(seed: u64) -> Layup {
     ]);
 
     let nearer = r.between(0.9, 1.01);
-    let wild = r.one(&[0.0, 0.02, 0.1, 0.5]);
+    let wild = r.choice(&[0.0, 0.02, 0.1, 0.5]);
     let mut at: Vec<[f64; 3]> = (0..grid.grippers())
         .map(|n| {
             let [i, j] = grid.id(n);
@@ -107,7 +108,7 @@ fn layup(seed: u64) -> Layup {
     }
     let times = (0..positions.len()).map(|k| 0.1 * k as f64).collect();
     // pads that are no points may have no joints
-    let fixed = settings.pad.radius > 0.0 && r.one(&[true, false]);
+    let fixed = settings.pad.radius > 0.0 && r.choice(&[true, false]);
     let fixed_pads = Some(ply.flat_axes(&positions[0]));
     let tool = fixed.then(|| Tool { fixed_pads, ..Tool::new(&positions[0], vec![]) });
     let motion = Motion { times, positions };

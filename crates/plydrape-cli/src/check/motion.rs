@@ -1,4 +1,4 @@
-//! The way of the grippers, as text: the start, the target, and how far apart they are.
+//! The motion of the grippers, as text: the start, the target, and how far apart they are.
 
 use super::SummaryLine;
 use crate::numbers::{degrees, millimeters, short};
@@ -11,8 +11,8 @@ use std::fmt::Write as _;
 const ROUNDING: f64 = 1e-9;
 
 /// The motion, the start, the target and the longest way between them.
-pub(super) fn way(scene: &Scene) -> Vec<SummaryLine> {
-    let mut lines = vec![("motion", motion(scene)), ("start", place(start(scene)))];
+pub(super) fn motion(scene: &Scene) -> Vec<SummaryLine> {
+    let mut lines = vec![("motion", duration(scene)), ("start", place(start(scene)))];
     lines.push(("target", target(scene)));
     if let Some(target) = &scene.layup.target {
         lines.push(("", place(&target.grippers)));
@@ -30,7 +30,7 @@ pub(super) fn way(scene: &Scene) -> Vec<SummaryLine> {
     lines
 }
 
-fn motion(scene: &Scene) -> String {
+fn duration(scene: &Scene) -> String {
     match scene.layup.motion.times.as_slice() {
         [] | [_] => "held still at the start".into(),
         [.., last] => format!("{} steps in {} s", scene.layup.motion.positions.len(), short(*last)),
