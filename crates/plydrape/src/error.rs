@@ -327,7 +327,7 @@ pub enum Error {
         step: usize,
         /// Change of the distance as a share of it.
         change: f64,
-        /// The largest that is accepted.
+        /// The largest share that is accepted.
         limit: f64,
     },
     /// Pads of a corrected plan press on the way, and the motion must be slower.

@@ -11,7 +11,7 @@ const CROSSING_ITERATIONS: usize = 60;
 const CROSSING_WIDTH: f64 = 1e-12;
 
 /// Smallest distance between two stations around a third that is lower, by parabolas through the last
-/// three points: (t, distance).
+/// three points: (t, distance (m)).
 pub fn minimum(
     distance: &impl Fn(f64) -> f64,
     (mut a, mut fa): (f64, f64),
@@ -45,7 +45,7 @@ pub fn minimum(
     (m, fm)
 }
 
-/// Where the distance falls through `level` between `outside` and `inside`, by false position (Illinois).
+/// Where, as t, the distance falls through `level` (m) between `outside` and `inside`, by false position (Illinois).
 pub fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f64) -> f64 {
     let (mut out, mut into) = (outside, inside);
     let (mut f_out, mut f_in) = (distance(out) - level, distance(into) - level);

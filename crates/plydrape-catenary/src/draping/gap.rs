@@ -5,14 +5,14 @@ use super::sampling::GapCache;
 use super::spans::FreeSpan;
 use crate::mold::Mold;
 
-/// A run of touching points of a span, as fractions of its run.
+/// A run of touching points of a span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Run {
-    /// Where it begins.
+    /// Where it begins, as a fraction of the span's run.
     pub from: f64,
-    /// Where it ends.
+    /// Where it ends, as a fraction of the span's run.
     pub to: f64,
-    /// Deepest point.
+    /// Its deepest point, as a fraction of the span's run.
     pub deepest: f64,
     /// Distance from the mold there (m), negative below it.
     pub depth: f64,

@@ -23,7 +23,7 @@ impl Flexible {
         Flexible { horizontal: a, vertical_end: a * (lift + xi).sinh() }
     }
 
-    /// Slope angle at an arc length.
+    /// Slope angle at an arc length (rad).
     pub fn angle(&self, s: f64) -> f64 {
         (self.vertical_end - (1.0 - s)).atan2(self.horizontal)
     }

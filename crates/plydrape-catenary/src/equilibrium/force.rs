@@ -58,7 +58,7 @@ impl<const M: usize> Default for Evaluated<M> {
 }
 
 impl Evaluated<2> {
-    /// The force at end slopes that are changed by `step`, by its second-order series.
+    /// The force (N) at end slopes that are changed by `step`, by its second-order series.
     pub fn force_at(&self, step: [f64; 2]) -> f64 {
         series(&self.force, step)
     }

@@ -21,7 +21,7 @@ pub struct FrontSurface {
 pub struct Rise {
     /// Where the front starts from (m).
     pub center: [f64; 2],
-    /// The metric of the front: r² = q₀ x² + 2 q₁ x y + q₂ y² about the center.
+    /// The metric of the front (1): r² = q₀ x² + 2 q₁ x y + q₂ y² about the center.
     pub metric: [f64; 3],
     /// How far the front has come, in r (m).
     pub front: f64,

@@ -219,7 +219,7 @@ impl TimedMotion {
         self.path.as_ref().map_or(&[0.0], |path| &path.knots)
     }
 
-    /// The planned positions that stand for a step of the motion each: without those that move hardly a gripper.
+    /// The planned positions (m) that stand for a step of the motion each: without those that move hardly a gripper.
     #[must_use]
     pub fn moving(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
         check::moving(planned).into_iter().map(<[Vector]>::to_vec).collect()

@@ -136,7 +136,7 @@ impl Build<'_> {
         last.map(Err)
     }
 
-    /// Why the node at an index has no place on the mold, if it has none.
+    /// Why the node at an index has no place on the mold, where its last trial is, and how far beyond the boundary (m); `None` if it has one.
     pub fn reason(&self, index: usize) -> Option<(Reason, Option<[f64; 3]>, Option<f64>)> {
         match self.points[index] {
             Some(point) if point.beyond > 0.0 => {

@@ -75,7 +75,7 @@ pub(crate) struct NetTuning {
     /// Distance of the middle from its place, as a share of the mesh width, and turn there (rad), at which the net of the scene
     /// has reached it.
     pub in_place: f64,
-    /// Distance and turn at which the net that choices are compared with is in place, and up to which a choice may be taken.
+    /// Distance (of the mesh width) and turn (rad) at which the net that choices are compared with is in place, and up to which one may be taken.
     pub about_in_place: f64,
     /// Choices that are compared once more with the net of the scene.
     pub finalists: usize,

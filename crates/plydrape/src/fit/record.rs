@@ -31,11 +31,11 @@ const LATE: [f64; 2] = [3.0, 0.1];
 /// What is to be known of a record beside its law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Remark {
-    /// Points from the first to the last index are left out: the force has fallen from its peak (SI).
+    /// Points from the first to the last index are left out: the force has fallen from its peak.
     AfterPeak {
         /// First and last point.
         points: [usize; 2],
-        /// The peak.
+        /// The peak of the force, or of the moment per width (N).
         peak: f64,
     },
     /// Points from the first to the last index are left out: the machine runs back.
@@ -48,26 +48,26 @@ pub enum Remark {
         /// First and last point.
         points: [usize; 2],
     },
-    /// Points from the first to the last index are left out: beyond this shear angle (rad) the shear force falls, though the force does not.
+    /// Points from the first to the last index are left out: beyond this shear angle the shear force falls, though the force does not.
     BeyondShear {
         /// First and last point.
         points: [usize; 2],
-        /// The angle.
+        /// The shear angle (rad).
         angle: f64,
     },
-    /// The mean moment of a loop has fallen from its peak: points beyond this curvature (1/m) are left out.
+    /// The mean moment of a loop has fallen from its peak: points beyond this curvature are left out.
     BeyondPeak {
-        /// The curvature.
+        /// The curvature (1/m).
         curvature: f64,
     },
-    /// The record begins far from zero (SI).
+    /// The record begins far from zero.
     BeginsLate {
-        /// The first displacement or curvature.
+        /// The first displacement (m) or curvature (1/m).
         first: f64,
     },
-    /// By its first points the record has a load before anything is deformed (SI).
+    /// By its first points the record has a load before anything is deformed.
     LoadAtRest {
-        /// The load.
+        /// The force, or the moment per width (N).
         load: f64,
     },
 }

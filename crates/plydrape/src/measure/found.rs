@@ -4,10 +4,10 @@ use super::Sense;
 use crate::geometry::Point;
 use crate::state::Site;
 
-/// A value of a measure, in its unit, and where it is.
+/// A value of a measure, and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
-    /// The value.
+    /// The value, in the unit that the measure names.
     pub value: f64,
     /// Which part of the ply has it.
     pub site: Site,

@@ -33,7 +33,7 @@ pub struct Limits {
     pub(super) bounds: ByName<f64>,
     /// Box that the grippers can reach: [from, to] in x, y and z (m).
     pub workspace: Option<[[f64; 2]; 3]>,
-    /// By how much the slip force and the holding force of a pad must exceed the loads on it.
+    /// Factor by which the slip force and the holding force of a pad must exceed the loads on it.
     pub grip_safety: f64,
 }
 

@@ -72,7 +72,7 @@ impl<T> ByName<T> {
 }
 
 impl Measures {
-    /// The number of a measure, if it has one.
+    /// The number of a measure, in the unit that it names, if it has one.
     #[must_use]
     pub fn value(&self, name: Name) -> Option<f64> {
         self.get(name).map(|worst| worst.value)
@@ -80,7 +80,7 @@ impl Measures {
 }
 
 impl Numbers {
-    /// The number of a measure, if it has one.
+    /// The number of a measure, in the unit that it names, if it has one.
     #[must_use]
     pub fn value(&self, name: Name) -> Option<f64> {
         self.get(name).copied().flatten()

@@ -224,7 +224,7 @@ pub fn clearance_of_motion(
     Some(clearance_verdict(scene, &nearest, step.min(motion.times().len())))
 }
 
-/// Where a cubic B-spline passes the planned positions, which are its control points, if its knots are evenly
+/// Where a cubic B-spline passes the planned positions (m), which are its control points, if its knots are evenly
 /// spaced: nearly what [`crate::motion::TimedMotion`] makes of them, without its search for the spacing.
 #[must_use]
 pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {

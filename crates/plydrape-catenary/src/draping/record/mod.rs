@@ -34,7 +34,7 @@ pub struct Solver {
     pub status: Status,
     /// Iterations of the last equilibrium.
     pub iterations: usize,
-    /// Optimality residual.
+    /// Optimality residual (a slope).
     pub residual: f64,
     /// Equilibria solved in this step.
     pub equilibria: usize,

@@ -46,7 +46,7 @@ impl Side {
         (share, distance(p, self.at(share)))
     }
 
-    /// Point at a share of its length.
+    /// Point at a share of its length (m).
     pub fn at(&self, share: f64) -> [f64; 3] {
         along(self.points[0], share * self.length, self.direction)
     }
