@@ -171,6 +171,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 }
 
 fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
+    // options that mean nothing for a format are refused, not ignored
     let is_robot = matches!(arguments.to.format(), export::Format::Robot(_));
     if !is_robot && !arguments.template.is_empty() {
         return Err(Failure::Refused {
@@ -184,6 +185,8 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
             help: "it is for ros2, whose bag then has the frames over time".into(),
         });
     }
+
+    // how far points of a program may be thinned out
     let Arguments { position_error, least_way, least_time, .. } = arguments;
     let mut tolerance = Tolerance::default();
     let lengths = Measured::Length;
@@ -221,6 +224,8 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         };
         *to = value(option, text, measured, usual, range, help)?;
     }
+
+    // mesh and tension stiffness of shells, which only some formats have
     let checked = |option: &str, text: &Option<String>, formats: &[Format], what, usual, range| {
         let Some(text) = text else { return Ok(None) };
         let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
@@ -254,6 +259,8 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         &usual::Tension::USUAL,
         TENSIONS,
     )?;
+
+    // templates are read before anything is written
     let read = |path: &PathBuf| {
         let text = input::text(path, LONGEST_TEMPLATE).map_err(|error| Failure::Refused {
             message: format!("the template `{}` cannot be read: {error}", path.display()),
@@ -263,6 +270,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         Ok(Template { name, text })
     };
     let templates = arguments.template.iter().map(read).collect::<Result<_, Failure>>()?;
+
     let Arguments { even_if_rejected, large, tf, .. } = *arguments;
     Ok(export::Options { even_if_rejected, tolerance, large, tf, mesh, tension, templates })
 }

@@ -107,6 +107,7 @@ type Specimen = (String, FitTable);
 /// # Errors
 /// If a table is broken, a measure is missing, or the points say no law.
 pub fn fit(request: &Request) -> Result<Fitted, Error> {
+    // nothing is fitted yet; the result lists the files of both directions
     let all = request.warp.iter().chain(&request.weft);
     let mut fitted = Fitted {
         test: String::new(),
@@ -117,6 +118,8 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         shear: None,
         rate: None,
     };
+
+    // tables of warp and weft, read with the columns that a test needs
     let titles = [0, 1].map(|n| request.titles[n].as_deref());
     let tables_of = |reading: Reading| -> Result<[Vec<Specimen>; 2], Error> {
         let read = |paths: &[PathBuf]| -> Result<Vec<_>, Error> {
@@ -124,6 +127,8 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         };
         Ok([read(&request.warp)?, read(&request.weft)?])
     };
+
+    // each test fits its own law, and says in words what was tested
     match &request.test {
         Test::Bias { width, length } => {
             let [tables, _] = tables_of(Reading::Pull)?;
@@ -443,6 +448,7 @@ impl Fitted {
     /// The lines of a material file that say what was fitted.
     #[must_use]
     pub fn toml(&self) -> String {
+        // lists of numbers with their unit, and texts without the quotes that would end them
         let list = |values: &[f64], unit: &str| {
             let items: Vec<String> = values
                 .iter()
@@ -451,6 +457,8 @@ impl Fitted {
             items.join(", ")
         };
         let quoted = |text: &str| text.replace('\\', "/").replace('"', "'");
+
+        // where the values are from, and what is to be known of them
         let mut text = format!(
             "# Fitted by {}. A material file needs `mass`, bending along warp and weft, and for the sheet `tension` and `shear_curve`.\n",
             crate::PROGRAM
@@ -460,6 +468,8 @@ impl Fitted {
         for note in &self.notes {
             let _ = writeln!(text, "# {}", note.escape_debug());
         }
+
+        // mass and bending, with the standard error in a comment above each value
         if let Some(mass) = self.mass {
             let _ = writeln!(text, "mass = \"{} kg/m^2\"", short(mass));
         }
@@ -493,6 +503,8 @@ impl Fitted {
                 None => {}
             }
         }
+
+        // the shear curve as a table; its polynomial and a hint of locking are comments
         if let Some(shear) = &self.shear {
             let degrees: Vec<f64> = shear.angle.iter().map(|angle| angle.to_degrees()).collect();
             let terms: Vec<String> = shear
@@ -519,6 +531,8 @@ impl Fitted {
                 list(&shear.force, " N/m")
             );
         }
+
+        // the rate effect of resin, and the shear curve without it
         if let Some(rate) = &self.rate {
             let degrees: Vec<f64> = rate.angle.iter().map(|angle| angle.to_degrees()).collect();
             let _ = writeln!(
@@ -537,6 +551,8 @@ impl Fitted {
                 short(rate.relaxation.value)
             );
         }
+
+        // how far the specimens differ
         let scatter = self.scatter();
         if !scatter.is_empty() {
             text.push_str("\n[scatter]\n");

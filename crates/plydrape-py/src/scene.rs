@@ -152,11 +152,14 @@ impl Scene {
         title: Option<String>,
         base: PathBuf,
     ) -> PyResult<Self> {
+        // the arguments become the keys of a scene file, so that both are checked by the same code
         let mut keys = Map::new();
         if let Some(title) = title {
             keys.insert("title".into(), Value::String(title));
         }
         keys.insert("ply".into(), Value::Table(table::table(ply, "ply")?));
+
+        // a mold of triangles or an object is passed on as it is, a dict as a table
         let mut given = None;
         match mold {
             None => {}
@@ -171,11 +174,15 @@ impl Scene {
                 }
             },
         }
+
+        // a motion given as arrays comes in once the scene is checked; until then the grippers hold
         let way = motion.map(Way::new).transpose()?.flatten();
         if way.is_some() {
             let hold = Map::from_iter([("kind".into(), Value::String("hold".into()))]);
             keys.insert("motion".into(), Value::Table(hold));
         }
+
+        // the other tables have the names of the arguments
         let others = [
             ("grippers", grippers),
             ("target", target),
@@ -202,11 +209,15 @@ impl Scene {
                 keys.insert(name.into(), table::value(list, name)?);
             }
         }
+
+        // the scene is read from its text as a file would be, without the lock of Python
         let text = table::text(&keys)?;
         let mold = given.is_some();
         let scene = parallel(py, || scene::parse_for(&text, &base, "scene", given, None, None));
         let scene = scene.map_err(|refused| error::scene(&refused))?;
         warn_of_notices(py, &scene)?;
+
+        // the tables are kept, because a changed copy is made from them
         let tables = Some(text.as_str().into());
         let origin = Origin { tables, base, mold, motion: false };
         let scene = Scene(Arc::new(scene), origin);

@@ -57,6 +57,7 @@ pub fn plan(
     time: Option<Duration>,
     quiet: bool,
 ) -> Done {
+    // options of a single ply have no meaning for a book
     if let Some(option) = arguments.of_one_ply() {
         return Err(Failure::Refused {
             message: format!("{option} is for a single ply, and this is a plybook"),
@@ -65,17 +66,23 @@ pub fn plan(
             ),
         });
     }
+
+    // the book, with what the command line changes in the scene of each ply
     let results = arguments.results();
     let mut book = read_book(&results.scene)?;
     for ply in &mut book.plies {
         arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
     }
+
+    // notices and warnings come before the long work
     for ply in &book.plies {
         let of_ply = |notice: String| format!("ply {}: {notice}", ply.name);
         let notices = ply.scene.notices.iter().cloned().chain(start::low(&ply.scene));
         outcome::warn(&notices.map(of_ply).collect::<Vec<_>>());
     }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
+
+    // limits that no motion can keep end the run, unless it is to plan anyway
     let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::new).collect();
     if !found.is_empty() {
         let lines = found.iter().map(|ply| format!("ply {}: {}", ply.ply, ply.text()));
@@ -84,6 +91,8 @@ pub fn plan(
             return Ok(ExitCode::from(1));
         }
     }
+
+    // a run that goes on from an earlier one needs a plan of at least one ply
     if let Some(dir) = &arguments.earlier
         && !(0..book.plies.len()).any(|n| has_plan(&dir.join(book.plies[n].folder(n))))
     {
@@ -92,6 +101,8 @@ pub fn plan(
             help: "--continue takes the folder of an earlier `plydrape plan` of this book".into(),
         });
     }
+
+    // all folders are claimed at once, so that no run finds one taken after its long work
     let dir = results.folder("plan");
     let folder = Folder::claim(&dir, "plan", &book.files)?;
     folder.refuse_taken(&NAMES)?;
@@ -105,10 +116,12 @@ pub fn plan(
         });
         claimed.collect::<Result<_, Failure>>()?
     };
+
     if !quiet && !results.json {
         print(&format!("{}\n\n", book.title), &[])?;
     }
 
+    // the plies are planned in parallel: every worker takes the next one until none is left
     let began = Instant::now();
     let eyes = Eyes::new(interrupt, book.plies.len(), quiet);
     let count = book.plies.len();
@@ -136,6 +149,7 @@ pub fn plan(
     });
     eyes.bar.finish_and_clear();
 
+    // the first failure in the order of the book ends the run; else the results are collected
     let (mut records, mut staged) = (Vec::new(), Vec::new());
     let (mut interrupted, mut unsolved, mut done) = (false, false, true);
     for place in planned {
@@ -147,6 +161,8 @@ pub fn plan(
         records.push(ready.record);
         staged.push(ready.staged);
     }
+
+    // a better earlier book is kept after an interruption, and the new one moves beside it
     let (folder, kept) = place(folder, interrupted, |dir| book::is_better(&records, dir))?;
     let dir = folder.path().to_path_buf();
     if kept.is_some() {
@@ -155,10 +171,13 @@ pub fn plan(
         });
         staged = moved.collect::<Result<_, _>>()?;
     }
+
+    // all files come into place together, or none does
     staged.push(book::stage_into(folder, &book, &records, interrupted)?);
     let mut files = write_together(staged)?.pop().unwrap_or_default();
     files.extend(records.iter().map(|ply| dir.join(&ply.folder)).collect::<Vec<PathBuf>>());
 
+    // the report on standard output, and the exit code
     let accepted = records.iter().all(|ply| ply.accepted);
     let time_s = began.elapsed().as_secs_f64();
     let printed = Printed { title: &book.title, accepted, interrupted, plies: &records, time_s };

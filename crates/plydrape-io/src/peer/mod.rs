@@ -158,6 +158,7 @@ pub fn read(folder: &Path) -> Result<PeerDrape, Error> {
 /// # Errors
 /// [`Error`] if the result has no sheet, if the drape is that of another result, or if it broke off.
 pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Error> {
+    // the drape must be one of the sheet of this very result, which its checksum proves
     let kept = result.sheet_states.as_ref().ok_or_else(|| {
         let message = "the result has no sheet, whose nodes could be compared";
         Error::not_possible(message, "simulate the scene with `--also sheet`, and export it again")
@@ -167,6 +168,8 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
         let message = format!("the drape is not of the result {}", name(&result.scene.title));
         return Err(Error::not_possible(message, again));
     }
+
+    // the drape must have every step, and in each every node and cup
     let mut states = kept.open()?;
     let (mesh, steps) = (states.mesh().clone(), result.steps.len());
     let nodes = mesh.places.len();
@@ -179,6 +182,7 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
         ));
     }
 
+    // height over the mold, where there is mold below, and the weight of nodes in means
     let mold = result.scene.mold.as_ref();
     let height = |x: [f64; 3]| {
         let closest = mold.map(|mold| mold.closest_point(x));
@@ -186,19 +190,25 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
     };
     let inside = |n: usize| mesh.areas[n] > 0.0;
     let total: f64 = mesh.areas.iter().sum();
+
     let mut compared = Vec::new();
     let mut heights = [Vec::new(), Vec::new()];
     for n in 0..states.states() {
+        // the same step of both; the last state of the peer is the ply at rest
         let Some(ours) = states.state(n)? else { continue };
         let step = ours.step as usize;
         let is_last = n + 1 == states.states();
         let theirs = &drape.states[if is_last { steps } else { step - 1 }];
+
+        // nodes of the ply whose place the peer knows
         let known: Vec<(usize, [f64; 3])> = theirs
             .positions
             .iter()
             .enumerate()
             .filter_map(|(n, place)| Some((n, (*place)?)).filter(|(n, _)| inside(*n)))
             .collect();
+
+        // the distance of both drapes, as a mean over the area and at its largest
         let (mut square, mut area, mut farthest) = (0.0, 0.0, (0.0, 0));
         for (n, place) in &known {
             let apart = norm(sub(*place, ours.positions[*n]));
@@ -208,6 +218,8 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
                 farthest = (apart, *n);
             }
         }
+
+        // shear is compared in cells of which the peer knows all four nodes
         let mut their_places = ours.positions.to_vec();
         known.iter().for_each(|(n, place)| their_places[*n] = *place);
         let whole = |cell: &&[u32; 4]| {
@@ -217,12 +229,16 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
         let sheared = |places: &[[f64; 3]]| {
             cells.iter().map(|cell| shear(places, cell).abs().to_degrees()).fold(0.0, f64::max)
         };
+
         let lowest = |places: &[[f64; 3]]| {
             known.iter().map(|(n, _)| 1e3 * places[*n][2]).fold(f64::INFINITY, f64::min)
         };
         let load =
             |forces: &[[f64; 3]]| forces.iter().map(|force| norm(*force)).fold(0.0, f64::max);
+
+        // the share of the ply in contact
         let touched = (0..nodes).filter(|n| ours.contact[*n]).map(|n| mesh.areas[n]).sum::<f64>();
+
         let both = |ours: f64, peer: f64| Pair { plydrape: Some(ours), peer: Some(peer) };
         compared.push(Compared {
             step,
@@ -236,6 +252,8 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
             apart_uv_mm: mesh.places[farthest.1].map(|c| 1e3 * c),
             apart_node: farthest.1,
         });
+
+        // heights over the mold are compared at the end
         if is_last {
             let over = |places: &[[f64; 3]]| -> Vec<(f64, f64)> {
                 let heights =
@@ -246,11 +264,14 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
         }
     }
 
+    // how high the ply at rest lies over the mold, as far as both drapes have nodes over it
     let limit = result.scene.limits.get(plydrape::measure::Name::Height).unwrap_or_default();
     let pair = |of: &dyn Fn(&Heights) -> f64| {
         let [plydrape, peer] = [0, 1].map(|n| (!heights[n].is_empty()).then(|| of(&heights[n])));
         Pair { plydrape, peer }
     };
+
+    // where and when the ply first touches the mold
     let ours = result.summary.sheet.as_ref().and_then(|sheet| {
         Some(Touch { step: sheet.first_contact_step? as f64, uv_mm: sheet.first_contact_uv_mm? })
     });
@@ -258,6 +279,7 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
         let uv_mm = touch.place.map(|c| 1e3 * c);
         Touch { step: step_at(result, touch.time), uv_mm }
     });
+
     Ok(Comparison {
         height_max_mm: pair(&|all| all.iter().map(|(_, height)| 1e3 * height).fold(0.0, f64::max)),
         height_rms_mm: pair(&|all| 1e3 * mean(all, |height| height * height).sqrt()),

@@ -263,11 +263,14 @@ fn reading<'a>(
     document: &'a Document,
     base: &Path,
 ) -> Result<Reading<'a>, Error> {
+    // faults show the header of the ply in the book
     let fault = |fault: Fault| diagnostic::scene_error(document, fault);
     let text = document.text.get(span.clone()).unwrap_or_default();
     let header = span.start..span.start + text.find('\n').unwrap_or(text.len());
     let refused =
         |span: Range<usize>, message: &str, help: &str| Err(document.error(span, message, help));
+
+    // mold and title are those of the book
     for (key, help) in [
         ("mold", "remove it: all plies of a book lie on the book's [mold]"),
         ("title", "remove it: a ply has a `name`, and the book has the `title`"),
@@ -280,6 +283,8 @@ fn reading<'a>(
             );
         }
     }
+
+    // name and scene file are keys of the book, not of the scene
     let own: DeTable = ["name", "scene"]
         .into_iter()
         .filter_map(|key| {
@@ -289,6 +294,8 @@ fn reading<'a>(
         })
         .collect();
     let own: Entry = read_table(own, span.clone()).map_err(fault)?;
+
+    // the name of a ply is that of its scene file if it has none of its own
     let name = match (&own.name, &own.scene) {
         (Some(name), _) if name.value.trim().is_empty() => {
             return refused(
@@ -306,6 +313,8 @@ fn reading<'a>(
             return refused(header, "the ply has no name", "add name = \"first\" or the like");
         }
     };
+
+    // a scene file is read alone: nothing of the book is mixed into it
     if let Some(file) = &own.scene {
         if let Some((key, _)) = entry.iter().next() {
             return refused(
@@ -316,6 +325,8 @@ fn reading<'a>(
         }
         return of_file(name, file, header, document, base);
     }
+
+    // what the ply says itself goes over what all plies share
     let mut keys = shared.clone();
     for (key, value) in entry {
         let over = match (keys.remove(&**key.get_ref()), value) {
@@ -331,6 +342,7 @@ fn reading<'a>(
             "add [ply] to the book for what all plies share, and ply = { size = [\"300 mm\", \"200 mm\"] } or the like here",
         );
     }
+
     let keys: SceneKeys = read_table(keys, whole.clone()).map_err(fault)?;
     Ok(Reading {
         name,

@@ -149,10 +149,13 @@ impl Reader<'_> {
         outer: &Transform,
         depth: usize,
     ) -> Result<(), Fault> {
+        // what is drawn on layer 0 of a block belongs to the layer of the block
         let layer = match (placed_on, entity.common.layer.as_str()) {
             (Some(layer), "0") => layer,
             (_, layer) => layer,
         };
+
+        // text is no curve; it is kept with its block, an attribute with the block placed last
         self.visited += 1;
         if let EntityType::Text(text) = &entity.specific {
             let mirror = mirrored(&text.normal) == Some(true);
@@ -166,45 +169,63 @@ impl Reader<'_> {
             }
             return Ok(());
         }
+
+        // other entities that are no curves are left out; meshes are reported
         let Some((kind, origin, normal)) = sort(&entity.specific) else {
             let mesh = matches!(&entity.specific, EntityType::Polyline(_));
             self.found.meshes += usize::from(mesh && self.is_wanted(layer, entity));
             return Ok(());
         };
+
+        // messages name the entity by its layer and its coordinates in the drawing
         let z_unit = flatten::stretch(outer.x, outer.y);
         let place = EntityPlace {
             entity: kind,
             layer: layer.to_owned(),
             at: outer.apply([origin.x, origin.y]),
         };
+
+        // nested blocks could multiply entities without end
         if self.visited > MOST_ENTITIES {
             return Err(too_many_in_blocks(&place, MOST_ENTITIES, "entities in blocks"));
         }
+
+        // a placed block is read entity by entity
         if let EntityType::Insert(insert) = &entity.specific {
             return self.place(insert, layer, &place, outer, depth);
         }
+
+        // curves on other layers than those to be read are left out, and messages name these layers
         if !self.is_wanted(layer, entity) {
             self.found.others.insert(layer.to_owned());
             return Ok(());
         }
+
+        // a curve may be seen from behind, but not lie in a plane that is inclined to the drawing
         let mirrored = mirrored(normal).ok_or_else(|| tilted(&place))?;
+
         let not_finite = || {
             let layer = layer.escape_debug();
             let message =
                 format!("{kind} on layer `{layer}` has a coordinate that is no finite number");
             Fault::new(message, "correct the drawing")
         };
+
+        // some entities have coordinates of their own plane, which is mirrored if seen from behind
         let transform = if mirrored && in_own_plane(&entity.specific) {
             outer.after(&Transform::mirror())
         } else {
             *outer
         };
+
+        // the tolerance in units of the entity, and how many points the drawing may still have
         let room = MOST_POINTS - self.points;
         let limit = Limit {
             tolerance: self.tolerance / flatten::stretch(transform.x, transform.y),
             points: room,
         };
         let tolerance = self.tolerance;
+
         let too_many = |TooMany| {
             let message = format!(
                 "followed to {:.3} mm, its curves have more than {MOST_POINTS} points; the last is {place}",
@@ -212,6 +233,8 @@ impl Reader<'_> {
             );
             Fault::new(message, "give a larger tolerance")
         };
+
+        // what has no finite place or is not flat has no outline
         if !place.at.iter().all(|c| c.is_finite()) {
             return Err(not_finite());
         }
@@ -220,6 +243,8 @@ impl Reader<'_> {
             let message = format!("{place} is not flat: its z goes from {low:.3} to {high:.3} mm");
             return Err(Fault::new(message, FLAT));
         }
+
+        // the curve as a polygon, in units of the entity
         let flat = match &entity.specific {
             EntityType::Line(line) => {
                 Flat { points: vec![plane(&line.p1), plane(&line.p2)], closed: false }
@@ -261,6 +286,8 @@ impl Reader<'_> {
             }
             _ => return Ok(()),
         };
+
+        // the polygon in units of the drawing; a large scale may make its numbers infinite
         if flat.points.len() > room {
             return Err(too_many(TooMany));
         }

@@ -212,6 +212,8 @@ impl Summary {
             let [u, v] = at.fabric.map(tenths);
             format!("u = {u}, v = {v} mm")
         };
+
+        // which part of the boundary lies on the mold, hangs over its edge or has no place
         if let Some(boundary) = &self.boundary {
             lines.push(("boundary", format!("{} mm on the mold", tenths(boundary.length))));
             if let Some(at) = &boundary.farthest_at {
@@ -235,6 +237,8 @@ impl Summary {
                 ));
             }
         }
+
+        // sharp edges of the mold that the ply lies over
         if let Some(edges) = &self.sharp_edges {
             lines.push((
                 "sharp edges",
@@ -248,6 +252,8 @@ impl Summary {
                 },
             ));
         }
+
+        // how far the boundary is from the target boundary, to both sides
         if let Some(trim) = &self.trim {
             let most = |place: &Option<plydrape::net::TrimPlace>, side: &str| match place {
                 Some(place) => {
@@ -276,6 +282,8 @@ impl Summary {
                 ));
             }
         }
+
+        // the seed that the search found, and what a seed in the middle would have given
         if let Some(search) = &self.search {
             let [u, v] = search.seed.map(tenths);
             let shear = |shear: f64| format!("{shear:.2}°");
