@@ -566,6 +566,7 @@ impl Fitted {
     /// The fitted values as a JSON object, in SI units.
     #[must_use]
     pub fn json(&self) -> Value {
+        // JSON has no infinite numbers: a standard error that is not known is null
         let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
         let estimate = |e: &Estimate| {
             let (sure, count) = match e.sure {
@@ -582,6 +583,7 @@ impl Fitted {
                 "scatter": e.scatter,
             })
         };
+
         let bending = |fit: &BendingFit| match fit {
             BendingFit::Rigidity(whole, each) => {
                 let strips: Vec<Value> = each
@@ -599,6 +601,7 @@ impl Fitted {
                 "scatter": scatter,
             }),
         };
+
         let mut object = serde_json::Map::new();
         object.insert("test".into(), json!(self.test));
         object.insert("files".into(), json!(self.files));
@@ -606,6 +609,8 @@ impl Fitted {
         if let Some(mass) = self.mass {
             object.insert("mass".into(), json!(mass));
         }
+
+        // only what was fitted is in the object
         for (fit, along) in self.bending.iter().zip(DIRECTIONS) {
             if let Some(fit) = fit {
                 object.insert(format!("bending_{along}"), bending(fit));

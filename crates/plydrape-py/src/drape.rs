@@ -221,6 +221,7 @@ pub fn plan(
     without_errors: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
+    // what the arguments say replaces what the scene says
     let mut scene = (*for_models(scene.get(), None, also)?).clone();
     match method {
         None => {}
@@ -234,6 +235,8 @@ pub fn plan(
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
     scene.plan.improve = improve.unwrap_or(scene.plan.improve);
     let time = time.map(|time| duration(&time)).transpose()?;
+
+    // a checkpoint is read against the scene, because it holds for that scene only
     let echo = SceneEcho::new(&scene, None);
     let checkpoint: Option<Checkpoint> =
         checkpoint.map(|text| plan_file::read(text, &echo)).transpose().map_err(|fault| {
@@ -241,12 +244,16 @@ pub fn plan(
                 "checkpoint is no plan.json of this version: {fault}; plan anew"
             ))
         })?;
+
+    // what no plan can keep is refused, and what only hinders it is a warning
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::diagnostic(refusal));
     }
     if let Some(low) = py.detach(|| start::low(&scene)) {
         warn(py, &low)?;
     }
+
+    // the search ends once its time is over, except while it finishes the plan it has found
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();
         if let Some(time) = time {
@@ -269,6 +276,7 @@ pub fn plan(
         });
         planned.map(|planned| judged(&scene, planned, without_errors, watch))
     })?;
+
     planned.map_err(no_plan)?.map_err(|fault| error::scene(&fault))
 }
 

@@ -191,6 +191,7 @@ impl Equilibrium {
     /// ((1, 2, 3), (1, 5, 3, 2, 3))
     #[pyo3(signature = (*, wrt: "typing.Literal['grippers', 'lengths', 'material']"))]
     fn jacobian(&self, py: Python<'_>, wrt: &str) -> PyResult<Jacobian> {
+        // the directions of the derivatives, with the axes of their arrays and the names of these
         let ply = self.ply();
         let grippers = self.positions.len();
         let (axes, names, directions): (Vec<usize>, Vec<String>, Vec<Direction>) = match wrt {
@@ -227,16 +228,21 @@ impl Equilibrium {
                 return Err(PyValueError::new_err(text));
             }
         };
+
+        // only an equilibrium that was found has a derivative
         if self.shape.solved.status != Status::Converged {
             let text = "the equilibrium was not found, so it has no derivative";
             return Err(error::solve(text, self.status(), self.iterations(), self.residual()));
         }
+
+        // all directions share one linearization, solved without the lock of Python
         let tangents = parallel(py, || {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
             let State { solver, contacts, .. } = &mut *state;
             let mut linearized = solver.linearize(&self.positions, contacts);
             directions.iter().map(|direction| linearized.along(direction)).collect()
         });
+
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let stretched = state.solver.problem().shearing.iter().map(|s| s.map(|(path, _)| path));
         Ok(Jacobian {

@@ -50,6 +50,7 @@ pub fn state<'py>(
     value: &Bound<'py, PyAny>,
     whole: bool,
 ) -> PyResult<(String, Option<Bound<'py, PyBytes>>)> {
+    // objects with a result, whose sheet is kept as bytes beside the text
     let py = value.py();
     if let Ok(result) = value.cast::<Result>() {
         return of_result(py, &result.get().0, whole);
@@ -74,6 +75,8 @@ pub fn state<'py>(
         let state = OutcomeState { result, quantities: quantities.clone() };
         return Ok((text(json::to_text(&state))?, file));
     }
+
+    // all other objects are a text
     let state = if let Ok(scene) = value.cast::<Scene>() {
         text(json::to_text(&SceneState::new(scene.get(), whole)))?
     } else if let Ok(ply) = value.cast::<Ply>() {

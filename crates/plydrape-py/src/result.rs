@@ -782,6 +782,8 @@ impl Result {
                 robot.ok_or_else(|| PyValueError::new_err(text()))?
             }
         };
+
+        // numbers are in SI units, texts have their unit
         let mut tolerance = Tolerance::default();
         let length = (Measured::Length, &usual::PositionError::USUAL);
         for (name, given, (measured, usual), to) in [
@@ -799,12 +801,15 @@ impl Result {
         let tension = tension
             .map(|value| value.si("tension", Measured::ForcePerLength, &usual::Tension::USUAL))
             .transpose()?;
+
+        // templates are read before anything is written
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let text =
                 input::text(path, LONGEST_TEMPLATE).map_err(|fault| error::unread(path, &fault))?;
             Ok(Template { name, text })
         };
+
         let options = export::Options {
             even_if_rejected,
             tolerance,

@@ -90,6 +90,7 @@ impl Span {
         theory: &str,
         moment: Option<(Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Self> {
+        // all values in SI units
         let run = run.si("run", Measured::Length, &usual::Span::USUAL)?;
         let length = length.si("length", Measured::Length, &usual::Span::USUAL)?;
         let weight = weight.si("weight", Measured::ForcePerLength, &usual::Weight::USUAL)?;
@@ -102,6 +103,8 @@ impl Span {
         let axial_stiffness = axial_stiffness
             .map(|ea| ea.si("axial_stiffness", Measured::Force, &usual::Axial::USUAL))
             .transpose()?;
+
+        // a strip of the exact theory does not stretch, and may have a moment curve
         let exact = match theory {
             "small-sag" => false,
             "exact" => true,
@@ -121,6 +124,8 @@ impl Span {
                 "moment is for theory=\"exact\", in place of flexural_rigidity",
             ));
         }
+
+        // the stiffness if it is not given; a moment curve has its rigidity at rest
         let axial_stiffness = axial_stiffness.unwrap_or(if exact { f64::INFINITY } else { 1e5 });
         let curve = moment.map(|(curvature, moment)| MomentCurve { curvature, moment });
         if !curve.as_ref().is_none_or(MomentCurve::is_sound) {
@@ -129,6 +134,8 @@ impl Span {
             ));
         }
         let flexural_rigidity = curve.as_ref().map_or(flexural_rigidity, MomentCurve::rigidity);
+
+        // lengths, weight and stiffness are positive; the stiffness may be infinite
         let positive = [
             ("run", run, run.is_finite()),
             ("length", length, length.is_finite()),
@@ -144,15 +151,19 @@ impl Span {
         if !(flexural_rigidity >= 0.0 && flexural_rigidity.is_finite()) {
             return fault(format!("flexural_rigidity is {flexural_rigidity}; expected 0 or more"));
         }
+
+        // a limp strip can prescribe no slopes
         let given = [slopes.0, slopes.1];
         if flexural_rigidity == 0.0 && given.iter().any(Option::is_some) {
             return fault(
                 "slopes are prescribed; without flexural_rigidity they must be free".into(),
             );
         }
+
         if !(rise.is_finite() && given.iter().flatten().all(|slope| slope.is_finite())) {
             return fault("rise and slopes must be finite".into());
         }
+
         let ends = given.map(|slope| slope.map_or(EndCondition::Free, EndCondition::Slope));
         let span =
             catenary::Span { run, rise, length, ends, weight, flexural_rigidity, axial_stiffness };

@@ -117,6 +117,7 @@ pub fn removal(
     shape: &Equilibrium,
     targets: &[Point],
 ) -> Option<Vec<Point>> {
+    // nothing is to be done unless some free segment has slack that counts
     let (mold, limits) = (task.layup.mold.as_ref()?, &task.limits);
     let segments = free_segments(task, draping, shape);
     let slack = |segment: &FreeSegment| {
@@ -126,12 +127,17 @@ pub fn removal(
     if !segments.iter().any(slack) {
         return None;
     }
+
+    // segments whose stretch is driven to its target; more join them while moves give them slack
     let count = targets.len();
     let mut active: Vec<bool> = segments.iter().map(slack).collect();
     let mut moves = Vec::new();
+
     for _ in 0..TUNING.slack.rounds {
         let mut program = Program::new(&task.layup.ply, count);
         let scale = program.scale;
+
+        // grippers go toward their targets, or away from them by a share of the limit at most
         for (gripper, target) in targets.iter().enumerate() {
             let way = sub(*target, draping.positions[gripper]);
             for n in 0..3 {
@@ -140,6 +146,8 @@ pub fn removal(
             let radius = scale * TUNING.slack.share * limits.landing_gripper;
             program.cone(vec![(gripper, 1.0)], way.map(|c| -scale * c), radius + scale * norm(way));
         }
+
+        // slack segments become taut, and no segment is overstretched
         for (segment, active) in segments.iter().zip(&active) {
             let mut gradient = Row::default();
             for (gripper, way) in &segment.grippers {
@@ -156,8 +164,11 @@ pub fn removal(
                 .max(segment.stretch);
             program.at_most(&gradient, 1.0, scale * (most - segment.stretch));
         }
+
         moves = program.solve()?;
         moves.iter_mut().for_each(|x| *x /= scale);
+
+        // segments that become slack by the moves take part in the next round
         let mut changed = false;
         for (segment, active) in segments.iter().zip(&mut active) {
             let slack = segment.counts() && segment.stretch_after(&moves) < 0.0;
@@ -168,6 +179,8 @@ pub fn removal(
             break;
         }
     }
+
+    // the new positions, on the mold
     let place = |gripper: usize| {
         let way = [0, 1, 2].map(|n| moves[3 * gripper + n]);
         mold.closest_point(along(draping.positions[gripper], 1.0, way)).point

@@ -90,6 +90,7 @@ pub fn parse(
     foot: Option<&str>,
     flange: Option<&str>,
 ) -> Result<Urdf, Error> {
+    // the text must be XML that describes a robot
     let document = Document::parse(text).map_err(|error| {
         Error::file(
             file,
@@ -103,6 +104,8 @@ pub fn parse(
             format!("{file} begins with <{}> and not with <robot>", robot.tag_name().name());
         return Err(Error::file(file, message, "name a URDF file, which describes a robot"));
     }
+
+    // names go into programs of robots, which is why they may hold plain characters only
     for node in robot.descendants().filter(|node| {
         node.has_tag_name("joint") || node.has_tag_name("link") || node.has_tag_name("robot")
     }) {
@@ -119,6 +122,8 @@ pub fn parse(
             ));
         }
     }
+
+    // joints by the link that they carry; each link is carried by one joint at most
     let mut reader = Reader { file, document: &document, carried: BTreeMap::new() };
     for node in children(robot, "joint") {
         let joint = reader.any_joint(node)?;
@@ -135,6 +140,8 @@ pub fn parse(
             ));
         }
     }
+
+    // links that the scene names must exist
     let links: Vec<&str> =
         children(robot, "link").filter_map(|link| link.attribute("name")).collect();
     let known = |name: &str| links.contains(&name);
@@ -147,8 +154,12 @@ pub fn parse(
             ));
         }
     }
+
+    // unless it is named, the foot is the link `base`, or one that nothing carries
     let root = links.iter().copied().find(|link| !reader.carried.contains_key(link));
     let foot = foot.or(Some("base").filter(|name| known(name))).or(root);
+
+    // unless it is named, the flange is the link `tool0`, or the only one that carries nothing
     let ends = || {
         links
             .iter()
@@ -158,6 +169,7 @@ pub fn parse(
     let flange = flange
         .or(Some("tool0").filter(|name| known(name)))
         .or_else(|| ends().next().filter(|_| ends().count() == 1));
+
     let (Some(foot), Some(flange)) = (foot, flange) else {
         let message = format!("{file} does not say which of its links is the flange");
         return Err(Error::file(
@@ -166,6 +178,7 @@ pub fn parse(
             format!("add flange = \"...\" to [robot]: one of {}", links.join(", ")),
         ));
     };
+
     reader.arm(robot.attribute("name").unwrap_or("robot"), foot, flange)
 }
 

@@ -46,6 +46,7 @@ const LENGTH_FACTORS: [f64; 2] = [0.1, 10.0];
 
 /// What is impossible in the scene's ply.
 pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
+    // size of the ply: its cut, the array of grippers, cells and fabric length
     let Grid { nu, nv } = scene.ply.grid;
     if let Some(what) = of_cut(&scene.ply) {
         return Some(what);
@@ -62,9 +63,13 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if !(LENGTH_FACTORS[0]..=LENGTH_FACTORS[1]).contains(&longer) {
         return Some(format!("there is no fabric {longer} times as long as it should be"));
     }
+
+    // the title is a line of plain text
     if let Some(c) = shown::control(&scene.title) {
         return Some(format!("its title holds the control character {}", c.escape_unicode()));
     }
+
+    // the material: section, and tables of moment and tension
     let sound = match scene.ply.material.section {
         Section::Line { mass, flexural_rigidity } => mass > 0.0 && flexural_rigidity >= 0.0,
         Section::Areal { mass, warp_rigidity, weft_rigidity } => {
@@ -79,9 +84,12 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     {
         return Some("the tension of its material is no table of force over strain".into());
     }
+
     if let Some(what) = of_bodies(&scene.bodies) {
         return Some(what);
     }
+
+    // settings of the models
     let Settings { axial_stiffness, gravity, max_tilt, sheet, pad, contact, .. } = scene.settings;
     let friction = match contact.friction {
         Friction::Coulomb(coefficient) => coefficient,
@@ -94,6 +102,8 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
         return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
     }
+
+    // mounts and pads, which may be left out but not be zero
     let mounts = [pad.lateral_stiffness, pad.axial_stiffness, pad.slip_force, pad.holding_force];
     if !mounts.iter().flatten().all(|value| *value > 0.0) {
         return Some("what mounts and pads bear must be above zero".into());
@@ -101,6 +111,8 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if scene.release.as_ref().is_some_and(|release| release.dwell.is_nan() || release.dwell < 0.0) {
         return Some("its pads must not press for less than no time".into());
     }
+
+    // the pick-up and its table
     if let Some(PickUp { height, clearance, grip, vacuum_timeout, retreat, table, lift_steps }) =
         scene.pick_up
     {
@@ -114,9 +126,12 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
             return Some("the table of its pick-up is none of its obstacles".into());
         }
     }
+
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));
     }
+
+    // if there are targets, every gripper has one
     let target = &scene.target.as_ref()?.grippers;
     match (target.len(), scene.ply.grippers()) {
         (found, count) if found != count => {

@@ -140,11 +140,14 @@ pub(super) fn refused_as_scene(document: &Document) -> Error {
 }
 
 fn book(document: &Document, base: &Path) -> Result<Book, Error> {
+    // the book as a table, without the plies
     let fault = |fault: Fault| diagnostic::scene_error(document, fault);
     let root = DeTable::parse(&document.text).map_err(|error| fault(error.into()))?;
     let whole = root.span();
     let mut shared = root.into_inner();
     let entries = entries(&mut shared, document)?;
+
+    // title and mold are of the book alone, and all plies share the mold
     let head: Head = {
         let keys = ["title", "mold"];
         let kept = |(key, _): &(&Spanned<_>, &Spanned<_>)| {
@@ -165,6 +168,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     shared.remove("title");
     shared.remove("mold");
 
+    // the keys of every ply; messages name a ply without a name by its number
     let mut readings: Vec<Reading> = Vec::with_capacity(entries.len());
     for (n, (entry, span)) in entries.into_iter().enumerate() {
         let label = entry.get("name").and_then(|name| name.get_ref().as_str());
@@ -186,6 +190,8 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
         }
         readings.push(reading);
     }
+
+    // what all plies would share has no effect if each has a scene file of its own
     if let (Some((key, _)), true) = (
         shared.iter().next(),
         readings.iter().all(|reading| reading.document.file != document.file),
@@ -196,6 +202,8 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
             "move it into the scene files; the book has `title`, [mold] and [[plies]] then",
         ));
     }
+
+    // the mold, by the cells and the contact tolerance of the first ply
     let first = &readings[0];
     let (mold, mesh) = {
         let grippers = first.keys.grippers.as_ref().map(|table| &table.value);
@@ -205,11 +213,15 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
             .map_err(|fault| in_ply(fault, &first.name))?;
         mold::mold(&head.mold.value, &ply, contact.tolerance, document, base)?
     };
+
+    // from below upwards, because a ply lies on those before it
     let mut plies: Vec<BookPly> = Vec::with_capacity(readings.len());
     for reading in &readings {
         let ply = laid(reading, &title, &mold, &plies, &readings);
         plies.push(ply.map_err(|fault| in_ply(fault, &reading.name))?);
     }
+
+    // all files that were read, each once
     let mut files = named(document, base);
     files.extend(plies.iter().flat_map(|ply| ply.scene.files.iter().cloned()));
     files.sort();
@@ -400,6 +412,7 @@ fn laid(
     below: &[BookPly],
     readings: &[Reading],
 ) -> Result<BookPly, Error> {
+    // without a target it is not known which plies lie below
     let Reading { name, keys, document, base, header, .. } = reading;
     if keys.target.as_ref().is_none_or(|target| target.value.positions.is_some()) {
         let place = keys.target.as_ref().map_or(header, |target| &target.span);
@@ -410,6 +423,8 @@ fn laid(
             "add target = { origin = [0, 0], direction = \"45 deg\" } or the like to the ply, or [target] to the book; `positions` of grippers do not say it",
         ));
     }
+
+    // where the ply lies, as if the mold were bare
     let bare = check::scene(keys, Some(mold.clone()), document, base)?;
     let region = region(&bare, mold).ok_or_else(|| {
         let message = "the ply has no place on the mold that another ply could lie on";
@@ -419,6 +434,8 @@ fn laid(
             "a book holds plies with a width that lie on the mold",
         )
     })?;
+
+    // every ply below that it overlaps raises the mold by its thickness
     let mut lies_on = Vec::new();
     let mut layers = Vec::new();
     for (n, lower) in below.iter().enumerate() {
@@ -443,6 +460,8 @@ fn laid(
         lies_on.push(n);
         layers.push(layer);
     }
+
+    // the scene once more on the raised mold
     let (mut scene, region) = if layers.is_empty() {
         (bare, region)
     } else {
@@ -452,6 +471,7 @@ fn laid(
         let region = self::region(&scene, mold).unwrap_or(region);
         (scene, region)
     };
+
     scene.scene.title = format!("{title}: {name}");
     scene.scene.book_ply = Some(scene::BookPly { number: below.len() + 1, name: name.clone() });
     Ok(BookPly { name: name.clone(), scene, lies_on, region })

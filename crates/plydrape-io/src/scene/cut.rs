@@ -145,6 +145,8 @@ fn outline(
 ) -> Result<(Outline, Option<Drawn>), Error> {
     let table = &ply.value;
     let drawn = super::dxf::drawn(table, document, base)?;
+
+    // the boundary is of a file, of points or a rectangle; a file may bring holes
     let (boundary, mut holes, span) = match (&table.outline, &table.size) {
         (Some(outline), None) => {
             let span = outline.span.clone();
@@ -183,6 +185,8 @@ fn outline(
             ));
         }
     };
+
+    // holes of the scene come after those of the file, each with its place for messages
     let of_file = holes.len();
     let mut spans = vec![span.clone(); 1 + of_file];
     for hole in table.holes.iter().flat_map(|holes| &holes.value) {
@@ -192,6 +196,8 @@ fn outline(
             HoleChoice::Circle(circle) => disc(circle, document)?,
         });
     }
+
+    // a fault of the outline is shown at the ring that has it
     let outline = Outline::new(boundary, holes).map_err(|error| {
         let ring = match error {
             LayupError::OutlineCrosses { a, b, .. } => a.max(b),

@@ -25,6 +25,7 @@ pub(super) fn pick_up(
     also: bool,
     document: &Document,
 ) -> Result<(), Error> {
+    // the sheet alone can lie on a table
     let Located { value: keys, span } = table;
     if layup.settings.model == Model::Catenaries || also {
         return Err(document.error(
@@ -33,6 +34,8 @@ pub(super) fn pick_up(
             "drape it with the sheet alone, as kind = \"sheet\" in [model] does without `also`, or leave out [pick_up]",
         ));
     }
+
+    // the table, and times and heights of the pick-up
     let (height, obstacle) = on(keys, span, layup, document)?;
     let mut pick_up = PickUp {
         height,
@@ -43,6 +46,8 @@ pub(super) fn pick_up(
         table: obstacle,
         lift_steps: 0,
     };
+
+    // a motion from a file begins on the table itself, so that there is nothing to lift
     let start = layup.start().to_vec();
     let low = start.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
     if file.motion.as_ref().is_some_and(|motion| motion.value.kind == MotionKind::File) {
@@ -61,6 +66,8 @@ pub(super) fn pick_up(
         layup.pick_up = Some(pick_up);
         return Ok(());
     }
+
+    // other motions begin where the ply hangs free, and a lift from the table comes first
     if low - height < LEAST_LIFT * layup.ply.shorter_side() {
         return Err(document.error(
             span.clone(),
@@ -72,6 +79,7 @@ pub(super) fn pick_up(
             "raise `height` in [grippers], or lower the table of [pick_up]",
         ));
     }
+
     let lift = pick_up.lift(&layup.ply, &start);
     pick_up.lift_steps = lift.len();
     layup.motion = lifted(&layup.motion, lift);

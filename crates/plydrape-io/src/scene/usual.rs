@@ -358,6 +358,7 @@ mod tests {
     /// unit, and what is proposed is not refused for its unit.
     #[test]
     fn a_number_in_another_unit_is_asked_about() {
+        // table, line with a number as somebody may write it, and what was meant
         let cases: [(&str, &str, &str); 44] = [
             ("ply", "cell = [100, 100]", "100 mm"),
             ("ply", "overhang = 20", "20 mm"),
@@ -408,8 +409,10 @@ mod tests {
             ("pick_up", "clearance = 50", "50 mm"),
             ("pick_up", "grip = 500", "500 ms"),
         ];
+
         let mut missed = Vec::new();
         for (table, line, meant) in cases {
+            // keys without which the table is refused for another reason
             let kind = match table {
                 "motion" => "kind = \"straight\"\n",
                 "pick_up" => "height = \"0 mm\"\n",
@@ -420,6 +423,8 @@ mod tests {
                 Ok(()) => String::new(),
                 Err(refused) => format!("{} {}", refused.message(), refused.help()),
             };
+
+            // the line with the number alone must be asked about, and that with the unit must not
             let number = meant.split(' ').next().unwrap_or(meant);
             let quoted = line
                 .replace(&format!(" {number}"), &format!(" \"{meant}\""))
@@ -432,6 +437,7 @@ mod tests {
                 missed.push(format!("{quoted}: {with_unit}"));
             }
         }
+
         assert!(missed.is_empty(), "{}", missed.join("\n"));
     }
 

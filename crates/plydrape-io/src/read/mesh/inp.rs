@@ -146,6 +146,7 @@ impl Reader<'_> {
     }
 
     fn keyword(&mut self, line: &str) -> Result<(), Error> {
+        // name and parameters of the keyword; case and spaces have no meaning in a deck
         let mut fields = line[1..].split(',').map(str::trim);
         let name = fields.next().unwrap_or_default().to_ascii_uppercase();
         let name = name.split_ascii_whitespace().collect::<Vec<_>>().join(" ");
@@ -154,9 +155,12 @@ impl Reader<'_> {
             .map(|(key, value)| (key.trim().to_ascii_uppercase(), value.trim().trim_matches('"')))
             .collect();
         let value = |key: &str| parameters.iter().find(|(k, _)| k == key).map(|(_, value)| *value);
+
+        // the lines that follow are ignored unless the keyword is one that is read
         let number = self.lines.number;
         self.data = Data::Ignored;
         self.pending.clear();
+
         match name.as_str() {
             "NODE" | "ELEMENT" if value("INPUT").is_some() => {
                 return Err(

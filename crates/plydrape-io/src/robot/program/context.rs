@@ -356,6 +356,7 @@ fn head(
     [part, parts]: [usize; 2],
     names: [&str; 2],
 ) -> Vec<String> {
+    // name and verdict; the program of a rejected plan says first that it is rejected
     let program = track.program;
     let limits = robot.limits();
     let mut lines = vec![format!("{}, made by {}", program.name, crate::PROGRAM)];
@@ -363,6 +364,8 @@ fn head(
         lines.push(rejected(program));
     }
     lines.push(format!("Verdict: {}", program.verdict));
+
+    // how long it takes, and how many points are left of the samples
     let parted = match parts {
         1 => String::new(),
         _ => format!(", part {} of {parts}; the robot stops between parts", part + 1),
@@ -373,6 +376,8 @@ fn head(
         blocks.points() + 1,
         program.times.len(),
     ));
+
+    // how far the program may be from the planned motion, in place and in time
     let [passing, timely] = [blocks.passing, blocks.error]
         .map(|off| (off.position * 1e3, off.angle.to_degrees()))
         .map(|(position, angle)| format!("{position:.4} mm and {angle:.4} deg"));
@@ -388,6 +393,8 @@ fn head(
             "Points are {least:.4} s apart or more: see whether your controller keeps up"
         ));
     }
+
+    // why the program may be farther from the motion than the tolerance allows
     if blocks.passing.position > blocks.tolerance.position {
         lines.push(format!(
             "That is more than the {:.4} mm asked for, because points are {} mm and {} s apart at least (--least-way, --least-time)",
@@ -396,6 +403,8 @@ fn head(
             blocks.tolerance.least_time,
         ));
     }
+
+    // how the robot passes points
     if limits.zones {
         lines.push(format!(
             "Zones pass points at {:.4} mm or less; the robot stops where the vacuum switches",
@@ -404,11 +413,15 @@ fn head(
     } else {
         lines.push("The robot stops where the vacuum switches".into());
     }
+
+    // frames and units, in the words of the controller
     let [name, own] = names;
     let named = |pattern: &str| pattern.replace("NAME", name).replace("PART", own);
     lines.push(format!("Frames: world > mold ({}) > tool", named(limits.mold)));
     lines.push(format!("        flange > tool ({})", named(limits.tool)));
     lines.push(limits.units.into());
+
+    // axes of the array: moved with the arm, or by a controller of their own that follows
     match program.axes.len() {
         0 => {}
         _ if track.moves_axes => {
@@ -428,6 +441,7 @@ fn head(
             lines.push("An array that keeps time by itself: only at full speed, and nothing else; NEVER with a speed below 100 %".into());
         }
     }
+
     lines.iter().flat_map(|line| wrapped(&ascii(line))).collect()
 }
 

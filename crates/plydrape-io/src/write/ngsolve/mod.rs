@@ -108,6 +108,8 @@ pub(crate) fn files(
     tension: Option<f64>,
 ) -> Result<Files, Error> {
     result.check_finite()?;
+
+    // the sheet of the scene as quads, fine enough for the pads unless a mesh is asked for
     let mut layup = result.layup();
     let pitch = pitch(&layup.ply);
     let finest = coarsest_mesh(pitch, layup.settings.pad.radius);
@@ -119,6 +121,8 @@ pub(crate) fn files(
         let message = "the ply is a single line of grippers, and NGSolve has shells of a surface";
         return Err(Error::not_possible(message, "take `inp`, whose strip is one cell wide"));
     }
+
+    // the flat ply begins at the rigid place that best fits the grippers of step 1
     let first = result.steps.first().ok_or_else(|| {
         let message = "the result has no steps, so there is no motion to write";
         Error::not_possible(message, "simulate the scene again")
@@ -129,13 +133,18 @@ pub(crate) fn files(
         let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
+
+    // the nodes at which the two drapes are compared
     let points = match &result.sheet_states {
         Some(states) => states.open()?.mesh().places.to_vec(),
         None => fabric.places.clone(),
     };
 
+    // stiffness in tension, and the angles of the table of the shear curve
     let tension = tension.unwrap_or(TENSION);
     let angles: Vec<f64> = ANGLES.map(|degrees| f64::from(degrees).to_radians()).collect();
+
+    // cups follow the commanded motion of their grippers; one that lets go does so for good
     let cups =
         sheet.grippers.iter().zip(&first.grippers).enumerate().map(|(n, (held, gripper))| {
             let track = || result.steps.iter().map(|step| &step.grippers[n]);
@@ -150,6 +159,8 @@ pub(crate) fn files(
                 quaternions: track().map(|gripper| gripper.quaternion).collect(),
             }
         });
+
+    // all data of the script, in SI units
     let reach = layup.settings.sheet.overhang.max(0.5 * pitch);
     let data = Data {
         format: "plydrape-ngsolve",
@@ -181,6 +192,7 @@ pub(crate) fn files(
         },
         mold: DistanceGrid::under(result, reach, pitch),
     };
+
     Ok(vec![
         ("drape.py".into(), SCRIPT.as_bytes().to_vec()),
         ("ply.json".into(), json::to_text(&data)?.into_bytes()),
