@@ -136,6 +136,7 @@ pub fn run(arguments: &Arguments) -> Done {
 impl Arguments {
     /// The span, each value held against its dimension and range, and its moment (N·m) where that is a table.
     fn span(&self) -> Result<(Span, Option<MomentCurve>), Failure> {
+        // the two ends, and the length of fabric between them
         let length = "expected a length from 1 um to 10 km, e.g. \"98 mm\"";
         let run =
             value("--run", &self.run, Measured::Length, &usual::Span::USUAL, LENGTHS, length)?;
@@ -156,6 +157,8 @@ impl Arguments {
             LENGTHS,
             length,
         )?;
+
+        // the strip: its weight, bending and stretch
         let (weight, flexural_rigidity, curve) = self.strip()?;
         let axial_stiffness = value(
             "--axial-stiffness",
@@ -173,6 +176,7 @@ impl Arguments {
                 "leave it out with --theory exact",
             ));
         }
+
         let end = |option, text| end(option, text, flexural_rigidity);
         let span = Span {
             run,

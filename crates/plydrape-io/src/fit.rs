@@ -584,6 +584,7 @@ impl Fitted {
             })
         };
 
+        // bending is one rigidity with those of the strips, or a curve
         let bending = |fit: &BendingFit| match fit {
             BendingFit::Rigidity(whole, each) => {
                 let strips: Vec<Value> = each

@@ -245,7 +245,7 @@ pub fn plan(
             ))
         })?;
 
-    // what no plan can keep is refused, and what only hinders it is a warning
+    // a scene that cannot be planned is refused; what only hinders a plan is a warning
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::diagnostic(refusal));
     }

@@ -89,9 +89,11 @@ mod tests {
     /// Central differences of the closed form, in every form and end condition, at points inside.
     #[test]
     fn derivatives_along_a_span_agree_with_central_differences() {
+        // limp and stiff spans in tension, and one in compression
         for (rigidity, force) in [(0.0, 0.4), (9e-6, 0.4), (9e-6, 30.0), (1e-2, -3.0), (1e-3, 0.2)]
         {
             for held in 0..4 {
+                // force, slopes of both ends, run, rise, weight and rigidity
                 let base = [force, 0.31, -0.12, 0.098, 0.02, 3.0, rigidity];
                 let profile_at = |x: &[f64; 7]| {
                     let end = |n: usize| {
@@ -110,6 +112,8 @@ mod tests {
                     Profile::new(&span, x[0])
                 };
                 let profile = profile_at(&base);
+
+                // height, slope and arc length at points inside
                 for t in [0.13, 0.5, 0.83] {
                     let read = |p: &Profile| {
                         let station = p.station(t * p.span.run);
@@ -118,6 +122,8 @@ mod tests {
                     let stations = profile.stations();
                     let found = [stations.height(t), stations.slope(t), stations.arc(t)];
                     let values = read(&profile);
+
+                    // their gradients by central differences; a limp span has no rigidity
                     for n in 0..7 {
                         if base[n] == 0.0 {
                             continue;

@@ -173,6 +173,7 @@ impl Sum for UnknownsSum {
         let sums = over_points::<13, P>(
             #[inline(always)]
             |p| {
+                // w is the slope less its mean θ; its derivatives to H are w_H and w_HH
                 let at = panel.at(p);
                 let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
                 let w = c.combine(at.value);
@@ -186,6 +187,8 @@ impl Sum for UnknownsSum {
                     + k[5] * g
                     + k[6] * u
                     + k[7] * v;
+
+                // w²/d is √(1+z'²) − σ − θw/σ without loss of digits; one division serves all
                 let slope = c.theta + w;
                 let square = 1.0 + slope * slope;
                 let r = square.sqrt();
@@ -193,6 +196,8 @@ impl Sum for UnknownsSum {
                 let both = weights[p] / (d * r * square);
                 let stretch = both * d;
                 let tilt = stretch * square * slope;
+
+                // the terms in the order of the struct
                 let (h, su, sv) = (stretch * w_h, stretch * u, stretch * v);
                 [
                     both * w * w * r * square,

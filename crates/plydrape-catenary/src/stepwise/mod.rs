@@ -157,11 +157,14 @@ impl<'a> StepwisePlanner<'a> {
 
     /// One step: the program, then the true model; with half the move limit where the model does not accept it.
     fn step(&mut self) {
+        // grippers that stand on their targets once the front is down have arrived for good
         let landing = self.draping.contacts.iter().any(Option::is_some);
         for n in 0..self.targets.len() {
             self.arrived[n] |=
                 self.draping.positions[n] == self.targets[n] && self.front.height(n) <= 0.0;
         }
+
+        // derivatives of the equilibrium from which the step starts
         let (positions, contacts) = (self.draping.positions.clone(), self.draping.contacts.clone());
         let sensitivity = Sensitivity::new(
             self.task.layup,
@@ -170,10 +173,14 @@ impl<'a> StepwisePlanner<'a> {
             &positions,
             &contacts,
         );
+
+        // a trial must keep the limits, or not make worse what exceeded them before
         let mut reach = self.reach;
         let before = Evaluation::new(self.task, &self.draping, &self.shape);
         let mut best: Option<(Draping<'a>, Equilibrium)> = None;
+
         for trial in 0..TUNING.halvings {
+            // moves by the linear program; later trials let grippers come down beside their targets
             let step = Step {
                 task: self.task,
                 targets: self.targets,
@@ -189,6 +196,8 @@ impl<'a> StepwisePlanner<'a> {
                 reach *= 0.5;
                 continue;
             };
+
+            // the true model judges them
             let goal: Vec<Point> = (0..positions.len())
                 .map(|n| self.snapped(n, [0, 1, 2].map(|k| positions[n][k] + moves[n][k])))
                 .collect();
@@ -202,12 +211,15 @@ impl<'a> StepwisePlanner<'a> {
             }
             reach *= 0.5;
         }
+
+        // the last trial is taken even if it was not accepted, so that the plan goes on
         if let Some((draping, shape)) = best {
             for n in 0..positions.len() {
                 self.moves[n] = sub(draping.positions[n], positions[n]);
             }
             (self.draping, self.shape) = (draping, shape);
         }
+
         self.positions.push(self.draping.positions.clone());
     }
 

@@ -10,9 +10,12 @@ const MOST: usize = 4;
 
 /// Where boundary and holes of a ply are from, how large the holes are, which gaps were closed and what was left out.
 pub(super) fn drawing(drawn: &Drawn) -> Vec<String> {
+    // where the boundary is from
     let Drawn { outline, boundary, holes, gaps, others, skipped } = drawn;
     let mut lines =
         vec![format!("boundary of {} from {}", size(outline.boundary()), from(boundary))];
+
+    // holes from the largest down; those that are too many for lines of their own share one
     let whole = area(outline.boundary());
     let mut all: Vec<(&[[f64; 2]], &Source)> =
         outline.holes().iter().map(Vec::as_slice).zip(holes).collect();
@@ -40,6 +43,8 @@ pub(super) fn drawing(drawn: &Drawn) -> Vec<String> {
             share(together),
         ));
     }
+
+    // what was closed, and what was left out
     if let Some(widest) = gaps.first() {
         let gaps = match gaps.len() {
             1 => "one gap between ends of lines was".into(),

@@ -230,6 +230,7 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
             cells.iter().map(|cell| shear(places, cell).abs().to_degrees()).fold(0.0, f64::max)
         };
 
+        // the lowest point of the ply, and the largest force on a gripper
         let lowest = |places: &[[f64; 3]]| {
             known.iter().map(|(n, _)| 1e3 * places[*n][2]).fold(f64::INFINITY, f64::min)
         };

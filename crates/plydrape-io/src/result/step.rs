@@ -112,6 +112,7 @@ struct CellColumns {
 impl StepColumns {
     /// The columns of a step; contact as what is new since what is `known`.
     pub(super) fn new(step: &Step, known: &mut Known) -> Self {
+        // what a step has whichever model drapes
         let mut columns = StepColumns {
             step: step.step,
             time: step.time,
@@ -129,6 +130,7 @@ impl StepColumns {
             return columns;
         };
 
+        // columns of all spans and bridges, each with the number of its catenary
         let shearing = || catenaries.iter().enumerate().filter(|(_, line)| line.shearing);
         let mut spans = SpanColumns::default();
         let mut bridging = BridgeColumns::default();
@@ -143,6 +145,8 @@ impl StepColumns {
                 bridging.width.push(width);
             }
         }
+
+        // what only catenaries have
         columns.solver = Some(solver.clone());
         columns.slopes = Some(SlopeColumns {
             u: slopes.iter().map(|slope| slope[0]).collect(),

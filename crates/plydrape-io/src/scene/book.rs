@@ -472,6 +472,7 @@ fn laid(
         (scene, region)
     };
 
+    // the scene says which ply of which book it is
     scene.scene.title = format!("{title}: {name}");
     scene.scene.book_ply = Some(scene::BookPly { number: below.len() + 1, name: name.clone() });
     Ok(BookPly { name: name.clone(), scene, lies_on, region })

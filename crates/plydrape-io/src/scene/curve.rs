@@ -122,6 +122,7 @@ pub(super) fn shear(
     curve: &Located<Curve<Shear, ShearCurveTable>>,
     document: &Document,
 ) -> Result<ShearCurve, Error> {
+    // a single number is the slope of a straight line
     let table = match &curve.value {
         Curve::Slope(slope) => {
             let slope = Located { value: slope.clone(), span: curve.span.clone() };
@@ -129,6 +130,8 @@ pub(super) fn shear(
         }
         Curve::Table(table) => table,
     };
+
+    // a table of measured points, or a polynomial whose force is checked up to 60°
     match (&table.angle, &table.force, &table.polynomial) {
         (Some(angle), Some(force), None) => {
             same_length("the shear curve", "angles", [angle.value.len(), force.value.len()])

@@ -53,6 +53,7 @@ pub(super) fn layup(
     mold: &Mold,
     document: &Document,
 ) -> Result<Placement, Error> {
+    // what is searched for, and what is not given, is zero
     let shear = read_or(&keys.shear, 0.0, document)?;
     let heading = match &keys.direction {
         Some(Located { value: HeadingChoice::Angle(angle), span }) => {
@@ -61,6 +62,8 @@ pub(super) fn layup(
         Some(Located { value: HeadingChoice::Best, .. }) | None => 0.0,
     };
     let origin = read_or(&keys.origin, [0.0; 2], document)?;
+
+    // the seed lies on the mold at the origin, as seen from above
     let Some(place) = mold.highest_point(origin) else {
         let [x, y] = origin.map(|c| format!("{} mm", round(c * 1e3)));
         return Err(document.error(
@@ -69,10 +72,13 @@ pub(super) fn layup(
             "give an `origin` that lies on the mold as seen from above: the seed is put there",
         ));
     };
+
+    // nodes as the boundary of the ply or the array of grippers asks for
     let Nodes { nodes, mesh, origin, seed } = match &ply.cut {
         Some(cut) => nodes_of_cut(keys, ply, cut, mold, document)?,
         None => nodes_of_cells(keys, ply, mold, document)?,
     };
+
     Ok(Placement {
         nodes,
         mesh,

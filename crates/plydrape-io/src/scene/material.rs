@@ -127,6 +127,7 @@ fn from_table(
     place: &Range<usize>,
     name: &str,
 ) -> Result<Material, Error> {
+    // all models assume that a ply shears as a trellis, which only woven plies do
     if let Some(Located { value: FabricKey::Unidirectional, span }) = &table.fabric {
         return Err(document.error(
             span.clone(),
@@ -134,9 +135,13 @@ fn from_table(
             "plydrape drapes woven plies so far, fabric = \"woven\"; for a unidirectional ply that is stitched to a weft and shears about it, that is the nearest",
         ));
     }
+
+    // forces over the shear angle and over the strain
     let shear_curve =
         table.shear_curve.as_ref().map(|curve| curve::shear(curve, document)).transpose()?;
     let tension = table.tension.as_ref().map(|law| curve::tension(law, document)).transpose()?;
+
+    // the source of the material also names the tests behind its values
     let text_of =
         |text: &Option<Located<String>>| text.as_ref().map(|text| line(text, document)).transpose();
     let mut source = text_of(&table.source)?.unwrap_or_else(|| "stated in the scene".into());
@@ -158,6 +163,7 @@ fn from_table(
     if let Some(test) = text_of(&table.test)? {
         source = format!("{source}; test: {test}");
     }
+
     let (section, moment) = section(table, document, place)?;
     Ok(Material {
         name: text_of(&table.name)?.unwrap_or_else(|| shown::name(name)),
@@ -239,12 +245,15 @@ fn section(
     document: &Document,
     place: &Range<usize>,
 ) -> Result<(Section, [Option<MomentCurve>; 2]), Error> {
+    // a mass is per length or per area by its unit, and without a unit by the rigidity beside it
     let (_, dimension) = table.mass.with_dimension(document)?;
     let by_area = table.bending_rigidity_warp.is_some() || table.bending_rigidity_weft.is_some();
     let per_length = dimension == Some(Dimension::LINE_MASS)
         || dimension.is_none() && table.flexural_rigidity.is_some();
     let usual = if per_length { &LineMass::USUAL } else { &PlyMass::USUAL };
     let mass = table.mass.within_for(document, MASSES, "a ply", &usual.within(MASSES))?;
+
+    // mass and rigidity must be both per length or both per area
     let mismatch = |rigidity: &str| {
         document.error(
             table.mass.span.clone(),

@@ -351,9 +351,12 @@ mod tests {
     /// Every fault names what is wrong and what would be right; those of a file have a place.
     #[test]
     fn broken_offsets_are_refused_with_place_and_remedy() {
+        // points whose x and y are swapped: a mirrored ply, which no turn brings into place
         let point = |p: &str, q: &str| format!("[[point]]\nplanned = {p}\nseen = {q}\n");
         let swapped =
             point("[0, 0]", "[0, 0]") + &point("[1, 0]", "[0, 1]") + &point("[0, 1]", "[1, 0]");
+
+        // files, with what the message must say
         let cases: [(&str, &str); 15] = [
             ("", "neither an offset nor points"),
             ("[offset]\n", "none of x, y and yaw"),
@@ -371,6 +374,7 @@ mod tests {
             (&swapped, "mm from where the others put it"),
             ("[offset]\n[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n", "both an offset and points"),
         ];
+
         for (text, expected) in cases {
             let fault = parse(text).unwrap_err();
             assert!(fault.message().contains(expected), "{text}: {fault}");
@@ -380,6 +384,8 @@ mod tests {
                 "{fault:?}"
             );
         }
+
+        // lines of JSON, as a cell sends them; they have no place to show
         for (text, expected) in [
             ("", "not JSON"),
             ("[1]", "no JSON object"),

@@ -70,6 +70,7 @@ fn from_file(
     document: &Document,
     base: &Path,
 ) -> Result<Parts, Error> {
+    // an arm that comes with plydrape, or a URDF file beside the scene
     let file = &name.value;
     let shipped = SHIPPED.iter().find(|(shipped, _)| shipped == file);
     let text = match shipped {
@@ -89,10 +90,14 @@ fn from_file(
                 .text
         }
     };
+
+    // the chain of joints from foot to flange
     let [foot, flange] =
         [&table.foot, &table.flange].map(|key| key.as_ref().map(|key| &*key.value));
     let read = urdf::parse(file, &text, foot, flange)
         .map_err(|error| document.error(name.span.clone(), error.to_string(), error.help()))?;
+
+    // the shapes of its links are bodies, numbered where a link has several
     let mut bodies = Vec::new();
     if table.bodies.unwrap_or(true) {
         let folder = base.join(file).parent().unwrap_or(base).to_path_buf();
@@ -110,6 +115,7 @@ fn from_file(
             });
         }
     }
+
     Ok((read.name, read.joints, read.flange, bodies))
 }
 

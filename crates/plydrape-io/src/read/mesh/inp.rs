@@ -161,6 +161,7 @@ impl Reader<'_> {
         self.data = Data::Ignored;
         self.pending.clear();
 
+        // blocks of nodes, elements, parts and instances; what would move or add nodes is refused
         match name.as_str() {
             "NODE" | "ELEMENT" if value("INPUT").is_some() => {
                 return Err(

@@ -180,16 +180,19 @@ fn layout(
     mut archive: ZipArchive<BufReader<File>>,
     bytes: u64,
 ) -> Result<(BufReader<File>, Sizes, Vec<u64>), String> {
+    // a sheet whose pads let go has one more array, which says which of them hold
     let releases = archive.len() == ARRAYS.len();
     let arrays = arrays(releases);
     if archive.len() != arrays.len() {
         let found = archive.len();
         return Err(format!("it holds {found} arrays, not {}", arrays.len()));
     }
+
     let mut sizes = Sizes { releases, ..Sizes::default() };
     let mut starts = Vec::with_capacity(arrays.len());
     let mut headers = Vec::with_capacity(arrays.len());
     for (n, array) in arrays.iter().enumerate() {
+        // arrays lie in a fixed order and uncompressed, so that states can be read in place
         let other = |what: &str| format!("its array {n} {what}");
         let mut entry = archive.by_index(n).map_err(|fault| other(&fault.to_string()))?;
         if !entry.name().is_ok_and(|name| name == format!("{}.npy", array.name)) {
@@ -198,12 +201,16 @@ fn layout(
         if entry.compression() != CompressionMethod::Stored || entry.encrypted() {
             return Err(other("is compressed"));
         }
+
+        // the numbers of an array begin behind its header
         let start = entry.data_start().ok_or_else(|| other("has no place"))?;
         let mut header = vec![0; BEFORE];
         entry.read_exact(&mut header).map_err(|_| other("has no header"))?;
         let length = u16::from_le_bytes([header[BEFORE - 2], header[BEFORE - 1]]);
         header.resize(BEFORE + usize::from(length), 0);
         entry.read_exact(&mut header[BEFORE..]).map_err(|_| other("has no header"))?;
+
+        // the shapes of some arrays say how many nodes, cells and states there are
         let shape = shape(&header).ok_or_else(|| other("has no header"))?;
         match (array.name, shape.as_slice()) {
             ("places", [nodes, _]) => sizes.nodes = *nodes,
@@ -213,21 +220,27 @@ fn layout(
             ("grippers", [_, grippers, _]) => sizes.grippers = *grippers,
             _ => {}
         }
+
+        // no array reaches beyond the end of the file
         starts.push(start + header.len() as u64);
         if start.checked_add(entry.size()).is_none_or(|end| end > bytes) {
             return Err(other("ends beyond the file"));
         }
         headers.push((header, entry.size()));
     }
+
+    // all other arrays must have the type and the shape that follow from that
     for (array, (header, size)) in arrays.iter().zip(headers) {
         let length = array.data(&sizes).and_then(|data| data.checked_add(header.len() as u64));
         if header != array.header(&sizes) || length != Some(size) {
             return Err(format!("its array `{}` has another type or shape", array.name));
         }
     }
+
     if sizes.states == 0 {
         return Err("it has no state".into());
     }
+
     Ok((archive.into_inner(), sizes, starts))
 }
 

@@ -93,9 +93,12 @@ mod tests {
     /// Titles that are words of a language, too long, of letters that no controller knows, or of none at all.
     #[test]
     fn every_title_becomes_a_name_of_its_own() {
+        // words of the languages of robots, in small and capital letters
         let mut titles: Vec<String> = WORDS.split_whitespace().map(str::to_owned).collect();
         let capital: Vec<String> = titles.iter().map(|word| word.to_uppercase()).collect();
         titles.extend(capital);
+
+        // titles that differ only in what a name cannot have, or behind its longest length
         let long = "x".repeat(200);
         for title in [
             "",
@@ -136,6 +139,8 @@ mod tests {
             format!("{long} left"),
             format!("{long} right"),
         ]);
+
+        // as many names as titles, each of them valid
         let names: BTreeSet<String> = titles.iter().map(|title| named(title)).collect();
         let distinct: BTreeSet<&String> = titles.iter().collect();
         assert_eq!(names.len(), distinct.len());

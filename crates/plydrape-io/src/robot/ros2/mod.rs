@@ -133,11 +133,13 @@ pub fn program_files(program: &Program, tf: bool) -> Result<Files, Error> {
 
 /// The bag of a program under way, and its other files.
 fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
+    // what every file says first: whether the plan is accepted
     program.check()?;
     let mut bag = Bag::new()?;
     let mut files: Files = Vec::new();
     let head = wide::verdict(program);
 
+    // the trajectory of the axes of the array, and of the joints of the arm
     if !program.axes.is_empty() || program.arm.is_some() {
         let trajectory = trajectory::trajectory(program)?;
         finite::check(&trajectory)?;
@@ -147,6 +149,7 @@ fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
         files.push(("trajectory.yaml".into(), text.into_bytes()));
     }
 
+    // the path of the flange as a whole, and its poses in time
     if let Some(path) = poses::flange(program)? {
         finite::check(&path)?;
         bag.latched(PATH, schema::PATH, &path)?;
@@ -156,6 +159,8 @@ fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
         }
         files.push(("flange.yaml".into(), (head.clone() + &yaml(&path)?).into_bytes()));
     }
+
+    // frames that do not move, and on request those that do
     bag.latched("/tf_static", schema::FRAMES, &poses::fixed(program, tf)?)?;
     if tf {
         bag.channel("/tf", schema::FRAMES, bag::VOLATILE)?;
@@ -166,6 +171,7 @@ fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
         }
     }
 
+    // when the vacuum switches
     let commands = vacuum::commands(program)?;
     if !commands.is_empty() {
         bag.channel(VACUUM, schema::OUTPUTS, bag::VOLATILE)?;
@@ -176,10 +182,13 @@ fn motion(program: &Program, tf: bool) -> Result<(Bag, Files), Error> {
         }
         files.push(("vacuum.yaml".into(), (head + &texts.join("---\n")).into_bytes()));
     }
+
+    // the verdict is in the recording itself, which may be copied without the other files
     bag.note(
         PROGRAM,
         [("accepted", program.accepted.to_string()), ("verdict", program.verdict.clone())],
     )?;
+
     Ok((bag, files))
 }
 

@@ -42,6 +42,8 @@ use text::{Deck, number};
 pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     result.check_finite()?;
     let scene = &result.scene;
+
+    // the flat ply begins at the rigid place that best fits the grippers of step 1
     let first = result.steps.first().ok_or_else(|| {
         let message = "the result has no steps, so there is no motion to write";
         Error::not_possible(message, "simulate the scene again")
@@ -53,12 +55,15 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
         let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
         Error::not_possible(message, "spread them in the scene and simulate it again")
     })?;
+
+    // shells and their section, the tracks of the grippers, and the mold below them
     let mesh = Mesh::new(&scene.ply);
     let section = ShellSection::new(scene, membrane);
     let tracks = Tracks::new(result, &pose);
     let weight = section.areal_mass * scene.settings.gravity;
     let mold = RigidMold::new(result, weight, section.thickness);
 
+    // what holds in all steps: nodes, elements, material, contact and the tables of the motion
     let mut deck = Deck::default();
     header::write(result, &mesh, &section, mold.as_ref(), &mut deck);
     deck.line("*HEADING");
@@ -74,16 +79,20 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     }
     tracks.amplitudes(&mut deck);
 
+    // step HANG: gravity grows, and the grippers go to step 1 of the result
     let gravity = format!("PLY, GRAV, {}, 0.0, 0.0, -1.0", number(scene.settings.gravity));
     step("HANG", HANG, 1e-4, &mut deck);
     deck.line("*DLOAD, AMPLITUDE=GRAVITY");
     deck.line(&gravity);
     tracks.boundary(&mut deck);
     output(&printed, &mut deck);
+
+    // step LAY: the grippers follow the steps of the result
     if let Some(time) = tracks.lay_time() {
         step("LAY", time, 1e-2, &mut deck);
         output(&printed, &mut deck);
     }
+
     Ok(deck.text)
 }
 

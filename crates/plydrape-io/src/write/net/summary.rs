@@ -158,6 +158,7 @@ impl Summary {
     /// The table for people: one line a number, and a verdict at the end.
     #[must_use]
     pub fn table(&self) -> String {
+        // how the net was made
         let ([nu, nv], [du, dv], [i, j]) = (self.nodes, self.mesh, self.seed);
         let generators = match self.generators {
             Generators::Geodesic => "straight over the mold",
@@ -175,6 +176,8 @@ impl Summary {
                 format!("{generators}, from node [{i}, {j}] at {} mm", at(self.seed_place)),
             ),
         ];
+
+        // its shear, and how exactly its edges have their length
         match (self.max_shear_deg, &self.max_shear_at) {
             (Some(largest), Some(ShearPlace { u, v, place, .. })) => {
                 let (u, v) = (mm(*u), mm(*v));
@@ -187,6 +190,8 @@ impl Summary {
             _ => lines.push(("shear", "none: the net has no whole cell".into())),
         }
         lines.push(("edge error", format!("{:.1e} mm at most", self.max_edge_error * 1e3)));
+
+        // nodes without a place on the mold, with the first of each reason
         let missing = [
             ("off the mold", self.off_mold, Reason::OffMold),
             ("folded", self.folded, Reason::Folded),
@@ -196,7 +201,9 @@ impl Summary {
             let first = self.first_missing.iter().find(|m| m.reason == reason);
             lines.push((label, first.map_or("no node".into(), |first| missing_text(count, first))));
         }
+
         lines.extend(self.lines_of_ply());
+
         let mut text = String::new();
         for (label, entry) in lines {
             let _ = writeln!(text, "{label:<14} {entry}");

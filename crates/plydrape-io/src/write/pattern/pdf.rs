@@ -76,6 +76,7 @@ impl Page {
     }
 
     fn content(&self, pattern: &Pattern) -> Vec<u8> {
+        // boundary and holes of the ply, in red
         let mut to = Content::new();
         to.set_stroke_rgb(0.8, 0.0, 0.0);
         self.stroke(&mut to, 0.25);
@@ -84,6 +85,7 @@ impl Page {
             to.close_path().stroke();
         }
 
+        // pads of the grippers, in green
         to.set_stroke_rgb(0.0, 0.4, 0.0).set_fill_rgb(0.0, 0.4, 0.0);
         for gripper in pattern.grippers {
             let (middle, radius) = (self.at(gripper.place), gripper.radius * 1e3);
@@ -93,6 +95,7 @@ impl Page {
             self.text(&mut to, beside, 3.5, &gripper.name);
         }
 
+        // the warp direction, in blue
         to.set_stroke_rgb(0.0, 0.0, 0.6).set_fill_rgb(0.0, 0.0, 0.6);
         self.stroke(&mut to, 0.5);
         for line in arrow(pattern) {
@@ -103,6 +106,7 @@ impl Page {
         let tip = self.at(line[0]);
         self.text(&mut to, [tip[0] + 2.0, tip[1] + 2.0], 4.0, "warp");
 
+        // a bar to measure on the print
         to.set_stroke_gray(0.0).set_fill_gray(0.0);
         self.stroke(&mut to, 0.25);
         let (left, low) = (MARGIN, 0.4 * MARGIN);
@@ -115,10 +119,13 @@ impl Page {
             to.stroke();
         }
         self.text(&mut to, [left + 2.0, low + 1.5], 3.5, "100 mm");
+
+        // the title, as large as the width of the page allows
         let room =
             (self.size[0] - 2.0 * MARGIN) / one_line(pattern.title).chars().count().max(1) as f64;
         let height = (CAPITAL * room / WIDTH).min(5.0);
         self.text(&mut to, [MARGIN, self.size[1] - 0.6 * MARGIN], height, pattern.title);
+
         to.finish().to_vec()
     }
 

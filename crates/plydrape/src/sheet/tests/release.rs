@@ -254,6 +254,7 @@ fn a_strip_whose_end_is_let_go_hangs_as_a_cantilever() {
 /// whole ply is its weight, on an inclined plane too.
 #[test]
 fn the_mold_bears_the_weight_of_a_ply_without_pads() {
+    // eight grippers, as points on a level and on an inclined mold, and as pads on mounts
     let held: Vec<[f64; 2]> =
         (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
     for (angle, radius) in [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02)] {
@@ -269,6 +270,8 @@ fn the_mold_bears_the_weight_of_a_ply_without_pads() {
             })
             .collect();
         sheet.mesh = 0.02;
+
+        // the flat ply is parallel to the mold and 0.1 mm over it
         let mold = plane(angle);
         let on = |[u, v]: [f64; 2], height: f64| {
             let (c, s) = (angle.cos(), angle.sin());
@@ -282,8 +285,12 @@ fn the_mold_bears_the_weight_of_a_ply_without_pads() {
         }
         cloth.now.pads =
             pads_at(1e-4).map(|p| Pad { turn: turned(angle), ..Pad::new(p) }).collect();
+
+        // the grippers bring it down
         let down: Vec<[f64; 3]> = pads_at(0.0).collect();
         bring(&mut cloth, &down, 4, 1.0);
+
+        // upward force of the mold: the derivative of its energy to a shift of the ply
         let reaction = |cloth: &Cloth| {
             let contact = cloth.energies.contact.as_ref().expect("a mold");
             let shifted = |way: f64| {
@@ -294,10 +301,14 @@ fn the_mold_bears_the_weight_of_a_ply_without_pads() {
             let way = 1e-11;
             -(shifted(way) - shifted(-way)) / (2.0 * way)
         };
+
+        // pads and mold share the weight while the pads hold
         let weight = 3.143 * G * sheet.fabric.areas.iter().sum::<f64>();
         let pads: f64 = cloth.forces().iter().map(|force| -force[2]).sum();
         let shared = reaction(&cloth) + pads;
         assert!((shared / weight - 1.0).abs() < 1e-3, "{angle} {radius}: {shared} {weight}");
+
+        // once the pads have let go, the mold bears all of it
         cloth.release(&(0..8).collect::<Vec<_>>());
         rest(&mut cloth, &down);
         let alone = reaction(&cloth);
