@@ -419,7 +419,7 @@ fn a_search_ends_when_its_time_is_over() {
 /// A search that improves its plan for a dome a million times; by the catenaries the ply never lands within a micrometer.
 fn long() -> String {
     let dome = "kind = \"sphere\"\nradius = \"1 m\"\nposition = [0.05, 0.05, -1]";
-    let limits = "\n[limits]\nposition = \"1 um\"\nheight = \"1 um\"\n";
+    let limits = "\n[limits]\nposition = \"1 um\"\n";
     let long = SCENE.replace("evaluations = 2", "evaluations = 1000000\nimprove = true");
     long.replace("kind = \"plane\"", dome) + limits
 }
