@@ -3185,7 +3185,7 @@ def plan(
     """
     Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 
-    The scene's model drapes and decides.
+    The scene's model drapes and decides. A start at which the ply would hang into the mold is raised first, and a warning says so.
 
     The search ends with a plan that keeps all limits with a margin. Other threads of Python run on meanwhile. Ctrl-C raises
     KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`

@@ -178,3 +178,20 @@ def test_points_that_were_seen_may_be_an_array() -> None:
     assert np.allclose(moved[0], moved[2], atol=1e-12)
     with pytest.raises(ValueError, match=r"shape \(n, 2, 2\)"):
         result.replan(points=np.zeros((3, 2)))
+
+
+def test_a_start_that_is_too_low_is_raised_with_a_warning() -> None:
+    """The plan begins as much higher as the warning says, and touches nothing there."""
+    scene = plydrape.Scene(
+        ply={"grippers": [2, 2], "cell": ["100 mm", "100 mm"], "material": "prepreg_warm"},
+        mold={"kind": "plane"},
+        grippers={"spacing": ["98 mm", "98 mm"], "height": "5 mm"},
+        target={},
+        sheet={"mesh": "25 mm"},
+        plan={"steps": 12, "evaluations": 2},
+    )
+    with pytest.warns(UserWarning, match="a plan starts .* mm higher") as caught:
+        result = plydrape.plan(scene, without_errors=True).result
+    raised = float(str(caught[0].message).split("a plan starts ")[1].split(" mm")[0])
+    assert np.allclose(result.positions[0, :, 2], 5e-3 + 1e-3 * raised, atol=2e-5)
+    assert result.summary["sheet"]["first_contact_step"] > 1

@@ -325,6 +325,23 @@ fn a_held_ply_has_no_way() {
     assert!(!shown.contains("straight line"), "{shown}");
 }
 
+/// A ply that would hang into the mold at the start is warned of with how much higher a plan begins, and is not if it is raised by that.
+#[test]
+fn a_start_at_which_the_ply_hangs_into_the_mold_is_warned_of() {
+    let starting = |height: f64| {
+        let bends = "bending_rigidity_warp = 2e-5, bending_rigidity_weft = 2e-5";
+        in_unit("mm")
+            .replace("[model]\nkind = \"catenaries\"\n", "")
+            .replace("bending_rigidity_warp = 0, bending_rigidity_weft = 0", bends)
+            .replace("height = \"75 mm\"", &format!("height = \"{height} mm\""))
+    };
+    let low = warning(&starting(5.0));
+    let (_, raise) = low.split_once("a plan starts ").unwrap();
+    let (raise, _) = raise.split_once(" mm higher").unwrap();
+    assert!(low.starts_with("at its start the ply would hang "), "{low}");
+    assert_eq!(warnings(&starting(5.0 + raise.parse::<f64>().unwrap())), [""; 0]);
+}
+
 /// Nineteen diagonals are a long way, twenty-one a slip, in a cell of micrometers as in one of meters.
 #[test]
 fn a_start_many_plies_off_is_warned_of_at_any_scale() {
