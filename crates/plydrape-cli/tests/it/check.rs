@@ -329,10 +329,11 @@ fn a_held_ply_has_no_way() {
 #[test]
 fn a_start_at_which_the_ply_hangs_into_the_mold_is_warned_of() {
     let starting = |height: f64| {
-        let bends = "bending_rigidity_warp = 2e-5, bending_rigidity_weft = 2e-5";
+        let inline =
+            "{ mass = \"314 g/m^2\", bending_rigidity_warp = 0, bending_rigidity_weft = 0 }";
         in_unit("mm")
             .replace("[model]\nkind = \"catenaries\"\n", "")
-            .replace("bending_rigidity_warp = 0, bending_rigidity_weft = 0", bends)
+            .replace(inline, "\"prepreg_warm\"")
             .replace("height = \"75 mm\"", &format!("height = \"{height} mm\""))
     };
     let low = warning(&starting(5.0));
