@@ -44,6 +44,10 @@ impl LowStart {
         let held = as_ranked(held, Mesh::Coarse);
         let go_on = |_: &sheet::Sheet, _: &sheet::ClothState, _| ControlFlow::Continue(());
         let hung = sheet::drape(&held, SheetTuning::default(), 0.0, &|| false, go_on).ok()?;
+        // a ply that does not come to rest says nothing
+        if hung.status != sheet::Status::Converged {
+            return None;
+        }
         let between = between_cups(&layup.ply, &hung.sheet.fabric.places);
         let points: Vec<Point> = between.map(|node| hung.last.positions[node]).collect();
 
@@ -54,8 +58,8 @@ impl LowStart {
         // as high as it is carried: twice as high until that is enough, then lower again as far as it may
         let margin = TUNING.transport.margin * layup.ply.shorter_side();
         let is_enough = |raise: f64| clear(mold, &points, raise) >= margin;
-        let doubled = (0..BISECTIONS).map(|n| f64::from(1 << n) * (depth + margin));
-        let mut raise = doubled.into_iter().find(|raise| is_enough(*raise))?;
+        let mut doubled = (0..BISECTIONS).map(|n| f64::from(1 << n) * (depth + margin));
+        let mut raise = doubled.find(|raise| is_enough(*raise))?;
         let mut low = depth;
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + raise);
