@@ -45,8 +45,6 @@ pub struct Tuning {
     pub pace_rounds: usize,
     /// See [`Self::pace_rounds`].
     pub pace_gain: f64,
-    /// A bound is put into the program when it is this near to its limit, as a share of the nearest one.
-    pub pace_near: f64,
     /// Most iterations of the solver of a program, and its tolerance.
     pub pace_iterations: u32,
     /// See [`Self::pace_iterations`].
@@ -78,7 +76,6 @@ pub const TUNING: Tuning = Tuning {
     pace_inside: 0.02,
     pace_rounds: 20,
     pace_gain: 1e-3,
-    pace_near: 0.7,
     pace_iterations: 100,
     pace_tolerance: 1e-6,
     small_angle: 1e-8,

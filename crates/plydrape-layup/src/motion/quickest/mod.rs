@@ -126,30 +126,41 @@ impl<'a> Course<'a> {
     #[must_use]
     pub fn quickest(&self, bounds: &Bounds, moving: &[Moving]) -> (TimedMotion, Vec<Limiting>) {
         let pace = self.fastest_pace(moving);
-        let law = self.law(&pace);
+        let first = self.stretch(&pace, moving);
+        let law = self.law(&pace).map(|law| law.stretched(first));
         match law.and_then(|law| self.within(law, bounds)) {
-            Some((motion, longer)) if motion.duration() < self.motion.duration() => {
-                let limiting = self.limiting(&pace, moving, longer);
+            Some((motion, second)) if motion.duration() < self.motion.duration() => {
+                let limiting = self.limiting(&pace, moving, first * second);
                 (motion, limiting)
             }
             _ => (self.motion.clone(), self.limiting(&self.pace, moving, 1.0)),
         }
     }
 
-    /// The pace that takes the least time.
+    /// The pace that takes the least time; some bounds may be passed by a little.
     fn fastest_pace(&self, moving: &[Moving]) -> Pace {
         let mut pace = self.pace.clone();
         let mut program = Program::new(&self.times, moving);
         for _ in 0..TUNING.pace_rounds {
             program.meet(&pace);
             let Some(found) = program.solve(&pace) else { break };
-            let gained = 1.0 - found.time() / pace.time();
+            let gained = (1.0 - found.time() / pace.time()).abs();
             pace = found;
-            if gained < TUNING.pace_gain {
+            if gained < TUNING.pace_gain && self.stretch(&pace, moving) < 1.0 + TUNING.tolerance {
                 break;
             }
         }
         pace
+    }
+
+    /// How much longer a pace has to be for all that moves to keep its bounds at the times of the course; 1 where it does.
+    fn stretch(&self, pace: &Pace, moving: &[Moving]) -> f64 {
+        let shares = self.times.iter().enumerate().flat_map(|(n, t)| {
+            let jet = pace.at(*t);
+            moving.iter().flat_map(move |one| one.shares(&jet, n).into_iter().enumerate())
+        });
+        let longer = shares.map(|(order, share)| share.powf(1.0 / (order + 1) as f64));
+        longer.fold(1.0, f64::max)
     }
 
     /// The time law of a pace; none of one that stands still.

@@ -3,8 +3,8 @@
 //! Unknowns are the control values of b, and for each part a c and a d with `c² ≤ b` and `c d ≥ 1` in its middle, so that d is at
 //! least 1/√b. All bounds are second-order cones, solved by Clarabel's interior point method.
 //!
-//! Grippers of an array move much alike. A bound is only put into the program while it is near the nearest one of its time, or once
-//! it has been passed.
+//! Grippers of an array move much alike: at each time the bound that is nearest to its limit is in the program, and others once a
+//! solution passes them.
 
 use super::super::tuning::TUNING;
 use super::Moving;
@@ -24,19 +24,22 @@ impl<'a> Program<'a> {
         Program { times, moving, met: vec![Vec::new(); times.len()] }
     }
 
-    /// Puts in the bounds that are near at a pace.
+    /// Puts in, of each time and order, the bound that is nearest to its limit at a pace, if there is none yet or it is passed.
     pub fn meet(&mut self, pace: &Pace) {
         for (n, t) in self.times.iter().enumerate() {
             let jet = pace.at(*t);
             let shares: Vec<[f64; 3]> = self.moving.iter().map(|one| one.shares(&jet, n)).collect();
             for order in [1, 2] {
-                let most = shares.iter().map(|share| share[order]).fold(0.0, f64::max);
-                let near = (TUNING.pace_near * most).min(1.0);
-                for (k, share) in shares.iter().enumerate() {
-                    let bounded = self.moving[k].bounds(n)[order].is_finite();
-                    if bounded && share[order] >= near && !self.met[n].contains(&(k, order)) {
-                        self.met[n].push((k, order));
-                    }
+                let bounded =
+                    (0..shares.len()).filter(|k| self.moving[*k].bounds(n)[order].is_finite());
+                let by_share =
+                    |a: &usize, b: &usize| shares[*a][order].total_cmp(&shares[*b][order]);
+                let Some(nearest) = bounded.max_by(by_share) else { continue };
+                let met = &mut self.met[n];
+                let passed = shares[nearest][order] > 1.0 + TUNING.tolerance;
+                let another = !met.contains(&(nearest, order));
+                if another && (passed || met.iter().all(|(_, other)| *other != order)) {
+                    met.push((nearest, order));
                 }
             }
         }

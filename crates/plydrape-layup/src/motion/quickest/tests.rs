@@ -66,7 +66,9 @@ fn no_sample_passes_a_bound_and_the_places_stay() {
     let steps: Vec<Vec<[f64; 3]>> =
         (0..=40).map(|k| [0.0, 0.7, 1.9].map(|g| curve(f64::from(k) / 40.0, g)).to_vec()).collect();
     let motion = TimedMotion::new(&steps, &BOUNDS).unwrap();
-    let found = quickest(&motion, 1.0, &BOUNDS);
+    let course = Course::new(&motion).unwrap();
+    let (found, limiting) = course.quickest(&BOUNDS, &course.grippers(&BOUNDS));
+    assert!(limiting.iter().all(|l| l.share <= 1.0 + 1e-9));
     assert!(
         found.duration() < 0.95 * motion.duration(),
         "{} {}",
