@@ -20,7 +20,7 @@ const OCTAVES: [i32; 2] = [-6, 4];
 const PLACES: [i32; 2] = [OCTAVES[0] * PER_OCTAVE, OCTAVES[1] * PER_OCTAVE];
 /// Drapes by which an error of the grippers is tried.
 const TRIED: usize = 16;
-/// Multiples of a property of the ply that are tried one after the other, and their inverses.
+/// Multiples of a property of the ply between which the largest one is found by halving, and their inverses.
 const MULTIPLES: [f64; 6] = [1.25, 1.6, 2.0, 3.0, 5.0, 8.0];
 
 /// What a motion tolerates.
@@ -33,11 +33,11 @@ pub struct Tolerance {
     pub gripper_mm: f64,
     /// Whether it is the largest one that was tried, so that the motion may tolerate more.
     pub gripper_at_least: bool,
-    /// The least and the largest multiple of the ply's shear stiffness that were tried up to which every limit is kept; `None` where
-    /// the model that decides knows no shear stiffness.
+    /// The least and the largest multiple of the ply's shear stiffness that were tried and at which every limit is kept, found by halving;
+    /// `None` where the model that decides knows no shear stiffness.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub shear: Option<[f64; 2]>,
-    /// The least and the largest multiple of the ply's mass up to which every limit is kept.
+    /// The least and the largest multiple of the ply's mass at which every limit is kept, found in the same way.
     pub mass: [f64; 2],
     /// Cells by which each error of the grippers was tried; 0 where the motion is not accepted without errors, so that nothing was.
     pub tried: usize,
@@ -94,8 +94,8 @@ fn unit_error(pitch: f64) -> f64 {
     1e-3 * pitch
 }
 
-/// The least and the largest multiple of a property of the ply up to which a scene along its motion is accepted; `of` is the error of that
-/// property. Another ply hangs otherwise in the air from the start on, so each is draped from there. None if it was stopped.
+/// The least and the largest multiple of a property of the ply with which a scene along its motion is accepted; `of` is the error of that
+/// property. What is refused at one multiple is taken to be refused at those beyond it. Another ply hangs otherwise in the air from the start on, so each is draped from there. None if it was stopped.
 fn range(
     scene: &Scene,
     of: impl Fn(RelativeError) -> MaterialError + Sync,
@@ -108,14 +108,18 @@ fn range(
         Some(draped(&other, None, watch.stop)?.judged.accepted())
     };
     let end = |power: f64| {
-        let mut last = 1.0;
-        for multiple in MULTIPLES.map(|multiple| multiple.powf(power)) {
-            if !keeps(multiple)? {
-                break;
+        let multiples = [1.0].into_iter().chain(MULTIPLES).map(|multiple| multiple.powf(power));
+        let multiples: Vec<f64> = multiples.collect();
+        let [mut kept, mut refused] = [0, multiples.len()];
+        while refused - kept > 1 {
+            let next = usize::midpoint(kept, refused);
+            if keeps(multiples[next])? {
+                kept = next;
+            } else {
+                refused = next;
             }
-            last = multiple;
         }
-        Some(last)
+        Some(multiples[kept])
     };
     let (least, most) = rayon::join(|| end(-1.0), || end(1.0));
     Some([least?, most?])
