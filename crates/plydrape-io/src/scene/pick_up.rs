@@ -36,7 +36,7 @@ pub(super) fn pick_up(
     }
 
     // the table, and times and heights of the pick-up
-    let (height, obstacle) = on(keys, span, layup, document)?;
+    let (height, obstacle) = table_of(keys, span, layup, document)?;
     let mut pick_up = PickUp {
         height,
         clearance: read_or(&keys.clearance, CLEARANCE, document)?,
@@ -88,7 +88,7 @@ pub(super) fn pick_up(
 }
 
 /// The height of the table (m), and which obstacle it is.
-fn on(
+fn table_of(
     keys: &PickUpTable,
     span: &std::ops::Range<usize>,
     layup: &Layup,

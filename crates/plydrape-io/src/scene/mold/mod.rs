@@ -7,8 +7,8 @@ mod plane;
 mod round;
 
 use super::file::{MoldKind, MoldTable};
-use super::heading::pose;
 use super::located::Located;
+use super::pose::pose;
 use super::source::Document;
 use crate::Error;
 use plydrape::mold::{MeshReport, Mold, Pose};
