@@ -198,7 +198,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Error::file(self.file, format!("{}, line {line}: {message}", self.file), help)
     }
 
-    /// The numbers of an attribute, or those that stand for it.
+    /// The numbers of an attribute, or `usual` ones where the node does not have it.
     fn numbers<const N: usize>(
         &self,
         node: Node,

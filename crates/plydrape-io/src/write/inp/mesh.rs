@@ -1,6 +1,6 @@
 //! The flat ply in quadratic shells of eight nodes: rectangles along its fibers, squares or nearly so.
 //!
-//! Corners of elements stand where lines along u and along v cross, and every gripper on lines of both. Between
+//! Corners of elements are where lines along u and along v cross, and every gripper is on lines of both. Between
 //! the grippers of an array the lines divide each cell evenly, and the elements are the rectangle of all cells. A ply that is cut has
 //! the elements of which half or more is ply, and those that grippers hold. Nodes lie on a grid of half an element's side, without the middles
 //! of the elements. Numbers count from 1, along u first.
@@ -29,7 +29,7 @@ pub(super) struct Mesh {
     /// Lowest corner of each element in this grid.
     corners: Vec<[usize; 2]>,
     /// Whether it is a strip with one line of grippers, which hold it across its whole width.
-    strip: bool,
+    pub strip: bool,
     /// Longest sides of an element (m).
     pub side: [f64; 2],
 }
@@ -112,11 +112,6 @@ impl Mesh {
     /// Number of elements.
     pub fn count(&self) -> usize {
         self.corners.len()
-    }
-
-    /// Whether the ply is a strip with one line of grippers.
-    pub fn strip(&self) -> bool {
-        self.strip
     }
 
     /// Number of nodes.

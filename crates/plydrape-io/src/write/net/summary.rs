@@ -118,13 +118,13 @@ pub struct ShearPlace {
 }
 
 impl Summary {
-    /// Of a net and what is found of it, with the largest shear allowed (rad), if there is a limit.
+    /// A net and what is found of it in a few numbers, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
     pub fn new(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
-        let (layup, report) = (&net.placement, &net.report);
+        let (placement, report) = (&net.placement, &net.report);
         let boundary = findings.boundary.as_ref().map(BoundarySummary::new);
-        let hair = HAIR * layup.mesh[0].min(layup.mesh[1]);
-        let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies(hair));
+        let hair = HAIR * placement.mesh[0].min(placement.mesh[1]);
+        let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies_on_mold(hair));
         let all = net.missing.is_empty() && lies;
         let within = match (report.largest_shear, shear_limit) {
             (Some((largest, _)), Some(limit)) => largest <= limit,
@@ -132,12 +132,12 @@ impl Summary {
         };
         Summary {
             accepted: all && within,
-            nodes: layup.nodes,
-            mesh: layup.mesh,
-            generators: layup.generators,
-            edges: layup.edges,
-            seed: layup.seed,
-            seed_place: layup.place,
+            nodes: placement.nodes,
+            mesh: placement.mesh,
+            generators: placement.generators,
+            edges: placement.edges,
+            seed: placement.seed,
+            seed_place: placement.place,
             max_shear_deg: report.largest_shear.map(|(largest, _)| largest.to_degrees()),
             max_shear_at: report.largest_shear.and_then(|(_, cell)| ShearPlace::new(net, cell)),
             mean_shear_deg: report.mean_shear.to_degrees(),
@@ -173,7 +173,7 @@ impl Summary {
             ("mesh", format!("{} × {} mm, measured {edges}", mm(du), mm(dv))),
             (
                 "generators",
-                format!("{generators}, from node [{i}, {j}] at {} mm", at(self.seed_place)),
+                format!("{generators}, from node [{i}, {j}] at {} mm", place_text(self.seed_place)),
             ),
         ];
 
@@ -183,7 +183,10 @@ impl Summary {
                 let (u, v) = (mm(*u), mm(*v));
                 lines.push((
                     "largest shear",
-                    format!("{largest:.2}° at u = {u} mm, v = {v} mm, which is {} mm", at(*place)),
+                    format!(
+                        "{largest:.2}° at u = {u} mm, v = {v} mm, which is {} mm",
+                        place_text(*place)
+                    ),
                 ));
                 lines.push(("mean shear", format!("{:.2}°", self.mean_shear_deg)));
             }
@@ -277,7 +280,11 @@ impl Summary {
             let (place, far) = trim.farthest_wanted;
             lines.push((
                 "",
-                format!("{} mm from the target boundary at most, at {} mm", mm(far), at(place)),
+                format!(
+                    "{} mm from the target boundary at most, at {} mm",
+                    mm(far),
+                    place_text(place)
+                ),
             ));
             if trim.not_compared > 0.0 {
                 lines.push((
@@ -326,8 +333,8 @@ impl Summary {
         if self.off_mold > 0 {
             faults.push(format!("{} of its nodes lie beyond the mold's boundary", self.off_mold));
         }
-        if self.folded == 0 && self.off_mold == 0 && !faults_of(self.boundary.as_ref()).is_empty() {
-            faults.push(faults_of(self.boundary.as_ref()));
+        if self.folded == 0 && self.off_mold == 0 {
+            faults.extend(self.boundary.as_ref().and_then(BoundarySummary::fault));
         }
         match (self.max_shear_deg, self.shear_limit_deg) {
             (Some(largest), Some(limit)) if largest > limit => {
@@ -367,20 +374,19 @@ impl BoundarySummary {
         }
     }
 
-    /// Whether all of the ply lies on the mold, a hair (m) apart.
-    fn lies(&self, hair: f64) -> bool {
+    /// Whether all of the ply lies on the mold, but for a hair (m).
+    fn lies_on_mold(&self, hair: f64) -> bool {
         self.farthest_beyond <= hair && self.folded_length == 0.0 && self.folded_area == 0.0
     }
-}
 
-/// What of a ply without missing nodes does not lie on the mold; empty if all does.
-fn faults_of(boundary: Option<&BoundarySummary>) -> String {
-    match boundary {
-        Some(b) if b.folded_length > 0.0 || b.folded_area > 0.0 => "the ply folds".into(),
-        Some(b) if b.farthest_beyond > 0.0 => {
-            format!("the ply reaches {} mm beyond the mold's boundary", mm(b.farthest_beyond))
+    /// What of a ply without missing nodes does not lie on the mold; `None` if all does.
+    fn fault(&self) -> Option<String> {
+        if self.folded_length > 0.0 || self.folded_area > 0.0 {
+            return Some("the ply folds".into());
         }
-        _ => String::new(),
+        (self.farthest_beyond > 0.0).then(|| {
+            format!("the ply reaches {} mm beyond the mold's boundary", mm(self.farthest_beyond))
+        })
     }
 }
 
@@ -419,7 +425,7 @@ fn missing_text(count: usize, first: &Missing) -> String {
     let text = format!("{count} nodes; next to the seed [{i}, {j}]");
     match (first.beyond, first.near) {
         (Some(beyond), _) => format!("{text}, {:.1} mm beyond the boundary", beyond * 1e3),
-        (None, Some(near)) => format!("{text} at {} mm", at(near)),
+        (None, Some(near)) => format!("{text} at {} mm", place_text(near)),
         (None, None) => text,
     }
 }
@@ -440,7 +446,7 @@ fn square_millimeters(area: f64) -> String {
 }
 
 /// A place in millimeters, to a tenth.
-fn at(place: [f64; 3]) -> String {
+fn place_text(place: [f64; 3]) -> String {
     let [x, y, z] = place.map(|c| (c * 1e4).round() / 10.0 + 0.0);
     format!("({x}, {y}, {z})")
 }
