@@ -39,8 +39,8 @@ const ROUNDING: f64 = 1e-12;
 const MOST_GRIPPERS: usize = 1000;
 /// Most grippers that are no array along the yarns: those of a whole array.
 const MOST_HELD: usize = MOST_GRIPPERS * MOST_GRIPPERS;
-/// Smallest and largest fabric length of a cell (m), as in scenes.
-const CELLS: [f64; 2] = [1e-6, 1e4];
+/// Smallest and largest size of a cell, a mesh, an overhang or a pad (m), as in scenes.
+const SIZES: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest length factor of a ply: an error of its length leaves a tenth at least.
 const LENGTH_FACTORS: [f64; 2] = [0.1, 10.0];
 
@@ -56,7 +56,7 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
         return Some(format!("there is no ply of {nu} × {nv} grippers"));
     }
     let [a, b] = scene.ply.cell;
-    if ![a, b].iter().all(|side| (CELLS[0]..=CELLS[1]).contains(side)) {
+    if ![a, b].iter().all(|side| (SIZES[0]..=SIZES[1]).contains(side)) {
         return Some(format!("there is no cell of {a} × {b} m"));
     }
     let longer = scene.ply.length_factor;
@@ -98,6 +98,12 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     let lengths = [sheet.mesh.unwrap_or(0.0), sheet.overhang, pad.radius];
     if lengths.iter().chain(&[friction, contact.tack]).any(|value| *value < 0.0) {
         return Some("mesh, overhang, pads, friction and tack must not be negative".into());
+    }
+    // the lines of a sheet are made of these
+    if sheet.mesh.is_some_and(|mesh| !(SIZES[0]..=SIZES[1]).contains(&mesh))
+        || sheet.overhang.max(pad.radius) > SIZES[1]
+    {
+        return Some("mesh, overhang and pads must have sizes that a scene may have".into());
     }
     if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
         return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
@@ -197,7 +203,7 @@ fn of_net(scene: &SceneEcho) -> Option<String> {
     let cells = nodes.map(|_| (nu - 1) * (nv - 1));
     let seed = (0..2).all(|n| net.placement.seed[n] < net.placement.nodes[n]);
     let missing = net.missing.iter().all(|m| m.node[0] < nu && m.node[1] < nv);
-    let mesh = net.placement.mesh.iter().all(|width| (CELLS[0]..=CELLS[1]).contains(width));
+    let mesh = net.placement.mesh.iter().all(|width| (SIZES[0]..=SIZES[1]).contains(width));
     if nodes != Some(net.nodes.len())
         || cells != Some(net.shear.len())
         || !seed

@@ -17,7 +17,9 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
         let label = name.measure().label();
         return Some(format!("it says that {label} is kept, which is {value} against {limit}"));
     }
-    let layup = layup(result);
+    // limits apply to a layup and need no motion
+    let motion = Motion { times: Vec::new(), positions: Vec::new() };
+    let layup = Layup { motion, ..result.layup() };
     Name::ALL.iter().find_map(|name| {
         let limit = name.measure().limit(&layup, &result.scene.limits)?;
         of_limit(
@@ -62,21 +64,5 @@ fn of_limit(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
             format!("it says that {label} is kept, which a step has at {value} against {}", v.limit)
         }),
         Some(_) => None,
-    }
-}
-
-/// The layup that the limits apply to; it needs no motion.
-fn layup(result: &ResultFile) -> Layup {
-    let scene = &result.scene;
-    Layup {
-        ply: scene.ply.clone(),
-        mold: scene.mold.clone(),
-        motion: Motion { times: Vec::new(), positions: Vec::new() },
-        target: scene.target.clone(),
-        settings: scene.settings,
-        bodies: scene.bodies.clone(),
-        tool: scene.tool.clone(),
-        release: scene.release.clone(),
-        pick_up: scene.pick_up,
     }
 }

@@ -38,7 +38,7 @@ pub struct SheetSize {
 }
 
 impl SheetSize {
-    /// That of the sheet of a scene.
+    /// The size of the sheet of a scene.
     ///
     /// # Errors
     /// [`Error`] if the scene has no sheet, or one that is too large.

@@ -211,10 +211,10 @@ impl Program {
                 return Err(Error::not_possible(message, "leave one of them out of the motion"));
             }
         }
-        let near = |pose: &Pose| {
+        let is_finite = |pose: &Pose| {
             pose.position.iter().chain(pose.axes.as_flattened()).all(|x| x.is_finite())
         };
-        let poses = |poses: &Vec<Pose>| poses.len() == count && poses.iter().all(near);
+        let poses = |poses: &Vec<Pose>| poses.len() == count && poses.iter().all(is_finite);
         let numbers = |axis: &Axis| {
             axis.values.len() == count && axis.values.iter().all(|value| value.is_finite())
         };

@@ -121,14 +121,13 @@ impl Robot {
     /// Whether a file of the program holds what is measured in a cell, so that an export leaves it as it is where it exists.
     #[must_use]
     pub fn is_of_cell(self, file: &str, templates: &[Template]) -> bool {
-        let endings = match self {
+        let ending = match self {
             Robot::Rapid => "_cell.mod",
             Robot::Krl => ".dat",
             Robot::Urscript => "_cell.script",
         };
-        let own =
-            templates.iter().any(|template| template.name.ends_with(&format!("{endings}.j2")));
-        file.ends_with(endings) && !own
+        let own = templates.iter().any(|template| template.name.ends_with(&format!("{ending}.j2")));
+        file.ends_with(ending) && !own
     }
 
     /// What its controller takes. For a number of points none of the makers states a limit, so 5000 to a file is a number
