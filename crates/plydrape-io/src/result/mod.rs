@@ -194,12 +194,12 @@ impl ResultFile {
     ) -> Result<Self, Error> {
         let Planned { outcome, record, motion, attitudes, .. } = planned;
         let result = ResultFile::of_outcome(scene, input, outcome, dir)?;
-        Ok(result.along(record, motion, attitudes))
+        Ok(result.with_plan(record, motion, attitudes))
     }
 
     /// This result as that of a plan, with the motion that was judged.
     #[must_use]
-    pub(crate) fn along(
+    pub(crate) fn with_plan(
         self,
         record: PlanRecord,
         motion: TimedMotion,

@@ -11,7 +11,7 @@
 
 use crate::Error;
 use crate::store::manifest::{Manifest, NAME as MANIFEST, Stamp, Stamping};
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, DirEntry, File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -420,11 +420,12 @@ fn clear(stage: &Path) {
 /// Hidden folders of a folder with the name of a stage.
 fn hidden(dir: &Path) -> Vec<PathBuf> {
     let Ok(entries) = fs::read_dir(dir) else { return Vec::new() };
-    let named = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        name.starts_with(STAGE) && path.is_dir()
+    // a link with such a name may lead to a folder of the user's
+    let is_stage = |entry: &DirEntry| {
+        entry.file_name().to_string_lossy().starts_with(STAGE)
+            && entry.file_type().is_ok_and(|kind| kind.is_dir())
     };
-    entries.filter_map(|entry| Some(entry.ok()?.path())).filter(named).collect()
+    entries.filter_map(Result::ok).filter(is_stage).map(|entry| entry.path()).collect()
 }
 
 /// Who writes into a folder, as far as that is known.

@@ -335,6 +335,21 @@ fn stages_of_dead_runs_are_cleared() {
     assert!(!dead.exists() && !empty.exists() && mine.exists());
 }
 
+/// What a link with the name of a stage leads to is not cleared, even where it holds a file with the name of an owner's.
+#[cfg(unix)]
+#[test]
+fn a_link_with_the_name_of_a_stage_is_not_followed() {
+    let home = tempfile::tempdir().unwrap();
+    let [dir, mine] = ["out", "mine"].map(|name| home.path().join(name));
+    for folder in [&dir, &mine] {
+        fs::create_dir(folder).unwrap();
+    }
+    fs::write(mine.join(OWNER), "me").unwrap();
+    std::os::unix::fs::symlink(&mine, dir.join(".plydrape-link")).unwrap();
+    write(&dir, "simulate", &[("a", b"1")], &[]).unwrap();
+    assert_eq!(names(&mine), [OWNER]);
+}
+
 /// A kill between two renames leaves a list without a seal; a whole run seals it again, an addition does not.
 #[test]
 fn the_seal_comes_last() {

@@ -43,7 +43,7 @@ impl Default for Manifest {
 }
 
 impl Stamp {
-    /// That of all that is left to read.
+    /// The stamp of all that is left to read.
     pub(crate) fn read(mut content: impl io::Read) -> io::Result<Self> {
         let mut stamping = Stamping::new(io::sink());
         io::copy(&mut content, &mut stamping)?;

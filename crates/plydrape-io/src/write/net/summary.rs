@@ -1,6 +1,7 @@
 //! A net in a few numbers, judged: what `plydrape net` prints as a table or as JSON.
 
 use super::Findings;
+use crate::store::shown::millimeters;
 use plydrape::net::{
     Boundary, EdgeRule, Generators, Missing, Net, PlyPoint, Reason, Seeds, SharpEdges, Trim,
 };
@@ -170,7 +171,7 @@ impl Summary {
         };
         let mut lines = vec![
             ("nodes", format!("{nu} × {nv}, {} on the mold", self.placed)),
-            ("mesh", format!("{} × {} mm, measured {edges}", mm(du), mm(dv))),
+            ("mesh", format!("{} × {} mm, measured {edges}", millimeters(du), millimeters(dv))),
             (
                 "generators",
                 format!("{generators}, from node [{i}, {j}] at {} mm", place_text(self.seed_place)),
@@ -180,7 +181,7 @@ impl Summary {
         // its shear, and how exactly its edges have their length
         match (self.max_shear_deg, &self.max_shear_at) {
             (Some(largest), Some(ShearPlace { u, v, place, .. })) => {
-                let (u, v) = (mm(*u), mm(*v));
+                let (u, v) = (millimeters(*u), millimeters(*v));
                 lines.push((
                     "largest shear",
                     format!(
@@ -267,7 +268,11 @@ impl Summary {
         if let Some(trim) = &self.trim {
             let most = |place: &Option<plydrape::net::TrimPlace>, side: &str| match place {
                 Some(place) => {
-                    format!("{} mm {side} at most, at {}", mm(place.error.abs()), of_ply(&place.at))
+                    format!(
+                        "{} mm {side} at most, at {}",
+                        millimeters(place.error.abs()),
+                        of_ply(&place.at)
+                    )
                 }
                 None => format!("nowhere {side}"),
             };
@@ -275,14 +280,18 @@ impl Summary {
             lines.push(("", most(&trim.short, "short")));
             lines.push((
                 "",
-                format!("{} mm on the mean of {} mm", mm(trim.mean), tenths(trim.compared)),
+                format!(
+                    "{} mm on the mean of {} mm",
+                    millimeters(trim.mean),
+                    tenths(trim.compared)
+                ),
             ));
             let (place, far) = trim.farthest_wanted;
             lines.push((
                 "",
                 format!(
                     "{} mm from the target boundary at most, at {} mm",
-                    mm(far),
+                    millimeters(far),
                     place_text(place)
                 ),
             ));
@@ -385,7 +394,10 @@ impl BoundarySummary {
             return Some("the ply folds".into());
         }
         (self.farthest_beyond > 0.0).then(|| {
-            format!("the ply reaches {} mm beyond the mold's boundary", mm(self.farthest_beyond))
+            format!(
+                "the ply reaches {} mm beyond the mold's boundary",
+                millimeters(self.farthest_beyond)
+            )
         })
     }
 }
@@ -428,11 +440,6 @@ fn missing_text(count: usize, first: &Missing) -> String {
         (None, Some(near)) => format!("{text} at {} mm", place_text(near)),
         (None, None) => text,
     }
-}
-
-/// Millimeters, to a thousandth.
-fn mm(meters: f64) -> String {
-    format!("{}", (meters * 1e6).round() / 1e3 + 0.0)
 }
 
 /// Millimeters, to a tenth.
