@@ -217,6 +217,17 @@ impl Reader<'_> {
         let offset = self.shift(&table.offset, other.offset)?;
         let wavelength = read_or(&table.wavelength, other.wavelength, self.document)?;
         let largest = STEEPEST_WAVES * wavelength;
+        // the cell may have said how high the waves are, for longer ones
+        if let (None, Some(length)) = (&table.waviness, &table.wavelength)
+            && other.waviness.value() > largest
+        {
+            let least = millimeters(other.waviness.value() / STEEPEST_WAVES);
+            return Err(self.document.error(
+                length.span.clone(),
+                "the waviness of the cell is too large for waves of this length",
+                format!("expected {least} mm or more: waviness is at most 2 % of the wavelength; or write `waviness` here too"),
+            ));
+        }
         let waviness = match (&table.waviness, &table.wavelength) {
             (Some(term), None) if wavelength == 0.0 => {
                 let waviness =

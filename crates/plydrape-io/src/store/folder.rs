@@ -10,6 +10,7 @@
 //! runs that were killed have left is cleared by the next one.
 
 use crate::Error;
+use crate::store::input;
 use crate::store::manifest::{Manifest, NAME as MANIFEST, Stamp, Stamping};
 use std::fs::{self, DirEntry, File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -21,6 +22,9 @@ const STAGE: &str = ".plydrape-";
 
 /// The file of a stage that says whose it is.
 const OWNER: &str = "owner";
+
+/// Largest text of an owner that is read (bytes).
+const LARGEST_OWNER: u64 = 1 << 10;
 
 /// Files by plain name, with their contents.
 pub type Files = Vec<(String, Vec<u8>)>;
@@ -430,7 +434,7 @@ fn hidden(dir: &Path) -> Vec<PathBuf> {
 
 /// Who writes into a folder, as far as that is known.
 fn owner(dir: &Path) -> String {
-    let read = |stage: &PathBuf| fs::read_to_string(stage.join(OWNER)).ok();
+    let read = |stage: &PathBuf| input::text(&stage.join(OWNER), LARGEST_OWNER).ok();
     hidden(dir).iter().find_map(read).unwrap_or_else(|| "another run".into())
 }
 

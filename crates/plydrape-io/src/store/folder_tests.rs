@@ -152,6 +152,16 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     }
 }
 
+/// A list that never ends is not read.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_list_that_is_a_device_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/dev/zero", dir.path().join(MANIFEST)).unwrap();
+    let fault = write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap_err();
+    assert!(fault.to_string().contains("not a regular file"), "{fault}");
+}
+
 /// A link to a file elsewhere is not ours, whatever it leads to.
 #[cfg(unix)]
 #[test]
