@@ -23,7 +23,7 @@ const ENDLESS: f64 = 1e3;
 /// The arm of a robot.
 #[derive(Debug)]
 pub struct Urdf {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The turning joints from foot to flange.
     pub joints: [Joint; JOINTS],

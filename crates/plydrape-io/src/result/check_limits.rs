@@ -22,7 +22,7 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let layup = Layup { motion, ..result.layup() };
     Name::ALL.iter().find_map(|name| {
         let limit = name.measure().limit(&layup, &result.scene.limits)?;
-        of_limit(
+        limit_fault(
             result,
             *name,
             if *name == Name::Sensitivity { sensitivity(result, limit) } else { limit },
@@ -40,7 +40,7 @@ fn sensitivity(result: &ResultFile, least: f64) -> f64 {
 }
 
 /// What is impossible in the verdict on a measure with a limit of its scene (in the measure's own unit).
-fn of_limit(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
+fn limit_fault(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
     let measure = name.measure();
     let label = measure.label();
     let values = || result.steps.iter().filter_map(|step| step.measures.value(name));

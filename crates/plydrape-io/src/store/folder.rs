@@ -281,7 +281,7 @@ impl Staged {
         Ok(paths.pop().unwrap_or_default())
     }
 
-    /// The same files, ready to come into another folder.
+    /// Moves the staged files to another folder, into which they are then ready to come.
     ///
     /// # Errors
     /// As [`Folder::write`].

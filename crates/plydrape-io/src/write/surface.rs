@@ -271,7 +271,7 @@ mod tests {
         let lines = lines(&result, step, &result.curves(step), n);
         let at = &graph.cells()[1];
         let cell = cell(&graph, at, &lines, n);
-        let on = |s: usize, t: usize| cell[t * (n + 1) + s];
+        let node = |s: usize, t: usize| cell[t * (n + 1) + s];
         let near = |a: Point, b: Point| {
             assert!((0..3).all(|c| (a[c] - b[c]).abs() < 1e-12), "{a:?} {b:?}");
         };
@@ -289,12 +289,12 @@ mod tests {
                 near(on_cell(k), *point);
             }
         };
-        each(c0, &|k| on(k, 0));
-        each(c1, &|k| on(k, n));
-        each(d0, &|k| on(0, k));
-        each(d1, &|k| on(n, k));
-        each(rising, &|k| on(k, k));
-        each(falling, &|k| on(n - k, k));
+        each(c0, &|k| node(k, 0));
+        each(c1, &|k| node(k, n));
+        each(d0, &|k| node(0, k));
+        each(d1, &|k| node(n, k));
+        each(rising, &|k| node(k, k));
+        each(falling, &|k| node(n - k, k));
     }
 
     /// Stations of a plain line are equally spaced, whatever the spacing of its points.

@@ -100,10 +100,10 @@ impl Blocks {
             for n in 0..block.points.len() {
                 let sample = block.points[n].sample;
                 if let Some(next) = block.points.get(n + 1).map(|next| next.sample) {
-                    let (radius, off) =
+                    let (radius, distance) =
                         zone(track, [from, sample, next], tolerance.position, radii);
                     block.points[n].radius = radius;
-                    corner = corner.max(off);
+                    corner = corner.max(distance);
                 }
                 from = sample;
             }
@@ -160,7 +160,7 @@ const WIDER: f64 = 1.6;
 fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> (f64, f64) {
     let lengths = [track.distance(from, at), track.distance(at, to)];
     let half = 0.5 * lengths[0].min(lengths[1]);
-    let off = |radius: f64| {
+    let distance = |radius: f64| {
         let shares = |radius: f64| {
             let within = radius.min(half);
             lengths.map(|length| if length > 0.0 { within / length } else { 0.0 })
@@ -198,7 +198,8 @@ fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> 
         let own = if track.program.pads.is_empty() { own } else { 0.0 };
         pads.fold(center.max(own), f64::max) + late
     };
-    let fits = radii.iter().skip(1).rev().find(|radius| **radius <= half && off(**radius) <= most);
+    let fits =
+        radii.iter().skip(1).rev().find(|radius| **radius <= half && distance(**radius) <= most);
     let radius = fits.or(radii.first()).copied().unwrap_or_default();
-    (radius, off(radius))
+    (radius, distance(radius))
 }

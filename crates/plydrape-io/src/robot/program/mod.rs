@@ -90,9 +90,9 @@ pub struct Axis {
     pub gripper: GripperId,
     /// Where it is at each time (m).
     pub values: Vec<f64>,
-    /// Its ends (m), where they are known.
+    /// Least and largest value (m), where they are known.
     pub stroke: Option<[f64; 2]>,
-    /// Its largest speed (m/s).
+    /// Largest speed (m/s).
     pub speed: f64,
 }
 

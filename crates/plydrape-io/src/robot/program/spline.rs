@@ -160,8 +160,8 @@ impl Track<'_> {
     /// The sample nearest to the middle of the way between two, if there is one.
     fn halfway(&self, a: usize, b: usize) -> Option<usize> {
         let shares = self.shares(a, b);
-        let off = |k: &usize| (shares[k - a - 1] - 0.5).abs();
-        (a + 1..b).min_by(|p, q| off(p).total_cmp(&off(q)))
+        let from_middle = |k: &usize| (shares[k - a - 1] - 0.5).abs();
+        (a + 1..b).min_by(|p, q| from_middle(p).total_cmp(&from_middle(q)))
     }
 }
 

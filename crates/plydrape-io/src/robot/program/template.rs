@@ -29,7 +29,7 @@ pub enum Robot {
 pub struct Template {
     /// Name of its file; behind the ending `.j2` stands that of what it makes, as in `cell.src.j2`.
     pub name: String,
-    /// Its text.
+    /// Text.
     pub text: String,
 }
 
@@ -63,7 +63,7 @@ impl Robot {
     /// All of them.
     pub const ALL: [Robot; 3] = [Robot::Rapid, Robot::Krl, Robot::Urscript];
 
-    /// Its name on the command line, which is that of its folder too.
+    /// Name on the command line and of the folder of templates.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -73,7 +73,7 @@ impl Robot {
         }
     }
 
-    /// Its maker, by whose name it is known too.
+    /// Name of the maker, another name of the controller on the command line.
     #[must_use]
     pub const fn maker(self) -> &'static str {
         match self {

@@ -134,9 +134,9 @@ impl Mesh {
     /// The point of the grid nearest to a fabric point (m).
     fn nearest(&self, place: [f64; 2]) -> [usize; 2] {
         [0, 1].map(|c| {
-            let off = |n: &usize| (self.grid[c][*n] - place[c]).abs();
+            let distance = |n: &usize| (self.grid[c][*n] - place[c]).abs();
             let points = 0..self.grid[c].len();
-            points.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
+            points.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
         })
     }
 

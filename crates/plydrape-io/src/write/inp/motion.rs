@@ -23,7 +23,7 @@ pub(super) const LOAD: f64 = 0.1;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
     pub id: GripperId,
-    /// Its fabric point (m).
+    /// Fabric point that the gripper holds (m).
     pub place: [f64; 2],
     /// Displacement from the flat ply (m) at every time of [`Tracks::times`].
     pub moves: Vec<[f64; 3]>,
