@@ -12,6 +12,9 @@ use plydrape::geometry::vector::distance;
 /// Rounds in which points are added; each halves the ways that need it.
 const ROUNDS: usize = 24;
 
+/// Shortest way between two points (m), also of a turn in place: the squares of its inverse are finite.
+const LEAST_WAY: f64 = 1e-9;
+
 /// Adds points between the `stops`, which are among those that are `kept`, and returns the largest error that is left: where the splines pass
 /// the motion.
 pub(super) fn refine(
@@ -77,10 +80,10 @@ fn errors(track: &Track, run: &[usize]) -> Vec<Deviation> {
         let last = knots[knots.len() - 1];
         // where the center stands and an axis moves, the way is that of the axis
         let way = match track.distance(pair[0], pair[1]) {
-            0.0 => track.movement(pair[0], pair[1]).position.max(f64::MIN_POSITIVE),
+            0.0 => track.movement(pair[0], pair[1]).position,
             way => way,
         };
-        knots.push(last + way.max(1e-9 * last));
+        knots.push(last + way.max(LEAST_WAY).max(1e-9 * last));
     }
     let splines = [cubic(&knots, &rows), quintic(&knots, &rows)];
     let on_way = |n: usize| {
