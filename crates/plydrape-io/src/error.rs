@@ -351,7 +351,7 @@ impl Fault {
 #[must_use]
 pub fn bytes(size: f64) -> String {
     let units = [("TB", 1e12), ("GB", 1e9), ("MB", 1e6)];
-    let (unit, of) = units.into_iter().find(|(_, of)| size >= *of).unwrap_or(("kB", 1e3));
-    let value = size / of;
+    let (unit, bytes) = units.into_iter().find(|(_, bytes)| size >= *bytes).unwrap_or(("kB", 1e3));
+    let value = size / bytes;
     if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
 }

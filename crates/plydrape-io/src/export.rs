@@ -7,8 +7,7 @@ use crate::Error;
 use crate::result::ResultFile;
 use crate::robot::program::{Program, Robot, Template, Tolerance, cam, template, wide};
 use crate::robot::ros2;
-use crate::store::folder;
-use crate::store::folder::Files;
+use crate::store::folder::{self, Files};
 use crate::write::{csv, inp, ngsolve, pattern, vtk};
 use std::path::{Path, PathBuf};
 
@@ -67,20 +66,23 @@ pub struct Options {
     pub templates: Vec<Template>,
 }
 
-/// Longest motion (s) and largest tables of one (bytes) that are written without request.
-const UNASKED: [f64; 2] = [600.0, 50e6];
+/// Longest motion that is written without request (s).
+const LONGEST: f64 = 600.0;
+
+/// Largest tables of a motion that are written without request (bytes).
+const LARGEST: f64 = 50e6;
 
 /// Bytes of a gripper in a row of the tables of a motion, about.
 const ROW: f64 = 220.0;
 
-/// Why what holds a planned motion sample by sample is only written on request: it takes more than ten minutes or would have more than 50 MB. `None` of any other
-/// result.
+/// Why files with all samples of a planned motion are only written on request: it takes more than ten minutes, or a table of it would have
+/// more than 50 MB. `None` of any other result.
 #[must_use]
 pub fn too_large(result: &ResultFile) -> Option<String> {
     let plan = result.plan.as_ref()?;
     let duration = result.motion().ok()??.motion.duration();
     let bytes = duration * plan.rate * result.scene.ply.grippers() as f64 * ROW;
-    let is_large = duration > UNASKED[0] || bytes > UNASKED[1];
+    let is_large = duration > LONGEST || bytes > LARGEST;
     is_large.then(|| {
         format!(
             "the motion takes {duration:.0} s, and its samples would have some {:.0} MB",

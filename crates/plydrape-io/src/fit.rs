@@ -255,23 +255,23 @@ fn placed(tables: &[Specimen], cause: Cause) -> Error {
     }
 }
 
-/// How a record is called in notes.
+/// What a record holds, in the words of notes.
 struct Words {
-    /// What is applied, and its unit with the size of that in SI units.
-    way: (&'static str, &'static str, f64),
-    /// What answers, in SI units.
+    /// What is applied, its unit, and that unit in SI units.
+    applied: (&'static str, &'static str, f64),
+    /// What answers, and its SI unit.
     load: (&'static str, &'static str),
-    /// What the law goes over.
+    /// The unit of what the law goes over, and that unit in SI units.
     reach: (&'static str, f64),
 }
 
 const SHEAR: Words = Words {
-    way: ("displacements", "mm", 1e-3),
+    applied: ("displacements", "mm", 1e-3),
     load: ("force", "N"),
     reach: ("deg", std::f64::consts::PI / 180.0),
 };
 const MOMENT: Words =
-    Words { way: ("curvatures", "1/m", 1.0), load: ("moment", "N"), reach: ("1/m", 1.0) };
+    Words { applied: ("curvatures", "1/m", 1.0), load: ("moment", "N"), reach: ("1/m", 1.0) };
 
 /// How different reaches and masses are named, as a share.
 const DIFFERENT: f64 = 0.05;
@@ -326,8 +326,8 @@ impl Fitted {
 
     /// Notes what is to be known of records.
     fn remark(&mut self, tables: &[Specimen], remarks: &[Vec<Remark>], words: &Words) {
-        let (way, unit, size) = words.way;
-        let (load, newton) = words.load;
+        let (applied, unit, size) = words.applied;
+        let (load, load_unit) = words.load;
         for ((name, table), remarks) in tables.iter().zip(remarks) {
             let lines = |points: [usize; 2]| match points.map(|point| table.line(point)) {
                 [first, last] if first == last => format!("line {first} is left out"),
@@ -336,7 +336,7 @@ impl Fitted {
             for remark in remarks {
                 let note = match *remark {
                     Remark::AfterPeak { points, peak } => format!(
-                        "{}, because the {load} has fallen from its peak of {} {newton}",
+                        "{}, because the {load} has fallen from its peak of {} {load_unit}",
                         lines(points),
                         short(peak)
                     ),
@@ -357,11 +357,11 @@ impl Fitted {
                         short(curvature)
                     ),
                     Remark::BeginsLate { first } => format!(
-                        "its {way} begin at {} {unit}, which is taken for the way from no load: see whether that is so",
+                        "its {applied} begin at {} {unit}, which is taken for the way from no load: see whether that is so",
                         short(first / size)
                     ),
                     Remark::LoadAtRest { load: value } => format!(
-                        "its first points lead to a {load} of {} {newton} before anything is deformed: see whether the load cell was set to zero",
+                        "its first points lead to a {load} of {} {load_unit} before anything is deformed: see whether the load cell was set to zero",
                         short(value)
                     ),
                 };
@@ -401,7 +401,7 @@ fn specimens(count: usize) -> String {
 }
 
 fn name(path: &Path) -> String {
-    crate::store::shown::path(path).to_string()
+    crate::store::shown::path(path)
 }
 
 /// Four digits.
@@ -414,14 +414,14 @@ fn short(value: f64) -> String {
     }
 }
 
-/// What an estimate's error is, in words; `of` are the specimens whose residuals say it.
-fn sure(estimate: &Estimate, unit: &str, of: &str) -> String {
+/// How sure an estimate is, in words; `specimens` are those whose residuals say it.
+fn sure(estimate: &Estimate, unit: &str, specimens: &str) -> String {
     let Some([low, high]) = estimate.interval() else {
         return "one specimen: how sure it is, is not known".into();
     };
     let from = match estimate.sure {
         Sure::Specimens(count) => format!("from {count} specimens"),
-        _ => format!("from the residuals of {of}"),
+        _ => format!("from the residuals of {specimens}"),
     };
     format!("95 % interval {} to {} {unit}, {from}", short(low), short(high))
 }

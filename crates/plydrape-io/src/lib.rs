@@ -15,6 +15,8 @@
 //! | [`robot`] | what a cell does over time: programs for controllers of robots, messages of ROS 2 |
 //! | [`page`] | the results page |
 //! | [`export`], [`fit`], [`plan`], [`replan`] | all exports by name, fitted materials, the files of a plan and of one whose ply lies elsewhere |
+//! | [`rerun`] | where a run that was interrupted writes, if an earlier one has left better results |
+//! | [`peer`] | a result beside the drape of its motion in another program |
 
 pub mod error;
 pub mod export;
@@ -61,13 +63,13 @@ pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, Error>
 
 /// The names of the files of [`write_all`], and of those that a plan has beside them.
 pub const NAMES: [&str; 7] = [
-    "result.json",
+    store::format::FILE,
     "steps.csv",
     "trajectory.csv",
     "report.html",
     result::sheet::NAME,
     "motion.csv",
-    "plan.json",
+    plan::FILE,
 ];
 
 /// The files among [`NAMES`] that a drape of a scene writes, or a plan of it.
@@ -112,7 +114,7 @@ pub fn stage_into(
     let [steps, trajectory, page] = [&steps, &trajectory, &page].map(|text| text.as_bytes());
     let motion = motion.as_ref().map(|motion| motion.as_bytes());
     let mut files: Vec<(&str, &dyn Content)> =
-        vec![("result.json", result), ("steps.csv", &steps), ("trajectory.csv", &trajectory)];
+        vec![(store::format::FILE, result), ("steps.csv", &steps), ("trajectory.csv", &trajectory)];
     files.extend(motion.as_ref().map(|motion| ("motion.csv", motion as &dyn Content)));
     files.push(("report.html", &page));
     files.extend(

@@ -21,6 +21,7 @@ pub const FILE: &str = "plan.json";
 /// Name of the checkpoint of a search that runs.
 pub const RUNNING: &str = "search.json";
 
+/// A plan file as it is written.
 #[derive(Serialize)]
 struct Written<'a> {
     format: &'static str,
@@ -30,12 +31,14 @@ struct Written<'a> {
     search: &'a Checkpoint,
 }
 
+/// What tells whether a plan file can be read.
 #[derive(Deserialize)]
 struct Head {
     format: String,
     version: u32,
 }
 
+/// A plan file as it is read.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Whole {
@@ -78,9 +81,9 @@ pub fn read(text: &str, scene: &SceneEcho) -> Result<Checkpoint, Error> {
             "it is of format `{format}`, version {version}, expected `{FORMAT}`, version {VERSION}"
         )));
     }
-    let Whole { scene: of, search, .. } = serde_json::from_str(text).map_err(json)?;
-    let same = of.map_or(Ok(true), |of| checksum(scene).map(|sum| sum == of))?;
-    Ok(if same { search } else { search.finished() })
+    let Whole { scene: own, search, .. } = serde_json::from_str(text).map_err(json)?;
+    let is_same = own.map_or(Ok(true), |own| checksum(scene).map(|sum| sum == own))?;
+    Ok(if is_same { search } else { search.finished() })
 }
 
 /// Writes the files of a plan's result with `motion.csv`, and `plan.json`, into a folder, all or none, and returns

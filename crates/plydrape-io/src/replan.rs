@@ -126,7 +126,7 @@ impl PlannedResult {
             files: result.files.clone(),
             motion: OnceLock::new(),
         };
-        Ok(corrected.along(record, motion, attitudes))
+        Ok(corrected.with_plan(record, motion, attitudes))
     }
 
     /// The states of the sheet, moved.
@@ -171,7 +171,7 @@ impl PlannedResult {
     }
 }
 
-/// A result that was simulated.
+/// Refuses a result that was not planned.
 fn not_planned() -> Error {
     Error::not_possible(
         "the result is not that of a plan: its motion is the scene's",

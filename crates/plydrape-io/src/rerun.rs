@@ -15,16 +15,17 @@ pub fn beside(folder: &Folder, is_better: impl Fn(&Path) -> bool) -> Result<Opti
     if is_better(folder.path()) {
         return Ok(None);
     }
-    for n in 1.. {
-        let number = if n > 1 { format!("-{n}") } else { String::new() };
-        match folder.claim_beside(&format!(".interrupted{number}")) {
+    let (mut ending, mut number) = (".interrupted".to_owned(), 1);
+    loop {
+        match folder.claim_beside(&ending) {
             Ok(other) if is_better(other.path()) => return Ok(Some(other)),
             // another interrupted run that is no worse, or that writes
             Ok(_) | Err(Error::Busy { .. }) => {}
             Err(fault) => return Err(fault),
         }
+        number += 1;
+        ending = format!(".interrupted-{number}");
     }
-    Ok(None)
 }
 
 /// Whether a result is better than that in a folder, which may have none. Results of different scenes cannot be compared, and one that cannot be

@@ -1,4 +1,4 @@
-//! Made-up results for the tests of this folder: parabolas between grippers that move to a sheared
+//! Made-up results for the tests of this crate: parabolas between grippers that move to a sheared
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
 use crate::result::sheet::{SheetKept, SheetSeal};
@@ -425,7 +425,7 @@ pub(crate) fn sample_verdict() -> SampleVerdict {
     }
 }
 
-/// Of the grippers' positions.
+/// Errors of the grippers' positions.
 fn errors() -> Errors {
     let mut errors = Errors::default();
     errors.gripper.position = plydrape::errors::Term::Deviation(1e-4);

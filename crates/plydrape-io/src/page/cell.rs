@@ -119,11 +119,7 @@ pub(super) fn origins(result: &ResultFile, steps: &[&Step], form: Form) -> Optio
 
 /// Where the links of the arm are in each step, in the configuration of the whole motion; nothing where the arm is not known.
 fn arm_links(result: &ResultFile, steps: &[&Step], postures: &[Posture]) -> Vec<Vec<Pose>> {
-    let Some(tool) = &result.scene.tool else { return Vec::new() };
-    let tool = match result.summary.tool.as_ref().and_then(|record| record.arm) {
-        Some(record) => tool.beginning_as(&record),
-        None => tool.clone(),
-    };
+    let Some(tool) = result.judged_tool() else { return Vec::new() };
     let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
     let course = tool.arm_along(&times, postures, &[]);
     course.iter().flat_map(|course| &course.angles).map(|angles| tool.links(angles)).collect()

@@ -51,7 +51,7 @@ pub(super) fn look(scene: &SceneFile) -> Look {
     let Layup { ply, mold, target, .. } = &scene.layup;
     let start = scene.layup.start();
     let net = target.as_ref().and_then(|target| target.drape.as_deref());
-    let on_table = OnTable::through(ply, start);
+    let on_table = FlatPly::through(ply, start);
     let on_mold = net.zip(mold.as_ref());
     let place = |uv| on_mold.and_then(|(net, mold)| net.place_or_node(mold, uv));
     let outline = on_mold.and_then(|(net, mold)| net.boundary(mold)).map(|boundary| {
@@ -68,7 +68,7 @@ pub(super) fn look(scene: &SceneFile) -> Look {
         outline: outline.unwrap_or_default(),
         warp: arrows.into_iter().flatten().collect(),
         targets: target.as_ref().map_or_else(Vec::new, |target| target.grippers.clone()),
-        off: off(scene, on_table.as_ref()),
+        off: left_off(scene, on_table.as_ref()),
     }
 }
 
@@ -93,7 +93,7 @@ fn arrow(ply: &Ply, place: impl Fn([f64; 2]) -> Option<[f64; 3]>) -> Vec<Vec<[f6
 }
 
 /// Places (m) of the cups that do not hold.
-fn off(scene: &SceneFile, on_table: Option<&OnTable>) -> Vec<[f64; 3]> {
+fn left_off(scene: &SceneFile, on_table: Option<&FlatPly>) -> Vec<[f64; 3]> {
     let (Some(cups), Some(table), Some(cut)) = (&scene.cups, on_table, &scene.layup.ply.cut) else {
         return Vec::new();
     };
@@ -101,14 +101,16 @@ fn off(scene: &SceneFile, on_table: Option<&OnTable>) -> Vec<[f64; 3]> {
 }
 
 /// The flat ply among its grippers: the map from fabric coordinates that is nearest to their places.
-struct OnTable {
+struct FlatPly {
+    /// Middle of the grippers in fabric coordinates (m).
     middle: [f64; 2],
+    /// Middle of the places of the grippers (m).
     origin: [f64; 3],
     /// What a place moves by along u and along v.
     along: [[f64; 3]; 2],
 }
 
-impl OnTable {
+impl FlatPly {
     /// Through the grippers of a ply at places (m); `None` for grippers in one line.
     fn through(ply: &Ply, places: &[[f64; 3]]) -> Option<Self> {
         let count = places.len() as f64;
@@ -135,7 +137,7 @@ impl OnTable {
         }
         let [p, q] = products;
         let solved = |s: f64, t: f64| [0, 1, 2].map(|n| (s * p[n] + t * q[n]) / determinant);
-        Some(OnTable { middle, origin, along: [solved(d, -b), solved(-b, a)] })
+        Some(FlatPly { middle, origin, along: [solved(d, -b), solved(-b, a)] })
     }
 
     fn place(&self, uv: [f64; 2]) -> [f64; 3] {
@@ -170,8 +172,8 @@ mod tests {
         ] {
             let (first, last) = (shaft[0], shaft[SHAFT]);
             assert!(distance(first, from) < 1e-9 && distance(last, head[1]) < 1e-9, "{first:?}");
-            let way = sub(last, first);
-            assert!((way[1].atan2(way[0]) - heading.to_radians()).abs() < 1e-9, "{way:?}");
+            let arrow = sub(last, first);
+            assert!((arrow[1].atan2(arrow[0]) - heading.to_radians()).abs() < 1e-9, "{arrow:?}");
         }
         let length = |line: &Vec<[f64; 3]>| -> f64 {
             line.windows(2).map(|pair| distance(pair[0], pair[1])).sum()

@@ -9,19 +9,20 @@ mod table;
 pub use table::table;
 pub(crate) use table::{cost, ends, percent};
 
+use crate::Error;
 use crate::result::ResultFile;
-use crate::store::{input, size};
-use crate::{Error, store::shown::name};
+use crate::store::{input, shown, size};
 use plydrape::geometry::vector::{dot, norm, sub};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// What drapes it, as tables and the page name it.
+/// The other program, as tables and the page name it.
 pub(crate) const NAME: &str = "NGSolve";
 /// Name of the file in the folder of the export.
 const FILE: &str = "drape.json";
-/// What the file begins with.
+/// Name of the format of the file.
 const FORMAT: &str = "plydrape-ngsolve-drape";
+/// Version of the format.
 const VERSION: u32 = 1;
 /// Largest file that is read (bytes).
 const LARGEST: u64 = 1 << 30;
@@ -47,18 +48,20 @@ pub struct PeerDrape {
 
 #[derive(Debug, Clone, Deserialize)]
 struct PeerTouch {
+    /// Time since the start (s).
     time: f64,
+    /// Fabric coordinates (m).
     place: [f64; 2],
 }
 
-/// The ply in a step; the last one is that at rest.
+/// The ply in a step, or at rest after the last one.
 #[derive(Debug, Clone, Deserialize)]
 struct PeerState {
     /// Of each node of the sheet (m); `None` for one beyond its mesh.
     positions: Vec<Option<[f64; 3]>>,
     /// Force of the ply on each cup (N).
     forces: Vec<[f64; 3]>,
-    /// Share of the area that lies.
+    /// Share of the area that lies on the mold.
     lies: f64,
 }
 
@@ -80,7 +83,7 @@ pub struct Compared {
     pub time: f64,
     /// Height of the lowest point (mm), in z.
     pub lowest_mm: Pair,
-    /// Share of the area that lies.
+    /// Share of the area that lies on the mold.
     pub lies: Pair,
     /// Largest shear angle of a cell of the sheet (°).
     pub shear_deg: Pair,
@@ -165,21 +168,21 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
     })?;
     let again = "export the result again with `plydrape export RESULT --to ngsolve`, and run drape.py there";
     if drape.result.as_deref() != Some(kept.seal().checksum.as_str()) {
-        let message = format!("the drape is not of the result {}", name(&result.scene.title));
+        let message =
+            format!("the drape is not of the result {}", shown::name(&result.scene.title));
         return Err(Error::not_possible(message, again));
     }
 
     // the drape must have every step, and in each every node and cup
+    let incomplete =
+        || Error::not_possible("the drape has not all steps, nodes and cups of the result", again);
     let mut states = kept.open()?;
     let (mesh, steps) = (states.mesh().clone(), result.steps.len());
     let nodes = mesh.places.len();
     let complete =
         |state: &PeerState| state.positions.len() == nodes && state.forces.len() == mesh.grippers;
     if drape.states.len() != steps + 1 || !drape.states.iter().all(complete) {
-        return Err(Error::not_possible(
-            "the drape has not all steps, nodes and cups of the result",
-            again,
-        ));
+        return Err(incomplete());
     }
 
     // height over the mold, where there is mold below, and the weight of nodes in means
@@ -198,6 +201,9 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
         let Some(ours) = states.state(n)? else { continue };
         let step = ours.step as usize;
         let is_last = n + 1 == states.states();
+        if step > steps {
+            return Err(incomplete());
+        }
         let theirs = &drape.states[if is_last { steps } else { step - 1 }];
 
         // nodes of the ply whose place the peer knows
@@ -207,6 +213,9 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
             .enumerate()
             .filter_map(|(n, place)| Some((n, (*place)?)).filter(|(n, _)| inside(*n)))
             .collect();
+        if known.is_empty() {
+            return Err(incomplete());
+        }
 
         // the distance of both drapes, as a mean over the area and at its largest
         let (mut square, mut area, mut farthest) = (0.0, 0.0, (0.0, 0));
@@ -267,8 +276,9 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
 
     // how high the ply at rest lies over the mold, as far as both drapes have nodes over it
     let limit = result.scene.limits.get(plydrape::measure::Name::Height).unwrap_or_default();
-    let pair = |of: &dyn Fn(&Heights) -> f64| {
-        let [plydrape, peer] = [0, 1].map(|n| (!heights[n].is_empty()).then(|| of(&heights[n])));
+    let pair = |measure: &dyn Fn(&Heights) -> f64| {
+        let [plydrape, peer] =
+            [0, 1].map(|n| (!heights[n].is_empty()).then(|| measure(&heights[n])));
         Pair { plydrape, peer }
     };
 
@@ -298,12 +308,12 @@ pub fn compare(result: &ResultFile, drape: &PeerDrape) -> Result<Comparison, Err
 type Heights = [(f64, f64)];
 
 /// Mean over the area of a function of the height.
-fn mean(heights: &Heights, of: impl Fn(f64) -> f64) -> f64 {
+fn mean(heights: &Heights, value: impl Fn(f64) -> f64) -> f64 {
     let area: f64 = heights.iter().map(|(area, _)| area).sum();
-    heights.iter().map(|(area, height)| area * of(*height)).sum::<f64>() / area
+    heights.iter().map(|(area, height)| area * value(*height)).sum::<f64>() / area
 }
 
-/// Shear angle (rad) of a cell, by its two mid-lines as in equation (19b).
+/// Shear angle (rad) of a cell, by its two mid-lines as in equation (19b) of docs/theory/sheet.md.
 fn shear(places: &[[f64; 3]], cell: &[u32; 4]) -> f64 {
     let [a, b, c, d] = cell.map(|n| places[n as usize]);
     let middle = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|n| 0.5 * (p[n] + q[n]));

@@ -96,7 +96,19 @@ fn what_cannot_be_compared_is_refused() {
     assert!(refused.to_string().contains("is not of the result"), "{refused}");
     let mut short = drape(&result);
     short.states.pop();
-    assert!(compare(&result, &short).unwrap_err().help().contains("--to ngsolve"));
+    let mut elsewhere = drape(&result);
+    elsewhere.states[1].positions.fill(None);
+    for incomplete in [&short, &elsewhere] {
+        let refused = compare(&result, incomplete).unwrap_err();
+        assert!(refused.to_string().contains("has not all steps"), "{refused}");
+        assert!(refused.help().contains("--to ngsolve"));
+    }
+    // states of a sheet in steps that neither the result nor the drape has
+    let mut without_steps = self::result(dir.path());
+    without_steps.steps.clear();
+    let mut at_rest = drape(&without_steps);
+    at_rest.states.truncate(1);
+    assert!(compare(&without_steps, &at_rest).is_err());
     assert!(
         compare(&sample::draped(2, 2, 3), &short).unwrap_err().to_string().contains("no sheet")
     );

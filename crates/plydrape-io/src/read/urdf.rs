@@ -9,7 +9,7 @@ use plydrape::arm::{JOINTS, Joint};
 use plydrape::geometry::Pose;
 use plydrape::geometry::vector::unit;
 use roxmltree::{Document, Node};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The largest file that is read (bytes).
 pub const LARGEST: u64 = 4 << 20;
@@ -23,7 +23,7 @@ const ENDLESS: f64 = 1e3;
 /// The arm of a robot.
 #[derive(Debug)]
 pub struct Urdf {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The turning joints from foot to flange.
     pub joints: [Joint; JOINTS],
@@ -125,10 +125,11 @@ pub fn parse(
 
     // joints by the link that they carry; each link is carried by one joint at most
     let mut reader = Reader { file, document: &document, carried: BTreeMap::new() };
+    let mut names = BTreeSet::new();
     for node in children(robot, "joint") {
         let joint = reader.any_joint(node)?;
         let child = reader.link_of(node, "child")?;
-        if reader.carried.values().any(|other| other.name == joint.name) {
+        if !names.insert(joint.name) {
             let message = format!("two joints have the name {}", joint.name);
             return Err(reader.fault(node, message, "give each a name of its own"));
         }
@@ -160,15 +161,10 @@ pub fn parse(
     let foot = foot.or(Some("base").filter(|name| known(name))).or(root);
 
     // unless it is named, the flange is the link `tool0`, or the only one that carries nothing
-    let ends = || {
-        links
-            .iter()
-            .copied()
-            .filter(|link| reader.carried.values().all(|joint| joint.parent != *link))
-    };
-    let flange = flange
-        .or(Some("tool0").filter(|name| known(name)))
-        .or_else(|| ends().next().filter(|_| ends().count() == 1));
+    let parents: BTreeSet<&str> = reader.carried.values().map(|joint| joint.parent).collect();
+    let mut ends = links.iter().copied().filter(|link| !parents.contains(link));
+    let end = ends.next().filter(|_| ends.next().is_none());
+    let flange = flange.or(Some("tool0").filter(|name| known(name))).or(end);
 
     let (Some(foot), Some(flange)) = (foot, flange) else {
         let message = format!("{file} does not say which of its links is the flange");
@@ -198,7 +194,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Error::file(self.file, format!("{}, line {line}: {message}", self.file), help)
     }
 
-    /// The numbers of an attribute, or those that stand for it.
+    /// The numbers of an attribute, or `usual` ones where the node does not have it.
     fn numbers<const N: usize>(
         &self,
         node: Node,

@@ -16,18 +16,18 @@ use plydrape::sheet::Event;
 /// What is impossible in a result, in words: a file whose check sum was made anew may hold anything, and everything made of
 /// it relies on this.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
-    let also = || result.also.as_ref().and_then(|also| of_also(result, also));
+    let also = || result.also.as_ref().and_then(|also| also_fault(result, also));
     let too_large = || match result.check_within(LARGEST_NUMBER) {
         Err(Error::NotFinite { key, value }) => {
             Some(format!("`{key}` is {value}, beyond {LARGEST_NUMBER:e}"))
         }
         _ => None,
     };
-    of_net(&result.scene)
-        .or_else(|| of_steps(&result.steps))
-        .or_else(|| of_deciding(result))
+    net_fault(&result.scene)
+        .or_else(|| steps_fault(&result.steps))
+        .or_else(|| deciding_fault(result))
         .or_else(also)
-        .or_else(|| of_states(result))
+        .or_else(|| states_fault(result))
         .or_else(too_large)
 }
 
@@ -39,16 +39,16 @@ const ROUNDING: f64 = 1e-12;
 const MOST_GRIPPERS: usize = 1000;
 /// Most grippers that are no array along the yarns: those of a whole array.
 const MOST_HELD: usize = MOST_GRIPPERS * MOST_GRIPPERS;
-/// Smallest and largest fabric length of a cell (m), as in scenes.
-const CELLS: [f64; 2] = [1e-6, 1e4];
+/// Smallest and largest size of a cell, a mesh, an overhang or a pad (m), as in scenes.
+const SIZES: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest length factor of a ply: an error of its length leaves a tenth at least.
 const LENGTH_FACTORS: [f64; 2] = [0.1, 10.0];
 
 /// What is impossible in the scene's ply.
-pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
+pub(super) fn ply_fault(scene: &SceneEcho) -> Option<String> {
     // size of the ply: its cut, the array of grippers, cells and fabric length
     let Grid { nu, nv } = scene.ply.grid;
-    if let Some(what) = of_cut(&scene.ply) {
+    if let Some(what) = cut_fault(&scene.ply) {
         return Some(what);
     }
     let held = scene.ply.cut.as_ref().is_some_and(|cut| !cut.held.is_empty());
@@ -56,7 +56,7 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
         return Some(format!("there is no ply of {nu} × {nv} grippers"));
     }
     let [a, b] = scene.ply.cell;
-    if ![a, b].iter().all(|side| (CELLS[0]..=CELLS[1]).contains(side)) {
+    if ![a, b].iter().all(|side| (SIZES[0]..=SIZES[1]).contains(side)) {
         return Some(format!("there is no cell of {a} × {b} m"));
     }
     let longer = scene.ply.length_factor;
@@ -85,7 +85,7 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
         return Some("the tension of its material is no table of force over strain".into());
     }
 
-    if let Some(what) = of_bodies(&scene.bodies) {
+    if let Some(what) = bodies_fault(&scene.bodies) {
         return Some(what);
     }
 
@@ -98,6 +98,12 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     let lengths = [sheet.mesh.unwrap_or(0.0), sheet.overhang, pad.radius];
     if lengths.iter().chain(&[friction, contact.tack]).any(|value| *value < 0.0) {
         return Some("mesh, overhang, pads, friction and tack must not be negative".into());
+    }
+    // the lines of a sheet are made of these
+    if sheet.mesh.is_some_and(|mesh| !(SIZES[0]..=SIZES[1]).contains(&mesh))
+        || sheet.overhang.max(pad.radius) > SIZES[1]
+    {
+        return Some("mesh, overhang and pads must have sizes that a scene may have".into());
     }
     if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
         return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
@@ -142,7 +148,7 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
 }
 
 /// What is impossible in bodies and obstacles.
-fn of_bodies(bodies: &Bodies) -> Option<String> {
+fn bodies_fault(bodies: &Bodies) -> Option<String> {
     let moving = bodies.bodies().iter().map(|body| (&body.name, &body.shape));
     let standing = bodies.obstacles().iter().map(|body| (&body.name, &body.shape));
     let fault = moving.chain(standing).find_map(|(name, shape)| {
@@ -174,7 +180,7 @@ fn of_bodies(bodies: &Bodies) -> Option<String> {
 }
 
 /// What is impossible in how the ply is cut.
-fn of_cut(ply: &Ply) -> Option<String> {
+fn cut_fault(ply: &Ply) -> Option<String> {
     let cut = ply.cut.as_ref()?;
     let numbers = [cut.angle, cut.turn].into_iter().chain(cut.origin);
     if !numbers.into_iter().all(|x| x.abs() <= FARTHEST) {
@@ -190,14 +196,14 @@ fn of_cut(ply: &Ply) -> Option<String> {
     off.map(|held| format!("gripper {} holds no point of the ply", gripper_name(held.id)))
 }
 
-fn of_net(scene: &SceneEcho) -> Option<String> {
+fn net_fault(scene: &SceneEcho) -> Option<String> {
     let net = scene.target.as_ref()?.drape.as_ref()?;
     let [nu, nv] = net.placement.nodes;
     let nodes = nu.checked_mul(nv).filter(|_| nu > 0 && nv > 0);
     let cells = nodes.map(|_| (nu - 1) * (nv - 1));
     let seed = (0..2).all(|n| net.placement.seed[n] < net.placement.nodes[n]);
     let missing = net.missing.iter().all(|m| m.node[0] < nu && m.node[1] < nv);
-    let mesh = net.placement.mesh.iter().all(|width| (CELLS[0]..=CELLS[1]).contains(width));
+    let mesh = net.placement.mesh.iter().all(|width| (SIZES[0]..=SIZES[1]).contains(width));
     if nodes != Some(net.nodes.len())
         || cells != Some(net.shear.len())
         || !seed
@@ -209,7 +215,7 @@ fn of_net(scene: &SceneEcho) -> Option<String> {
     net.nodes.iter().flatten().find_map(|place| far("a node of the ideal drape", place))
 }
 
-fn of_steps(steps: &[Step]) -> Option<String> {
+fn steps_fault(steps: &[Step]) -> Option<String> {
     if steps.is_empty() {
         return Some("it has no step".into());
     }
@@ -233,12 +239,12 @@ fn of_steps(steps: &[Step]) -> Option<String> {
             far("a gripper", &gripper.position).or(far("a mount", &gripper.commanded))
         });
         let lines = step.catenaries.as_ref().map_or(&[][..], |step| &step.catenaries);
-        let catenary = || lines.iter().find_map(of_catenary);
+        let catenary = || lines.iter().find_map(catenary_fault);
         gripper.or_else(catenary).map(|what| format!("in step {number}, {what}"))
     })
 }
 
-fn of_catenary(line: &CatenaryState) -> Option<String> {
+fn catenary_fault(line: &CatenaryState) -> Option<String> {
     let ends = [line.from, line.to].map(gripper_name).join("–");
     let named = |what: String| Some(format!("catenary {ends} has {what}"));
     if line.length <= 0.0 {
@@ -256,31 +262,31 @@ fn of_catenary(line: &CatenaryState) -> Option<String> {
 }
 
 /// What is impossible in the outcome by the model that decides.
-fn of_deciding(result: &ResultFile) -> Option<String> {
+fn deciding_fault(result: &ResultFile) -> Option<String> {
     let decides = result.scene.settings.model;
     if result.summary.model != decides {
         return Some("its outcome is not of the model that decides".into());
     }
-    of_summary(&result.scene.ply, &result.summary, &result.steps)
+    summary_fault(&result.scene.ply, &result.summary, &result.steps)
         .or_else(|| super::check_limits::fault(result))
         .or_else(|| super::check_errors::fault(result))
         .or_else(|| super::check_tool::fault(result))
 }
 
 /// What is impossible in the drape by the other model.
-fn of_also(result: &ResultFile, also: &Also) -> Option<String> {
+fn also_fault(result: &ResultFile, also: &Also) -> Option<String> {
     let fault = match () {
         () if also.summary.model != result.summary.model.other() => {
             Some("is of the model that decides".into())
         }
-        () => of_steps(&also.steps)
-            .or_else(|| of_summary(&result.scene.ply, &also.summary, &also.steps)),
+        () => steps_fault(&also.steps)
+            .or_else(|| summary_fault(&result.scene.ply, &also.summary, &also.steps)),
     };
     fault.map(|what| format!("the drape beside: {what}"))
 }
 
 /// What is impossible in an outcome with steps of a ply.
-fn of_summary(ply: &Ply, summary: &Summary, recorded: &[Step]) -> Option<String> {
+fn summary_fault(ply: &Ply, summary: &Summary, recorded: &[Step]) -> Option<String> {
     let steps = recorded.len();
     if summary.steps != steps || summary.steps_planned < steps {
         return Some(format!(
@@ -301,7 +307,7 @@ fn of_summary(ply: &Ply, summary: &Summary, recorded: &[Step]) -> Option<String>
     if summary.limits.iter().enumerate().any(twice) {
         return Some("it judges a limit twice".into());
     }
-    of_report(summary).or_else(|| of_events(ply, &summary.events)).or_else(|| {
+    report_fault(summary).or_else(|| events_fault(ply, &summary.events)).or_else(|| {
         let known = |id: GripperId| ply.index(id).is_some();
         let mut first = report?.first_contact.iter();
         let unknown = first.find(|line| !(known(line.from) && known(line.to)))?;
@@ -311,7 +317,7 @@ fn of_summary(ply: &Ply, summary: &Summary, recorded: &[Step]) -> Option<String>
 }
 
 /// What is impossible in what a model says beside its measures.
-fn of_report(summary: &Summary) -> Option<String> {
+fn report_fault(summary: &Summary) -> Option<String> {
     match (summary.model, &summary.sheet, &summary.catenaries) {
         (Model::Sheet, Some(sheet), None) => {
             (sheet.nodes == 0).then(|| "its sheet has no node".into())
@@ -322,7 +328,7 @@ fn of_report(summary: &Summary) -> Option<String> {
 }
 
 /// What is impossible in the events of pads.
-fn of_events(ply: &Ply, events: &[Event]) -> Option<String> {
+fn events_fault(ply: &Ply, events: &[Event]) -> Option<String> {
     let times = || events.iter().map(|event| event.time);
     if !times().is_sorted() || times().next().is_some_and(|first| first < 0.0) {
         return Some("the events of its pads are not in the order of time".into());
@@ -333,7 +339,7 @@ fn of_events(ply: &Ply, events: &[Event]) -> Option<String> {
 }
 
 /// What is impossible in the states of a sheet: they are there where one was draped.
-fn of_states(result: &ResultFile) -> Option<String> {
+fn states_fault(result: &ResultFile) -> Option<String> {
     match (result.summary_of(Model::Sheet), &result.sheet_states) {
         (Some(_), None) => Some("its sheet has no states".into()),
         (None, Some(_)) => Some("the states of its sheet have no outcome".into()),

@@ -15,13 +15,13 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
         return Some(format!("its world is {:?}, and not that of its scene", summary.world));
     }
     let nodes = summary.sheet.as_ref().map_or(0, |sheet| sheet.nodes);
-    let sample = summary.sample.as_ref().and_then(|sample| of_sample(sample, nodes, result));
+    let sample = summary.sample.as_ref().and_then(|sample| sample_fault(sample, nodes, result));
     sample
-        .or_else(|| summary.tolerance.as_ref().and_then(of_tolerance))
-        .or_else(|| summary.rate_tolerance.as_ref().and_then(of_rate_tolerance))
+        .or_else(|| summary.tolerance.as_ref().and_then(tolerance_fault))
+        .or_else(|| summary.rate_tolerance.as_ref().and_then(rate_tolerance_fault))
 }
 
-fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
+fn sample_fault(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Option<String> {
     let SampleVerdict { errors, cells, needed, .. } = sample;
     if !(1..=errors.samples).contains(&cells.len()) || result.scene.errors != Some(*errors) {
         return Some(format!(
@@ -64,13 +64,13 @@ fn is_share(errors: &Errors) -> bool {
     errors.share > 0.0 && errors.share <= 1.0
 }
 
-fn of_rate_tolerance(tolerance: &RateTolerance) -> Option<String> {
+fn rate_tolerance_fault(tolerance: &RateTolerance) -> Option<String> {
     let least = RateTolerance::MOST.recip();
     let speed = tolerance.speed.filter(|speed| !(least..=RateTolerance::MOST).contains(speed))?;
     Some(format!("it tolerates {speed} times its speed"))
 }
 
-fn of_tolerance(tolerance: &Tolerance) -> Option<String> {
+fn tolerance_fault(tolerance: &Tolerance) -> Option<String> {
     let Tolerance { gripper_mm, shear, mass, .. } = tolerance;
     if *gripper_mm < 0.0 {
         return Some(format!("it tolerates errors of {gripper_mm} mm"));

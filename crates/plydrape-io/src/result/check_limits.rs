@@ -17,10 +17,12 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
         let label = name.measure().label();
         return Some(format!("it says that {label} is kept, which is {value} against {limit}"));
     }
-    let layup = layup(result);
+    // limits apply to a layup and need no motion
+    let motion = Motion { times: Vec::new(), positions: Vec::new() };
+    let layup = Layup { motion, ..result.layup() };
     Name::ALL.iter().find_map(|name| {
         let limit = name.measure().limit(&layup, &result.scene.limits)?;
-        of_limit(
+        limit_fault(
             result,
             *name,
             if *name == Name::Sensitivity { sensitivity(result, limit) } else { limit },
@@ -38,7 +40,7 @@ fn sensitivity(result: &ResultFile, least: f64) -> f64 {
 }
 
 /// What is impossible in the verdict on a measure with a limit of its scene (in the measure's own unit).
-fn of_limit(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
+fn limit_fault(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
     let measure = name.measure();
     let label = measure.label();
     let values = || result.steps.iter().filter_map(|step| step.measures.value(name));
@@ -62,21 +64,5 @@ fn of_limit(result: &ResultFile, name: Name, limit: f64) -> Option<String> {
             format!("it says that {label} is kept, which a step has at {value} against {}", v.limit)
         }),
         Some(_) => None,
-    }
-}
-
-/// The layup that the limits apply to; it needs no motion.
-fn layup(result: &ResultFile) -> Layup {
-    let scene = &result.scene;
-    Layup {
-        ply: scene.ply.clone(),
-        mold: scene.mold.clone(),
-        motion: Motion { times: Vec::new(), positions: Vec::new() },
-        target: scene.target.clone(),
-        settings: scene.settings,
-        bodies: scene.bodies.clone(),
-        tool: scene.tool.clone(),
-        release: scene.release.clone(),
-        pick_up: scene.pick_up,
     }
 }

@@ -33,6 +33,7 @@ use plydrape::scene::{BookPly, Scene};
 use plydrape::sheet::Event;
 use plydrape::tool::Tool;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -194,12 +195,12 @@ impl ResultFile {
     ) -> Result<Self, Error> {
         let Planned { outcome, record, motion, attitudes, .. } = planned;
         let result = ResultFile::of_outcome(scene, input, outcome, dir)?;
-        Ok(result.along(record, motion, attitudes))
+        Ok(result.with_plan(record, motion, attitudes))
     }
 
     /// This result as that of a plan, with the motion that was judged.
     #[must_use]
-    pub(crate) fn along(
+    pub(crate) fn with_plan(
         self,
         record: PlanRecord,
         motion: TimedMotion,
@@ -216,6 +217,15 @@ impl ResultFile {
             self.sheet_states = states;
         }
         self.also = Some(Also { summary: summary.unjudged(), steps });
+    }
+
+    /// The tool, whose arm begins in the configuration in which the motion was judged.
+    pub(crate) fn judged_tool(&self) -> Option<Cow<'_, Tool>> {
+        let tool = self.scene.tool.as_ref()?;
+        Some(match self.summary.tool.as_ref().and_then(|record| record.arm) {
+            Some(record) => Cow::Owned(tool.beginning_as(&record)),
+            None => Cow::Borrowed(tool),
+        })
     }
 
     /// What was draped, along the steps of the result.

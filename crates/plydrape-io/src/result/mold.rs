@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::sync::Arc;
 
+/// What a mold is made from again.
 #[derive(Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 enum Record<'a> {
@@ -29,6 +30,7 @@ struct LayerRecord<'a> {
     rings: Cow<'a, [Vec<[f64; 2]>]>,
 }
 
+/// A height over x and y.
 #[derive(Serialize, Deserialize)]
 #[serde(tag = "surface", rename_all = "kebab-case")]
 enum SurfaceRecord<'a> {
@@ -38,6 +40,7 @@ enum SurfaceRecord<'a> {
 }
 
 impl<'a> Record<'a> {
+    /// The record of a mold; `None` of one that no result holds.
     fn new(mold: &'a Mold) -> Option<Self> {
         Some(match mold {
             Mold::Plane(plane) => Record::Plane(*plane),
@@ -65,7 +68,6 @@ impl<'a> Record<'a> {
                 on: Box::new(Record::new(&layered.mold)?),
                 layers: layered.relief.0.iter().map(LayerRecord::new).collect(),
             },
-            // refused before
             Mold::Wavy(_) => return None,
         })
     }
@@ -117,10 +119,9 @@ const WAVY: &str = "the mold has the waves of one draw of the scene's errors, wh
 
 /// Writes a mold, if there is one. A wavy one is refused: its drape must not be read as that of the plain mold.
 pub fn serialize<S: Serializer>(mold: &Option<Mold>, to: S) -> Result<S::Ok, S::Error> {
-    if let Some(Mold::Wavy(_)) = mold {
-        return Err(serde::ser::Error::custom(WAVY));
-    }
-    mold.as_ref().and_then(Record::new).serialize(to)
+    let recorded =
+        |mold| Record::new(mold).ok_or_else(|| <S::Error as serde::ser::Error>::custom(WAVY));
+    mold.as_ref().map(recorded).transpose()?.serialize(to)
 }
 
 /// Reads a mold, if there is one.

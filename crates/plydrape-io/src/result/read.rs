@@ -176,7 +176,7 @@ fn named(ply: &Ply) -> String {
 /// The result that a file in a folder describes, and the check sum that it names.
 fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, String), String> {
     let ply = read.scene.ply.clone();
-    if let Some(what) = super::check::of_ply(&read.scene) {
+    if let Some(what) = super::check::ply_fault(&read.scene) {
         return Err(what);
     }
     if read.catenaries.as_ref().is_some_and(|named| !named.are_of(&ply.lines())) {

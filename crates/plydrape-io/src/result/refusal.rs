@@ -7,7 +7,7 @@ use crate::store::shown::name;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// The expected text.
+/// What to give in place of what is no result.
 const GIVEN: &str = "give the result.json of `plydrape simulate` or `plydrape plan`, or its folder";
 
 /// The file system refused.

@@ -1,10 +1,10 @@
-//! What moves with grippers and robot, and what stands in the cell.
+//! The bodies that move with grippers and robot, and the obstacles of the cell.
 
 use super::check::line;
 use super::file::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable, SceneKeys};
-use super::heading::pose;
 use super::located::Located;
 use super::mold::{Purpose, mesh_file};
+use super::pose::pose;
 use super::quantity::{Read, read_or};
 use super::source::Document;
 use crate::Error;
@@ -52,7 +52,7 @@ struct Reader<'a> {
     carried: bool,
 }
 
-/// The keys of which a body takes one.
+/// The keys of a shape, of which a body takes one.
 struct ShapeKeys<'a> {
     /// Where the table is.
     table: Range<usize>,

@@ -217,7 +217,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     // from below upwards, because a ply lies on those before it
     let mut plies: Vec<BookPly> = Vec::with_capacity(readings.len());
     for reading in &readings {
-        let ply = laid(reading, &title, &mold, &plies, &readings);
+        let ply = ply_on_others(reading, &title, &mold, &plies, &readings);
         plies.push(ply.map_err(|fault| in_ply(fault, &reading.name))?);
     }
 
@@ -335,7 +335,7 @@ fn reading<'a>(
                 "move them into the scene file, or remove `scene`",
             );
         }
-        return of_file(name, file, header, document, base);
+        return reading_of_file(name, file, header, document, base);
     }
 
     // what the ply says itself goes over what all plies share
@@ -366,7 +366,7 @@ fn reading<'a>(
     })
 }
 
-/// A table of a ply over the shared one, key by key; of what is no table the ply's own.
+/// The table of a ply merged over the shared one, key by key; a value that is no table is the ply's own.
 fn stacked<'i>(below: Spanned<DeValue<'i>>, over: Spanned<DeValue<'i>>) -> Spanned<DeValue<'i>> {
     let span = over.span();
     match (below.into_inner(), over.into_inner()) {
@@ -382,7 +382,7 @@ fn stacked<'i>(below: Spanned<DeValue<'i>>, over: Spanned<DeValue<'i>>) -> Spann
 }
 
 /// A ply whose scene is a file of its own.
-fn of_file<'a>(
+fn reading_of_file<'a>(
     name: String,
     file: &Located<String>,
     header: Range<usize>,
@@ -404,8 +404,8 @@ fn of_file<'a>(
     Ok(Reading { name, keys, document, base, header, book })
 }
 
-/// The scene of a ply on what lies there, and where it lies itself.
-fn laid(
+/// Reads the scene of a ply on the mold with the plies below it, and where the ply itself lies.
+fn ply_on_others(
     reading: &Reading,
     title: &str,
     mold: &Mold,

@@ -69,11 +69,10 @@ fn believed<M: Measure>(
 ) -> Result<f64, Error> {
     let Range { least, open, .. } = bound.range;
     let usual = usual_of::<M>(bound);
-    let si = match least > 0.0 || open {
-        true => value.positive(document, &usual)?,
-        false => value.not_negative(document, &usual)?,
-    };
-    Ok(si)
+    match least > 0.0 || open {
+        true => value.positive(document, &usual),
+        false => value.not_negative(document, &usual),
+    }
 }
 
 /// What is usual of a limit.
@@ -154,8 +153,7 @@ fn sentence(name: Name, bound: &Bound, kind: &Kind) -> String {
         "" => String::new(),
         unit => format!(" ({})", unit.replace("^2", "²").replace("^3", "³")),
     };
-    let (what, more) = bound.about.split_once(';').unwrap_or((bound.about, ""));
-    let more = if more.is_empty() { String::new() } else { format!(";{more}") };
+    let (what, more) = bound.about.split_at(bound.about.find(';').unwrap_or(bound.about.len()));
     let usual = match bound.usual {
         Usual::Always(UsualLimit { value, reason }) => {
             format!(", {} unless given ({reason}).", text(value, measure.unit()))

@@ -146,4 +146,22 @@ mod tests {
         assert_eq!(shear.material.shear, Term::Bound(0.0));
         assert_eq!(shear.material.bending, errors.material.bending);
     }
+
+    /// A waviness of 1 mm needs waves of 50 mm or more, whether or not both are written in one file.
+    #[test]
+    fn a_wavelength_of_the_scene_fits_the_waviness_of_its_cell() {
+        let folder = tempfile::tempdir().unwrap();
+        let cell = "source = \"us\"\nerrors.mold = { waviness = { bound = \"1 mm\" }, wavelength = \"150 mm\" }\n";
+        std::fs::write(folder.path().join("ours.toml"), cell).unwrap();
+        let read = |length: &str| {
+            let keys = format!(
+                "mold.kind = \"plane\"\ntarget.origin = [0, 0]\ncell.preset = \"ours.toml\"\nerrors.mold.wavelength = \"{length}\"\n"
+            );
+            parse(&format!("{SCENE}{keys}"), folder.path(), "scene.toml")
+        };
+        let errors = read("60 mm").unwrap_or_else(|e| panic!("{e}")).errors.expect("errors");
+        assert_eq!((errors.mold.waviness, errors.mold.wavelength), (Term::Bound(1e-3), 0.06));
+        let Err(refused) = read("10 mm") else { panic!("waves of 1 mm are 10 mm long") };
+        assert!(refused.to_string().contains("50 mm or more"), "{refused}");
+    }
 }

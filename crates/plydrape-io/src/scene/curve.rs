@@ -8,16 +8,14 @@ use super::source::Document;
 use super::usual::{Shear, Tension};
 use crate::Error;
 use plydrape::material::{MomentCurve, ShearCurve, TensionLaw};
+use std::f64::consts::FRAC_PI_2;
 
-/// Largest shear force per length (N/m).
-const SHEAR: f64 = 1e6;
 /// Largest moment per width (N).
-const RIGIDITY: f64 = 1e6;
-/// Largest tension per width (N/m).
-const TENSION: f64 = 1e10;
-
+const MOST_MOMENT: f64 = 1e6;
 /// Largest curvature (1/m): a radius of 10 µm.
-const CURVATURE: f64 = 1e5;
+const MOST_CURVATURE: f64 = 1e5;
+/// Smallest slope of a moment as a share of its first: below it a fold would have no size.
+const LEAST_SLOPE: f64 = 1e-6;
 
 /// Measured moments over curvatures.
 pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentCurve, Error> {
@@ -34,8 +32,8 @@ pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentC
         ));
     }
     let curve = MomentCurve {
-        curvature: climbing(&curvature.value, "curvature", CURVATURE, document)?,
-        moment: climbing(&moment.value, "moment", RIGIDITY, document)?,
+        curvature: climbing(&curvature.value, "curvature", MOST_CURVATURE, document)?,
+        moment: climbing(&moment.value, "moment", MOST_MOMENT, document)?,
     };
     if curve.least_slope() >= LEAST_SLOPE * curve.rigidity() {
         return Ok(curve);
@@ -46,9 +44,6 @@ pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentC
         "leave points out where the moment stays as it is: the ply creased or slipped there",
     ))
 }
-
-/// Smallest slope of a moment as a share of its first: below it a fold would have no size.
-const LEAST_SLOPE: f64 = 1e-6;
 
 /// Values that rise from 0, up to a largest one.
 fn climbing<M: Measure>(
@@ -94,12 +89,8 @@ pub(super) fn tension(
             Ok(TensionLaw::Linear { stiffness: stiffness.read(document)? })
         }
         Curve::Table(TensionTable { strain, force }) => {
-            same_length("the tension", "strains", [strain.value.len(), force.value.len()])
-                .map_err(|[message, help]| document.error(force.span.clone(), message, help))?;
-            let law = TensionLaw::Table {
-                strain: ascending_strains(&strain.value, document)?,
-                force: rising(&force.value, TENSIONS, document)?,
-            };
+            let [strains, forces] = TENSION_TABLE.read(strain, force, document)?;
+            let law = TensionLaw::Table { strain: strains, force: forces };
             match law.tension(0.0) {
                 [_, start, _] if start > 0.0 => Err(document.error(
                     force.value[0].span.clone(),
@@ -134,12 +125,8 @@ pub(super) fn shear(
     // a table of measured points, or a polynomial whose force is checked up to 60°
     match (&table.angle, &table.force, &table.polynomial) {
         (Some(angle), Some(force), None) => {
-            same_length("the shear curve", "angles", [angle.value.len(), force.value.len()])
-                .map_err(|[message, help]| document.error(force.span.clone(), message, help))?;
-            Ok(ShearCurve::Table {
-                angle: ascending_angles(&angle.value, document)?,
-                force: rising(&force.value, SHEARS, document)?,
-            })
+            let [angle, force] = SHEAR_TABLE.read(angle, force, document)?;
+            Ok(ShearCurve::Table { angle, force })
         }
         (None, None, Some(polynomial)) => {
             if polynomial.value.is_empty() {
@@ -172,113 +159,114 @@ pub(super) fn shear(
     }
 }
 
-fn ascending_angles<M: Measure>(
-    angles: &[Quantity<M>],
-    document: &Document,
-) -> Result<Vec<f64>, Error> {
-    let mut values: Vec<f64> = Vec::with_capacity(angles.len());
-    for angle in angles {
-        let value = angle.read(document)?;
-        let fault = match values.last() {
-            None if value > 0.0 => "the shear curve does not start at an angle of 0",
-            Some(last) if value <= *last => "the angles of the shear curve do not ascend",
-            _ if value >= std::f64::consts::FRAC_PI_2 => {
-                "the shear curve reaches a right angle or more"
-            }
-            _ => {
-                values.push(value);
-                continue;
-            }
-        };
-        return Err(document.error(
-            angle.span.clone(),
-            fault,
-            "give angles ascending from 0 to below 90 deg, as in [0, \"10 deg\", \"20 deg\"]",
-        ));
-    }
-    Ok(values)
-}
-
-/// What a force must be that does not fit, for [`rising`]: most (N/m), its name and two remedies.
-struct Forces {
+/// A table of forces over angles or strains: what messages call it, its limits and its remedies.
+struct ForceTable {
+    /// Name of the curve, and of what the forces are measured over.
+    curve: &'static str,
+    over: &'static str,
+    /// Whether an angle (rad) or a strain is beyond what a table may have.
+    is_beyond: fn(f64) -> bool,
+    /// Faults of a table that does not start at 0, does not ascend, or goes beyond, with the remedy.
+    does_not_start: &'static str,
+    does_not_ascend: &'static str,
+    goes_beyond: &'static str,
+    ascending_help: &'static str,
+    /// Largest force per length (N/m), with the remedies of a larger force and of one that falls.
     most: f64,
-    of: &'static str,
     most_help: &'static str,
     rising_help: &'static str,
 }
 
-const SHEARS: Forces = Forces {
-    most: SHEAR,
-    of: "the shear curve",
+const SHEAR_TABLE: ForceTable = ForceTable {
+    curve: "the shear curve",
+    over: "angles",
+    is_beyond: |angle| angle >= FRAC_PI_2,
+    does_not_start: "the shear curve does not start at an angle of 0",
+    does_not_ascend: "the angles of the shear curve do not ascend",
+    goes_beyond: "the shear curve reaches a right angle or more",
+    ascending_help: "give angles ascending from 0 to below 90 deg, as in [0, \"10 deg\", \"20 deg\"]",
+    most: 1e6,
     most_help: "expected a shear force per length up to 1e6 N/m",
     rising_help: "give forces that never fall: where a test shows less force, the cloth slipped or wrinkled, and the curve ends before",
 };
-const TENSIONS: Forces = Forces {
-    most: TENSION,
-    of: "the tension",
+const TENSION_TABLE: ForceTable = ForceTable {
+    curve: "the tension",
+    over: "strains",
+    is_beyond: |strain| strain > 1.0,
+    does_not_start: "the tension does not start at a strain of 0",
+    does_not_ascend: "the strains of the tension do not ascend",
+    goes_beyond: "the tension goes beyond a strain of 100 %",
+    ascending_help: "give strains ascending from 0, as in [0, \"0.2 %\", \"0.5 %\"]",
+    most: 1e10,
     most_help: "expected a tension per width up to 1e10 N/m",
     rising_help: "give forces that never fall: where a test shows less force, yarns broke or slipped, and the table ends before",
 };
 
-fn rising<M: Measure>(
-    forces: &[Quantity<M>],
-    rules: Forces,
-    document: &Document,
-) -> Result<Vec<f64>, Error> {
-    let mut values: Vec<f64> = Vec::with_capacity(forces.len());
-    for force in forces {
-        let value = force.read(document)?;
-        if value > rules.most {
+impl ForceTable {
+    /// Reads the angles or strains, and the force at each (N/m).
+    fn read<M: Measure, F: Measure>(
+        &self,
+        over: &Located<Vec<Quantity<M>>>,
+        forces: &Located<Vec<Quantity<F>>>,
+        document: &Document,
+    ) -> Result<[Vec<f64>; 2], Error> {
+        let (count, found) = (over.value.len(), forces.value.len());
+        if count != found || count < 2 {
             return Err(document.error(
-                force.span.clone(),
-                format!("{} is too large for a ply", document.quoted(&force.span)),
-                rules.most_help,
+                forces.span.clone(),
+                format!("{} has {count} {} and {found} forces", self.curve, self.over),
+                format!("give as many forces as {}, two or more", self.over),
             ));
         }
-        if values.last().is_some_and(|last| value < *last) {
-            return Err(document.error(
-                force.span.clone(),
-                format!("the force of {} falls here", rules.of),
-                rules.rising_help,
-            ));
-        }
-        values.push(value);
+        Ok([self.ascending(&over.value, document)?, self.rising(&forces.value, document)?])
     }
-    Ok(values)
-}
 
-fn ascending_strains<M: Measure>(
-    strains: &[Quantity<M>],
-    document: &Document,
-) -> Result<Vec<f64>, Error> {
-    let mut values: Vec<f64> = Vec::with_capacity(strains.len());
-    for strain in strains {
-        let value = strain.read(document)?;
-        let fault = match values.last() {
-            None if value > 0.0 => "the tension does not start at a strain of 0",
-            Some(last) if value <= *last => "the strains of the tension do not ascend",
-            _ if value > 1.0 => "the tension goes beyond a strain of 100 %",
-            _ => {
-                values.push(value);
-                continue;
+    fn ascending<M: Measure>(
+        &self,
+        list: &[Quantity<M>],
+        document: &Document,
+    ) -> Result<Vec<f64>, Error> {
+        let mut values: Vec<f64> = Vec::with_capacity(list.len());
+        for item in list {
+            let value = item.read(document)?;
+            let fault = match values.last() {
+                None if value > 0.0 => self.does_not_start,
+                Some(last) if value <= *last => self.does_not_ascend,
+                _ if (self.is_beyond)(value) => self.goes_beyond,
+                _ => {
+                    values.push(value);
+                    continue;
+                }
+            };
+            return Err(document.error(item.span.clone(), fault, self.ascending_help));
+        }
+        Ok(values)
+    }
+
+    fn rising<M: Measure>(
+        &self,
+        forces: &[Quantity<M>],
+        document: &Document,
+    ) -> Result<Vec<f64>, Error> {
+        let mut values: Vec<f64> = Vec::with_capacity(forces.len());
+        for force in forces {
+            let value = force.read(document)?;
+            if value > self.most {
+                return Err(document.error(
+                    force.span.clone(),
+                    format!("{} is too large for a ply", document.quoted(&force.span)),
+                    self.most_help,
+                ));
             }
-        };
-        return Err(document.error(
-            strain.span.clone(),
-            fault,
-            "give strains ascending from 0, as in [0, \"0.2 %\", \"0.5 %\"]",
-        ));
+            if values.last().is_some_and(|last| value < *last) {
+                return Err(document.error(
+                    force.span.clone(),
+                    format!("the force of {} falls here", self.curve),
+                    self.rising_help,
+                ));
+            }
+            values.push(value);
+        }
+        Ok(values)
     }
-    Ok(values)
-}
-
-/// Message and remedy where a curve has not as many forces as other values, or fewer than two.
-fn same_length(curve: &str, others: &str, [count, forces]: [usize; 2]) -> Result<(), [String; 2]> {
-    if count == forces && count >= 2 {
-        return Ok(());
-    }
-    Err([
-        format!("{curve} has {count} {others} and {forces} forces"),
-        format!("give as many forces as {others}, two or more"),
-    ])
 }

@@ -83,6 +83,11 @@ impl Cup {
     fn idle(self, why: LeftOff) -> IdleCup {
         IdleCup { id: self.id, drawn: self.place, why }
     }
+
+    /// Distance from a point of the drawing (m).
+    fn distance(self, point: [f64; 2]) -> f64 {
+        (self.place[0] - point[0]).hypot(self.place[1] - point[1])
+    }
 }
 
 /// Whether the table says how the ply is cut.
@@ -272,9 +277,9 @@ fn array(
     let is_over_hole = |place: [f64; 2]| bare.as_ref().is_ok_and(|whole| whole.contains(place));
     for cup in (0..nu * nv).map(cup) {
         let depth = outline.depth(cup.place);
-        let wanted = rows.as_ref().map(|rows| rows[cup.id[1]][cup.id[0]]);
+        let holds = rows.as_ref().map(|rows| rows[cup.id[1]][cup.id[0]]);
         let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
-        if wanted == Some(false) {
+        if holds == Some(false) {
             left_off.push(cup.idle(LeftOff::Off));
             continue;
         }
@@ -284,7 +289,7 @@ fn array(
         }
         let leave = keys.partly == Some(PartlyKey::LeaveOff);
         // a cup beside the ply holds nothing; one that the scene names shall hold
-        if wanted.is_none() && (leave || depth <= -radius) {
+        if holds.is_none() && (leave || depth <= -radius) {
             let why = match () {
                 () if depth > -radius => LeftOff::Partly,
                 () if is_over_hole(cup.place) => LeftOff::Hole,
@@ -407,12 +412,15 @@ fn listed(
                 "move it onto the ply",
             ));
         }
-        let near = |cup: &Cup| (cup.place[0] - place[0]).hypot(cup.place[1] - place[1]);
         let least = (2.0 * radius).max(f64::MIN_POSITIVE);
-        if let Some(cup) = cups.iter().find(|cup| near(cup) < least) {
+        if let Some(cup) = cups.iter().find(|cup| cup.distance(place) < least) {
             return Err(document.error(
                 point.span.clone(),
-                format!("cups {} and {n} are {} mm apart", cup.id[0], millimeters(near(cup))),
+                format!(
+                    "cups {} and {n} are {} mm apart",
+                    cup.id[0],
+                    millimeters(cup.distance(place))
+                ),
                 "give every cup a place of its own, farther apart than a pad is wide",
             ));
         }
@@ -421,9 +429,7 @@ fn listed(
     // the distance of neighbors, for what is measured in cells
     let nearest = |cup: &Cup| {
         let others = cups.iter().filter(|other| other.id != cup.id);
-        let away =
-            |other: &Cup| (cup.place[0] - other.place[0]).hypot(cup.place[1] - other.place[1]);
-        others.map(away).fold(f64::INFINITY, f64::min)
+        others.map(|other| cup.distance(other.place)).fold(f64::INFINITY, f64::min)
     };
     let mut distances: Vec<f64> = cups.iter().map(nearest).collect();
     distances.sort_by(f64::total_cmp);

@@ -127,7 +127,6 @@ pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> Error
         let fault = document.text.get(span.start..).unwrap_or_default();
         let before = document.text.get(..span.start).unwrap_or_default();
         let line = before.rsplit('\n').next().unwrap_or_default();
-        // the text in double quotes before the fault, up to its end
         // `\U` and `\x` begin escapes of digits, as the folder `Users` and a file `x.stl` do
         let is_escape = ["escape", "unicode", "hexadecimal"].iter().any(|word| text.contains(word))
             && line.contains('"');

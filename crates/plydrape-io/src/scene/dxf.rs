@@ -44,9 +44,8 @@ pub(super) fn drawn(
         // what the drawing lacks without a choice too is no fault of the choice
         let unchosen =
             || outline::read_dxf(name, &bytes, &Options { piece: None, ..options.clone() });
-        let is_of_file =
-            |_: &_| unchosen().is_err_and(|other| other.to_string() == error.to_string());
-        let place = ply.piece.as_ref().filter(|piece| !is_of_file(piece)).map(|piece| &piece.span);
+        let is_of_file = || unchosen().is_err_and(|other| other.to_string() == error.to_string());
+        let place = ply.piece.as_ref().filter(|_| !is_of_file()).map(|piece| &piece.span);
         document.error(place.unwrap_or(span).clone(), error.to_string(), error.help())
     })
 }

@@ -82,7 +82,13 @@ pub(super) fn errors(
             )?,
         },
         mold: match &table.mold {
-            Some(_) if !on_mold => return Err(reader.no_mold(table)),
+            Some(mold) if !on_mold => {
+                return Err(document.error(
+                    mold.span.clone(),
+                    "the scene has no mold that could be off",
+                    "leave out `mold` of [errors], or say what the mold is in [mold]",
+                ));
+            }
             Some(mold) => MoldErrors {
                 tilt: turn(&mold.value.tilt, default.mold.tilt)?,
                 ..reader.mold(&mold.value, default.mold)?
@@ -93,7 +99,7 @@ pub(super) fn errors(
     })
 }
 
-/// What every term is held against.
+/// The document of the terms, and the largest shift that they may have.
 struct Reader<'a> {
     document: &'a Document,
     /// Largest shift (m).
@@ -211,6 +217,17 @@ impl Reader<'_> {
         let offset = self.shift(&table.offset, other.offset)?;
         let wavelength = read_or(&table.wavelength, other.wavelength, self.document)?;
         let largest = STEEPEST_WAVES * wavelength;
+        // the cell may have said how high the waves are, for longer ones
+        if let (None, Some(length)) = (&table.waviness, &table.wavelength)
+            && other.waviness.value() > largest
+        {
+            let least = millimeters(other.waviness.value() / STEEPEST_WAVES);
+            return Err(self.document.error(
+                length.span.clone(),
+                "the waviness of the cell is too large for waves of this length",
+                format!("expected {least} mm or more: waviness is at most 2 % of the wavelength; or write `waviness` here too"),
+            ));
+        }
         let waviness = match (&table.waviness, &table.wavelength) {
             (Some(term), None) if wavelength == 0.0 => {
                 let waviness =
@@ -230,14 +247,5 @@ impl Reader<'_> {
             }
         };
         Ok(MoldErrors { offset, waviness, wavelength, ..MoldErrors::default() })
-    }
-
-    fn no_mold(&self, table: &ErrorsTable) -> Error {
-        let message = "the scene has no mold that could be off";
-        let help = "leave out `mold` of [errors], or say what the mold is in [mold]";
-        match &table.mold {
-            Some(mold) => self.document.error(mold.span.clone(), message, help),
-            None => self.document.error_anywhere(message, help),
-        }
     }
 }

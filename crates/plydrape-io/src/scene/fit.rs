@@ -87,7 +87,7 @@ impl Table {
         }
     }
 
-    /// An error at a number of a row: in the first or the second column of the test.
+    /// An error at a number of a row: in the first or in the last column of the test (0 or 1), which is that of the time where it has one.
     #[must_use]
     pub fn error(
         &self,

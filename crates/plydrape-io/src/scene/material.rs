@@ -158,7 +158,14 @@ fn from_table(
                 "add locking_test = \"picture frame\" or the like",
             ));
         }
-        (None, _) => None,
+        (None, Some(test)) => {
+            return Err(document.error(
+                test.span.clone(),
+                "the test of the locking angle says no angle",
+                "add locking_angle = \"40 deg\" or the like, or leave out `locking_test`",
+            ));
+        }
+        (None, None) => None,
     };
     if let Some(test) = text_of(&table.test)? {
         source = format!("{source}; test: {test}");

@@ -5,7 +5,7 @@
 //!
 //! 1. `read`, `tree`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
-//! 3. `check` with `bodies`, `cell`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
+//! 3. `check` with `bodies`, `cell`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `placement`, `target`, `start`, `motion`, `trajectory`, `limits`, `bound`, `model`,
 //!    `sheet`, `plan`, `errors`, `tool`, `release`, `pick_up`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `table` reads every CSV file, `fit` those of tests. `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
@@ -22,13 +22,11 @@ mod cut;
 mod diagnostic;
 mod drawing;
 mod dxf;
-
 mod errors;
 mod file;
 mod fit;
-mod heading;
+
 mod ideal;
-mod layup;
 mod limits;
 mod located;
 mod material;
@@ -37,8 +35,10 @@ mod mold;
 mod motion;
 mod offset;
 mod pick_up;
+mod placement;
 mod places;
 mod plan;
+mod pose;
 mod quantity;
 mod rate;
 mod read;
@@ -188,7 +188,7 @@ fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<Error> {
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, Error> {
-    scene(&source::Document::new(name, text), base)
+    parse_for(text, base, name, None, None, None)
 }
 
 /// Reads and checks the table `[ply]` of a scene's text alone; a material file is relative to `base`.
@@ -226,10 +226,6 @@ pub fn parse_for(
         (_, Some(made)) => check::scene_on(&file, made, &document, base),
         (_, None) => check::scene(&file, None, &document, base),
     }
-}
-
-fn scene(document: &source::Document, base: &Path) -> Result<SceneFile, Error> {
-    check::scene(&keys(document)?, None, document, base)
 }
 
 /// Files that a text may name: every value that is the path of one, relative to `base`, and those that such a file names if it is TOML, as

@@ -5,6 +5,7 @@ use super::located::Located;
 use super::quantity::{Read, read_given, read_or};
 use super::source::Document;
 use crate::Error;
+use crate::store::shown::millimeters;
 use plydrape::layup::{Layup, Model, PickUp};
 use plydrape::motion::Motion;
 
@@ -36,7 +37,7 @@ pub(super) fn pick_up(
     }
 
     // the table, and times and heights of the pick-up
-    let (height, obstacle) = on(keys, span, layup, document)?;
+    let (height, obstacle) = table_of(keys, span, layup, document)?;
     let mut pick_up = PickUp {
         height,
         clearance: read_or(&keys.clearance, CLEARANCE, document)?,
@@ -57,8 +58,8 @@ pub(super) fn pick_up(
                 span.clone(),
                 format!(
                     "the motion's file begins at z = {} mm, and the ply lies at {} mm",
-                    shown(low),
-                    shown(height)
+                    millimeters(low),
+                    millimeters(height)
                 ),
                 "let it begin with the pads on the flat ply, or leave out [pick_up]",
             ));
@@ -73,8 +74,8 @@ pub(super) fn pick_up(
             span.clone(),
             format!(
                 "the grippers hang the ply from z = {} mm, too low over its table at {} mm for it to hang free",
-                shown(low),
-                shown(height)
+                millimeters(low),
+                millimeters(height)
             ),
             "raise `height` in [grippers], or lower the table of [pick_up]",
         ));
@@ -88,7 +89,7 @@ pub(super) fn pick_up(
 }
 
 /// The height of the table (m), and which obstacle it is.
-fn on(
+fn table_of(
     keys: &PickUpTable,
     span: &std::ops::Range<usize>,
     layup: &Layup,
@@ -142,9 +143,4 @@ fn lifted(motion: &Motion, lift: Vec<Vec<[f64; 3]>>) -> Motion {
     times.extend(motion.times.iter().map(|time| later + time));
     let positions = lift.into_iter().chain(motion.positions.iter().cloned()).collect();
     Motion { times, positions }
-}
-
-/// A length in millimeters for a message, to the micrometer.
-fn shown(length: f64) -> String {
-    ((1e6 * length).round() / 1e3).to_string()
 }

@@ -105,7 +105,7 @@ impl Places {
         })
     }
 
-    /// Refuses what [`Ply::check_places`] does, neighbors (all but) straight above each other above all.
+    /// Refuses positions that [`Ply::check_places`] refuses, such as neighbors that are almost straight above each other.
     pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), Error> {
         ply.check_places(&self.points).map_err(|fault| match fault {
             LayupError::GripperSteep { a, b, run, length, .. } => self.error(

@@ -49,7 +49,7 @@ pub(super) fn plan(
 fn count(
     written: &Located<Count>,
     [least, most]: [usize; 2],
-    of: &str,
+    what: &str,
     document: &Document,
 ) -> Result<usize, Error> {
     let Whole(value) = written.value;
@@ -59,15 +59,15 @@ fn count(
         return Ok(value);
     }
     let fault = match value {
-        1 => format!("1 {} is too few for a plan", of.trim_end_matches('s')),
-        _ if value < 1 => format!("{value} {of} are too few for a plan"),
-        _ => format!("{value} {of} are too many for a plan"),
+        1 => format!("1 {} is too few for a plan", what.trim_end_matches('s')),
+        _ if value < 1 => format!("{value} {what} are too few for a plan"),
+        _ => format!("{value} {what} are too many for a plan"),
     };
-    let help = match of {
+    let help = match what {
         "steps" => format!(
             "{least} to {most} steps are possible: step 1 is the start, the last one the target"
         ),
-        _ => format!("{least} to {most} {of} are possible"),
+        _ => format!("{least} to {most} {what} are possible"),
     };
     Err(document.error(written.span.clone(), fault, help))
 }

@@ -48,7 +48,7 @@ pub(super) enum Allowed {
     Positive,
     /// A size from 1 µm to 10 km.
     Size,
-    /// Such a size, or zero.
+    /// A size from 1 µm to 10 km, or zero.
     SizeOrZero,
     /// Up to 10 km to either side.
     Coordinate,
@@ -56,9 +56,9 @@ pub(super) enum Allowed {
     PartOf(&'static str),
     /// From a smallest to a largest value, and of what these are.
     Within([f64; 2], &'static str),
-    /// Such a value, or zero.
+    /// Zero, or from a smallest to a largest value, and of what these are.
     ZeroOrWithin([f64; 2], &'static str),
-    /// Such a value, or infinity.
+    /// Infinity, or from a smallest to a largest value, and of what these are.
     InfiniteOrWithin([f64; 2], &'static str),
     /// A turn to either side at most.
     Turn,

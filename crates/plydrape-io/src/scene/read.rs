@@ -92,7 +92,7 @@ fn not_found(path: &Path, error: &std::io::Error) -> Option<String> {
     file_kind::nearest_name(path).map(|near| format!("did you mean `{}`?", short(&near)))
 }
 
-/// What to do about a pipe or a device, of which nothing is read, and about a file that is closed to this user.
+/// What to do about a pipe or a device, which are never read, and about a file that this user may not read.
 fn not_readable(path: &Path, error: &std::io::Error) -> Option<String> {
     match error.kind() {
         ErrorKind::InvalidInput if path.exists() => {
@@ -196,8 +196,8 @@ fn lines_ended(text: String, name: &str) -> Document {
 
 fn reason(error: &std::io::Error) -> String {
     match error.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file".into(),
-        std::io::ErrorKind::PermissionDenied => "permission denied".into(),
+        ErrorKind::NotFound => "there is no such file".into(),
+        ErrorKind::PermissionDenied => "permission denied".into(),
         _ => error.to_string(),
     }
 }

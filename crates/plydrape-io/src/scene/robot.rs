@@ -61,6 +61,7 @@ pub(super) fn robot(
     Ok((Arm { name, joints, flange, start, acceleration, margin, singular }, bodies))
 }
 
+/// Name, joints, flange in the frame of the last joint, and bodies of an arm.
 type Parts = (String, [Joint; JOINTS], Pose, Vec<Body>);
 
 /// The arm of a shipped file, or of one beside the scene.
@@ -111,7 +112,7 @@ fn from_file(
             bodies.push(Body {
                 name: format!("arm's {label}"),
                 on: Mount::Link(body.link),
-                shape: placed(body, name, document, &folder)?,
+                shape: link_shape(body, name, document, &folder)?,
             });
         }
     }
@@ -119,8 +120,8 @@ fn from_file(
     Ok((read.name, read.joints, read.flange, bodies))
 }
 
-/// The shape of a link as triangles in the frame of its joint; around what is round.
-fn placed(
+/// The shape of a link as triangles in the frame of its joint; a cylinder becomes a prism around it.
+fn link_shape(
     body: &UrdfBody,
     file: &Located<String>,
     document: &Document,
@@ -133,7 +134,7 @@ fn placed(
         }
         UrdfShape::Box(size) => Shape::Box { size: *size, at: [0.0; 3] }.triangles(SIDES),
         UrdfShape::Mesh(name, scale) => {
-            let path = beside(name, folder).ok_or_else(|| {
+            let path = mesh_path(name, folder).ok_or_else(|| {
                 document.error(
                     file.span.clone(),
                     format!("the mesh {} of {} is not beside {}", excerpt(name), body.name, excerpt(&file.value)),
@@ -161,15 +162,19 @@ fn placed(
 }
 
 /// The file that a robot names, as in `package://robot/meshes/link.stl`: below the folder of the robot's file or one of those around it.
-fn beside(name: &str, folder: &Path) -> Option<PathBuf> {
+fn mesh_path(name: &str, folder: &Path) -> Option<PathBuf> {
     let (package, rest) = match name.strip_prefix("package://") {
         Some(rest) => (Some(rest), rest.split_once('/').map_or(rest, |(_, path)| path)),
         None => (None, name.strip_prefix("file://").unwrap_or(name)),
     };
-    let ways = |folder: &Path| {
-        [package, Some(rest)].into_iter().flatten().map(|way| folder.join(way)).collect::<Vec<_>>()
+    let candidates = |folder: &Path| {
+        [package, Some(rest)]
+            .into_iter()
+            .flatten()
+            .map(|path| folder.join(path))
+            .collect::<Vec<_>>()
     };
-    folder.ancestors().flat_map(ways).find(|path| path.is_file())
+    folder.ancestors().flat_map(candidates).find(|path| path.is_file())
 }
 
 /// The joints of a table, and the flange in the frame of the last one.

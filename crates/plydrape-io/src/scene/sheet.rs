@@ -3,7 +3,7 @@
 use super::file::SceneKeys;
 use super::source::Document;
 use crate::Error;
-use crate::store::shown::millimeters;
+use crate::store::shown::{listed, millimeters};
 use crate::store::size::{self, PlanSheets};
 use plydrape::layup::Settings;
 use plydrape::material::{Material, Section};
@@ -86,14 +86,6 @@ fn stiffness(
         ),
         format!("give the material its {}; or {otherwise}", remedies.join(", and its ")),
     ))
-}
-
-/// `a`, `a and b`, `a, b and c`.
-fn listed(words: &[&str]) -> String {
-    match words {
-        [words @ .., last] if !words.is_empty() => format!("{} and {last}", words.join(", ")),
-        _ => words.join(""),
-    }
 }
 
 /// What the pads and the mesh of a sheet are held against.

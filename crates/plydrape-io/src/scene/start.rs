@@ -2,14 +2,13 @@
 
 use super::check::Surroundings;
 use super::choice::PlaceChoice;
-use crate::Error;
-
 use super::file::GrippersTable;
 use super::located::{Fixed, Located};
 use super::places::Places;
 use super::quantity::{Quantity, Read};
 use super::rectangle::Rectangle;
 use super::usual::{Height, Spacing};
+use crate::Error;
 use plydrape::layup::Target;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;

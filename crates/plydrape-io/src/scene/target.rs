@@ -1,9 +1,9 @@
 //! Where the ply shall end: the ideal drape on the mold, or positions as given.
 
 use super::file::TargetTable;
-use super::layup::{free, layup, round};
 use super::located::Located;
 use super::mold::usual_width;
+use super::placement::{free, placement, round};
 use super::places::{Places, X, Y, Z, csv_file, point};
 use super::source::Document;
 use super::table::Table;
@@ -83,9 +83,9 @@ pub(super) fn net(
     base: &Path,
 ) -> Result<Laid, Error> {
     let keys = &table.value;
-    let layup = layup(keys, &table.span, ply, turn, mold, document)?;
+    let placement = placement(keys, &table.span, ply, turn, mold, document)?;
     let outline = ply.cut.as_ref().map(|cut| &cut.outline);
-    let mesh = layup.mesh[0].min(layup.mesh[1]);
+    let mesh = placement.mesh[0].min(placement.mesh[1]);
     let wanted = match &keys.trim {
         Some(file) => Some(wanted(file, mold, mesh, document, base)?),
         None => None,
@@ -94,10 +94,10 @@ pub(super) fn net(
     let free = free(keys);
     let seeds = match free {
         Free { seed: false, heading: false } => None,
-        _ => Some(Seeds::search(mold, layup, outline, free).map_err(no_net)?),
+        _ => Some(Seeds::search(mold, placement, outline, free).map_err(no_net)?),
     };
-    let layup = seeds.as_ref().map_or(layup, |seeds| seeds.placement);
-    let net = Net::drape_cut(mold, layup, outline.cloned()).map_err(no_net)?;
+    let placement = seeds.as_ref().map_or(placement, |seeds| seeds.placement);
+    let net = Net::drape_cut(mold, placement, outline.cloned()).map_err(no_net)?;
     Ok(Laid { net, seeds, wanted })
 }
 
@@ -190,7 +190,7 @@ fn at_grippers(
         (p - u).hypot(q - v)
     };
     let reason = net.missing.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-    let (told, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
+    let (fault, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
         Some((Reason::OffMold, beyond)) => (
             match beyond {
                 Some(beyond) => {
@@ -225,7 +225,7 @@ fn at_grippers(
     let have = if missing == 1 { "gripper has" } else { "grippers have" };
     Err(document.error(
         header(table, document),
-        format!("{missing} of {count} {have} no place on the mold: gripper {id} {told}"),
+        format!("{missing} of {count} {have} no place on the mold: gripper {id} {fault}"),
         help,
     ))
 }

@@ -1,9 +1,9 @@
 //! How a robot carries the grippers.
 
 use super::file::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
-use super::heading::pose;
-use super::layup::round;
 use super::located::Located;
+use super::placement::round;
+use super::pose::pose;
 use super::quantity::{Measure, Read, read_given, read_or};
 use super::source::Document;
 use crate::Error;

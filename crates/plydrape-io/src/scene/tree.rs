@@ -26,7 +26,7 @@ pub(super) struct Fault {
 
 impl Fault {
     /// This fault, about these bytes unless it has a place already.
-    fn at(mut self, span: Range<usize>) -> Self {
+    fn placed(mut self, span: Range<usize>) -> Self {
         self.span.get_or_insert(span);
         self
     }
@@ -55,7 +55,7 @@ impl From<toml::de::Error> for Fault {
 /// Reads the keys of a TOML text.
 ///
 /// # Errors
-/// What is no TOML, or not what `T` wants.
+/// The text is no TOML, or has other keys or values than `T`.
 pub(super) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     let root = DeTable::parse(text)?;
     let span = root.span();
@@ -65,7 +65,7 @@ pub(super) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
 /// Reads the keys of a table, which is written at `span`.
 ///
 /// # Errors
-/// What is not what `T` wants.
+/// The table has other keys or values than `T`.
 pub(super) fn read_table<T: DeserializeOwned>(
     table: DeTable<'_>,
     span: Range<usize>,
@@ -106,7 +106,7 @@ impl<'de> Deserializer<'de> for Tree<'_, '_> {
             DeValue::Array(values) => visitor.visit_seq(Values(values.iter())),
             DeValue::Table(table) => visitor.visit_map(Keys { entries: table.iter(), value: None }),
         };
-        read.map_err(|fault| fault.at(self.0.span()))
+        read.map_err(|fault| fault.placed(self.0.span()))
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
@@ -146,7 +146,7 @@ impl<'de> Deserializer<'de> for Tree<'_, '_> {
             }
             _ => Err(Fault::custom(CHOICE_EXPECTED)),
         };
-        read.map_err(|fault| fault.at(self.0.span()))
+        read.map_err(|fault| fault.placed(self.0.span()))
     }
 
     forward_to_deserialize_any! {
@@ -193,12 +193,12 @@ where
         let Some((key, value)) = self.entries.next() else { return Ok(None) };
         self.value = Some(value);
         let name: StrDeserializer<'_, Fault> = (**key.get_ref()).into_deserializer();
-        seed.deserialize(name).map(Some).map_err(|fault| fault.at(key.span()))
+        seed.deserialize(name).map(Some).map_err(|fault| fault.placed(key.span()))
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
         let value = self.value.take().ok_or_else(|| Fault::custom("a value before its key"))?;
-        seed.deserialize(Tree(value)).map_err(|fault| fault.at(value.span()))
+        seed.deserialize(Tree(value)).map_err(|fault| fault.placed(value.span()))
     }
 }
 

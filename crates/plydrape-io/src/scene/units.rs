@@ -185,7 +185,8 @@ fn known_units() -> String {
 
 /// The unit that differs from a symbol in its letters' case only, or by a usual long name.
 fn nearest_unit(symbol: &str) -> Option<&'static str> {
-    let long = match symbol.to_lowercase().as_str() {
+    let small = symbol.to_lowercase();
+    let long = match small.as_str() {
         "millimeter" | "millimetre" | "millimeters" | "millimetres" => "mm",
         "centimeter" | "centimetre" | "centimeters" | "centimetres" => "cm",
         "micron" | "microns" | "micrometer" | "micrometre" => "um",
@@ -211,7 +212,7 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
         "percent" => "%",
         _ => "",
     };
-    let same = |unit: &str| unit == long || unit.to_lowercase() == symbol.to_lowercase();
+    let same = |unit: &str| unit == long || unit.to_lowercase() == small;
     UNITS.iter().map(|(unit, ..)| *unit).chain(["Nm", "Nmm"]).find(|u| same(u))
 }
 
@@ -386,7 +387,7 @@ fn spelled(text: &str) -> Cow<'_, str> {
 }
 
 /// A symbol, or two that are written without a space: a force or a weighed mass and the length it acts over, as in `Nm` and
-/// `mgcm`. Of the two the first comes first.
+/// `mgcm`. The pair is the first of two units, `None` for a single one, and the last.
 fn joined(symbol: &str) -> Option<[Option<Unit>; 2]> {
     let known_unit = |symbol: &str| {
         let found = UNITS.iter().find(|(known, ..)| *known == symbol);

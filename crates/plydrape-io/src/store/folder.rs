@@ -10,8 +10,9 @@
 //! runs that were killed have left is cleared by the next one.
 
 use crate::Error;
+use crate::store::input;
 use crate::store::manifest::{Manifest, NAME as MANIFEST, Stamp, Stamping};
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, DirEntry, File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -21,6 +22,9 @@ const STAGE: &str = ".plydrape-";
 
 /// The file of a stage that says whose it is.
 const OWNER: &str = "owner";
+
+/// Largest text of an owner that is read (bytes).
+const LARGEST_OWNER: u64 = 1 << 10;
 
 /// Files by plain name, with their contents.
 pub type Files = Vec<(String, Vec<u8>)>;
@@ -277,7 +281,7 @@ impl Staged {
         Ok(paths.pop().unwrap_or_default())
     }
 
-    /// The same files, ready to come into another folder.
+    /// Moves the staged files to another folder, into which they are then ready to come.
     ///
     /// # Errors
     /// As [`Folder::write`].
@@ -420,16 +424,17 @@ fn clear(stage: &Path) {
 /// Hidden folders of a folder with the name of a stage.
 fn hidden(dir: &Path) -> Vec<PathBuf> {
     let Ok(entries) = fs::read_dir(dir) else { return Vec::new() };
-    let named = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        name.starts_with(STAGE) && path.is_dir()
+    // a link with such a name may lead to a folder of the user's
+    let is_stage = |entry: &DirEntry| {
+        entry.file_name().to_string_lossy().starts_with(STAGE)
+            && entry.file_type().is_ok_and(|kind| kind.is_dir())
     };
-    entries.filter_map(|entry| Some(entry.ok()?.path())).filter(named).collect()
+    entries.filter_map(Result::ok).filter(is_stage).map(|entry| entry.path()).collect()
 }
 
 /// Who writes into a folder, as far as that is known.
 fn owner(dir: &Path) -> String {
-    let read = |stage: &PathBuf| fs::read_to_string(stage.join(OWNER)).ok();
+    let read = |stage: &PathBuf| input::text(&stage.join(OWNER), LARGEST_OWNER).ok();
     hidden(dir).iter().find_map(read).unwrap_or_else(|| "another run".into())
 }
 

@@ -152,6 +152,16 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     }
 }
 
+/// A list that never ends is not read.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_list_that_is_a_device_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/dev/zero", dir.path().join(MANIFEST)).unwrap();
+    let fault = write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap_err();
+    assert!(fault.to_string().contains("not a regular file"), "{fault}");
+}
+
 /// A link to a file elsewhere is not ours, whatever it leads to.
 #[cfg(unix)]
 #[test]
@@ -333,6 +343,21 @@ fn stages_of_dead_runs_are_cleared() {
     fs::write(dead.join(OWNER), "`plydrape simulate`, process 1").unwrap();
     write(dir.path(), "simulate", &[("a", b"1")], &[]).unwrap();
     assert!(!dead.exists() && !empty.exists() && mine.exists());
+}
+
+/// What a link with the name of a stage leads to is not cleared, even where it holds a file with the name of an owner's.
+#[cfg(unix)]
+#[test]
+fn a_link_with_the_name_of_a_stage_is_not_followed() {
+    let home = tempfile::tempdir().unwrap();
+    let [dir, mine] = ["out", "mine"].map(|name| home.path().join(name));
+    for folder in [&dir, &mine] {
+        fs::create_dir(folder).unwrap();
+    }
+    fs::write(mine.join(OWNER), "me").unwrap();
+    std::os::unix::fs::symlink(&mine, dir.join(".plydrape-link")).unwrap();
+    write(&dir, "simulate", &[("a", b"1")], &[]).unwrap();
+    assert_eq!(names(&mine), [OWNER]);
 }
 
 /// A kill between two renames leaves a list without a seal; a whole run seals it again, an addition does not.

@@ -1,6 +1,7 @@
 //! The list `.plydrape` of what plydrape wrote into a folder: by which command, checksum and length of each file.
 
 use crate::Error;
+use crate::store::input;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,6 +10,9 @@ use std::path::{Component, Path};
 
 /// Name of the list in its folder.
 pub(crate) const NAME: &str = ".plydrape";
+
+/// Largest list that is read (bytes).
+const LARGEST: u64 = 1 << 24;
 
 /// CRC-32 (IEEE) and length in bytes of one content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,7 +47,7 @@ impl Default for Manifest {
 }
 
 impl Stamp {
-    /// That of all that is left to read.
+    /// The stamp of all that is left to read.
     pub(crate) fn read(mut content: impl io::Read) -> io::Result<Self> {
         let mut stamping = Stamping::new(io::sink());
         io::copy(&mut content, &mut stamping)?;
@@ -85,7 +89,7 @@ impl Manifest {
     /// The list of a folder; empty where there is none.
     pub(crate) fn read(dir: &Path) -> Result<Self, Error> {
         let path = dir.join(NAME);
-        let text = match fs::read(&path) {
+        let text = match input::bytes(&path, LARGEST) {
             Ok(text) => text,
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Self::default()),
             Err(e) => return Err(Error::write("read", &path, e)),

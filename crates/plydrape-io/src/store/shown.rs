@@ -5,7 +5,7 @@ use plydrape::ply::{Direction, Grid, Ply};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Whether a text holds a control character, a line feed included.
+/// The first control character of a text, if it has one; a line feed is one.
 #[must_use]
 pub fn control(text: &str) -> Option<char> {
     text.chars().find(|c| c.is_control())
@@ -56,8 +56,17 @@ pub fn blanked(text: &str) -> String {
 /// A length (m) in millimeters, with three digits after the point at most.
 #[must_use]
 pub fn millimeters(length: f64) -> String {
-    let text = format!("{:.3}", 1e3 * length);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    // a zero without a sign
+    ((1e6 * length).round() / 1e3 + 0.0).to_string()
+}
+
+/// Words in a sentence, as in `a, b and c`.
+pub(crate) fn listed(words: &[impl AsRef<str>]) -> String {
+    let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+    match words.as_slice() {
+        [most @ .., last] if !most.is_empty() => format!("{} and {last}", most.join(", ")),
+        _ => words.concat(),
+    }
 }
 
 /// The first line of a text, at most this many characters of it, with an ellipsis where more follows.
@@ -107,7 +116,7 @@ pub fn ply(ply: &Ply) -> String {
         Grid::NONE => format!("{} cups, {a} × {b} mm apart", ply.grippers()),
         Grid { nu, nv } => format!("{nu} × {nv} cups, {a} × {b} mm apart"),
     };
-    let warp = millimeters(warp * 1e-3);
+    let warp = (1e3 * warp).round() / 1e3;
     format!("cut to {width} × {height} mm{holes}, held by {held}, warp at {warp}° in the drawing")
 }
 
@@ -121,6 +130,19 @@ mod tests {
         let text = "a\r\nb\rc\td\u{1b}e\u{85}f\n";
         assert_eq!(blanked(text), "a \nb?c\td?e¿f\n");
         assert_eq!(blanked(text).len(), text.len());
+    }
+
+    /// A length that is nearly zero has no sign.
+    #[test]
+    fn millimeters_have_three_digits_behind_the_point_at_most() {
+        let shown = [0.1, 0.0123456, -0.002, -1e-8, 0.0].map(millimeters);
+        assert_eq!(shown, ["100", "12.346", "-2", "0", "0"]);
+    }
+
+    #[test]
+    fn the_last_of_several_words_follows_an_and() {
+        let words = ["a", "b", "c"];
+        assert_eq!([0, 1, 2, 3].map(|n| listed(&words[..n])), ["", "a", "a and b", "a, b and c"]);
     }
 
     /// Counted in characters, not in bytes.

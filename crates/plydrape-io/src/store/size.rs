@@ -98,7 +98,7 @@ pub fn check(estimate: f64, what: impl FnOnce() -> String) -> Result<(), Error> 
 /// # Errors
 /// As [`check`].
 pub fn drape(ply: &Ply, count: usize) -> Result<(), Error> {
-    check(of_steps(ply, count), || steps("the result", ply, count))
+    check(steps_bytes(ply, count), || steps_in_words("the result", ply, count))
 }
 
 /// The sheets of a plan.
@@ -119,15 +119,16 @@ pub struct PlanSheets {
 /// As [`check`].
 pub fn plan(ply: &Ply, plan: &PlanSettings, sheets: Option<PlanSheets>) -> Result<(), Error> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
-    let (program, cores) = match plan.method {
+    // a search of paths ranks candidates on all cores, the stepwise planner solves programs
+    let (program, coarse_sheets) = match plan.method {
         PlanMethod::Path => (0.0, cores),
         PlanMethod::Stepwise => (PROGRAM * ply.grippers() as f64, 0.0),
     };
-    let of_sheets = sheets.map_or(0.0, |PlanSheets { nodes, coarse_nodes, keep }| {
-        of_sheet(nodes, keep.min(plan.steps)) + cores * of_sheet(coarse_nodes, 0)
+    let all_sheets = sheets.map_or(0.0, |PlanSheets { nodes, coarse_nodes, keep }| {
+        sheet_bytes(nodes, keep.min(plan.steps)) + coarse_sheets * sheet_bytes(coarse_nodes, 0)
     });
-    check(PLAN * of_steps(ply, plan.steps) + program + of_sheets, || {
-        let steps = steps("a plan", ply, plan.steps);
+    check(PLAN * steps_bytes(ply, plan.steps) + program + all_sheets, || {
+        let steps = steps_in_words("a plan", ply, plan.steps);
         match sheets {
             Some(PlanSheets { nodes, .. }) => format!("{steps}, and a sheet of {nodes:.0} nodes,"),
             None => steps,
@@ -135,7 +136,7 @@ pub fn plan(ply: &Ply, plan: &PlanSettings, sheets: Option<PlanSheets>) -> Resul
     })
 }
 
-/// Refuses derivatives of this many numbers to all gripper positions, as one array.
+/// Refuses derivatives of all catenaries to all coordinates of the grippers, as one array.
 ///
 /// # Errors
 /// As [`check`].
@@ -147,12 +148,13 @@ pub fn derivatives(ply: &Ply) -> Result<(), Error> {
     })
 }
 
-fn of_steps(ply: &Ply, steps: usize) -> f64 {
+/// Memory that the steps of a result take (bytes).
+fn steps_bytes(ply: &Ply, steps: usize) -> f64 {
     let (grippers, catenaries) = (ply.grippers() as f64, ply.lines().catenaries() as f64);
     (GRIPPER * grippers + CATENARY * catenaries) * steps as f64
 }
 
-fn steps(what: &str, ply: &Ply, steps: usize) -> String {
+fn steps_in_words(what: &str, ply: &Ply, steps: usize) -> String {
     let (grippers, catenaries) = (ply.grippers(), ply.lines().catenaries());
     let steps = match steps {
         1 => "a single step".to_owned(),
@@ -166,14 +168,14 @@ fn steps(what: &str, ply: &Ply, steps: usize) -> String {
 /// # Errors
 /// As [`check`].
 pub fn sheet(nodes: f64, states: usize) -> Result<(), Error> {
-    check(of_sheet(nodes, states), || {
+    check(sheet_bytes(nodes, states), || {
         format!("a sheet of {nodes:.0} nodes that keeps {states} states")
     })
 }
 
 /// Memory that the drape of a sheet of this many nodes takes, which keeps this many states (bytes).
 #[must_use]
-pub fn of_sheet(nodes: f64, states: usize) -> f64 {
+pub fn sheet_bytes(nodes: f64, states: usize) -> f64 {
     (NODE + STATE * states as f64) * nodes
 }
 

@@ -26,7 +26,7 @@ pub fn sample(forecast: &Forecast, cells: usize) -> String {
     format!("at most {cells} cells with errors, {}", about(forecast.sample(cells)))
 }
 
-/// A time that is known within a factor of 1.5, in this many digits.
+/// A time in words, with no more digits than it has where it is known within a factor of 1.5.
 #[must_use]
 pub fn about(time: Duration) -> String {
     let seconds = time.as_secs_f64();

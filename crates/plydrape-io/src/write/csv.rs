@@ -218,7 +218,7 @@ impl<'a> Poses<'a> {
         time: f64,
         poses: impl Iterator<Item = (GripperId, [f64; 3], [f64; 4])>,
     ) -> Result<(), Error> {
-        let known = self.loads.and_then(|loads| loads.at(time));
+        let known = self.loads.and_then(|loads| loads.interpolate(time));
         for (n, (id, position, quaternion)) in poses.enumerate() {
             let mut row = vec![number(time), gripper_name(id)];
             row.extend(without_rounding(position).map(number));

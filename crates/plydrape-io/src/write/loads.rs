@@ -50,7 +50,7 @@ pub(crate) struct Stiffness {
 }
 
 impl Stiffness {
-    /// That of mounts that yield along some axis.
+    /// The stiffness of mounts that yield along an axis; `None` if they are rigid.
     fn new(pad: &PadSettings) -> Option<Self> {
         let [lateral, axial] =
             [pad.lateral_stiffness, pad.axial_stiffness].map(|k| k.map(|k| k * PER_MM));
@@ -63,7 +63,7 @@ impl Loads {
     pub fn new(result: &ResultFile) -> Option<Self> {
         let mounts = Stiffness::new(&result.scene.settings.pad);
         let mut times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
-        let mut steps: Vec<Vec<Load>> = result.steps.iter().map(of_step).collect();
+        let mut steps: Vec<Vec<Load>> = result.steps.iter().map(step_loads).collect();
         let (end, loads) = times.last().copied().zip(steps.last().cloned())?;
         // after the last step grippers bear the same until they let go
         if let Some(released) = last_release(result.events()).filter(|time| *time > end) {
@@ -74,7 +74,7 @@ impl Loads {
     }
 
     /// The loads at a time (s); `None` after the last step that was draped.
-    pub fn at(&self, t: f64) -> Option<Vec<Load>> {
+    pub fn interpolate(&self, t: f64) -> Option<Vec<Load>> {
         let (after, last) = (self.times.partition_point(|time| *time <= t), self.times.len() - 1);
         if after == 0 {
             return Some(self.steps[0].clone());
@@ -90,10 +90,10 @@ impl Loads {
 }
 
 impl Load {
-    /// That of a gripper that has let go.
+    /// The load on a gripper that has let go.
     pub const NONE: Load = Load { force: [0.0; 3], preload: [0.0; 3] };
 
-    /// A share of the way to another.
+    /// The load at a share of the way from this one to another.
     fn towards(&self, other: &Load, share: f64) -> Load {
         let mix = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|c| (1.0 - share) * a[c] + share * b[c]);
         Load { force: mix(self.force, other.force), preload: mix(self.preload, other.preload) }
@@ -101,7 +101,7 @@ impl Load {
 }
 
 /// The loads of a step; of rigid grippers there is no preload.
-fn of_step(step: &Step) -> Vec<Load> {
+fn step_loads(step: &Step) -> Vec<Load> {
     let load = |gripper: &Gripper| Load {
         force: gripper.force,
         preload: sub(gripper.commanded, gripper.position),

@@ -109,9 +109,9 @@ fn loads_go_on_linearly_between_the_steps() {
     let loads = Loads::new(&result).unwrap();
     assert_eq!(loads.times.len(), 6);
     let [start, end] = [3, 4].map(|n| result.steps[n].time);
-    let [first, last] = [start, end].map(|t| loads.at(t).unwrap());
+    let [first, last] = [start, end].map(|t| loads.interpolate(t).unwrap());
     assert!(first == loads.steps[3] && last == loads.steps[4] && first != last);
-    let third = loads.at(start + 0.3 * (end - start)).unwrap();
+    let third = loads.interpolate(start + 0.3 * (end - start)).unwrap();
     for ((a, b), found) in first.iter().zip(&last).zip(&third) {
         for c in 0..3 {
             let line = |a: f64, b: f64| a + 0.3 * (b - a);
@@ -119,7 +119,7 @@ fn loads_go_on_linearly_between_the_steps() {
             assert!((found.preload[c] - line(a.preload[c], b.preload[c])).abs() < 1e-15);
         }
     }
-    assert_eq!(loads.at(result.steps[5].time + 1e-3), None);
+    assert_eq!(loads.interpolate(result.steps[5].time + 1e-3), None);
 }
 
 /// A plan's motion: at each of its samples the springs give the loads, the last ones are those of the last state, and a scene

@@ -10,7 +10,10 @@
 //!
 //! the root of a symmetric 2 × 2 matrix in closed form. A single strip has no v: it is laid level across.
 
+use crate::Error;
+use crate::result::ResultFile;
 use plydrape::geometry::vector::{cross, dot, unit};
+use plydrape::outcome::Gripper;
 
 /// A rigid place of the flat fabric.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +25,26 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
+    /// The best fit of fabric points (m) to the places of the grippers in the first step of a result.
+    ///
+    /// # Errors
+    /// [`Error::NotPossible`] if the result has no steps, or its grippers start on one line.
+    pub fn start(
+        result: &ResultFile,
+        fabric: &[[f64; 2]],
+        place: fn(&Gripper) -> [f64; 3],
+    ) -> Result<Pose, Error> {
+        let first = result.steps.first().ok_or_else(|| {
+            let message = "the result has no steps, so there is no motion to write";
+            Error::not_possible(message, "simulate the scene again")
+        })?;
+        let places: Vec<[f64; 3]> = first.grippers.iter().map(place).collect();
+        Pose::fit(fabric, &places).ok_or_else(|| {
+            let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
+            Error::not_possible(message, "spread them in the scene and simulate it again")
+        })
+    }
+
     /// The best fit of fabric points (m) to places (m); `None` if all places are one, or on one line while the fabric is not.
     pub fn fit(fabric: &[[f64; 2]], places: &[[f64; 3]]) -> Option<Pose> {
         let share = 1.0 / places.len() as f64;

@@ -18,6 +18,7 @@
 
 use crate::result::{ResultFile, catenaries};
 use plydrape::draping::record::{CatenaryState, Hold, SpanState};
+use plydrape::geometry::vector::sub;
 use plydrape::outcome::Step;
 use plydrape::ply::{Catenary, Grid, Kind, LineCell, Lines};
 
@@ -208,8 +209,8 @@ pub(crate) fn cell(graph: &Lines, cell: &LineCell, lines: &[Vec<Point>], n: usiz
     let (d0, d1) = (behind(low, 1), behind(right, 1));
     let [rising, falling] = cell.bias.map(|bias| &lines[bias.list()[0]]);
     let patch = |s: f64, t: f64| {
-        let [a, b] = [at(c0, s), at(c1, s)];
-        let [c, d] = [at(d0, t), at(d1, t)];
+        let [a, b] = [interpolate(c0, s), interpolate(c1, s)];
+        let [c, d] = [interpolate(d0, t), interpolate(d1, t)];
         let corners = mix(mix(c0[0], c0[n], s), mix(c1[0], c1[n], s), t);
         let (across, along) = (mix(a, b, t), mix(c, d, s));
         [0, 1, 2].map(|k| across[k] + along[k] - corners[k])
@@ -217,11 +218,11 @@ pub(crate) fn cell(graph: &Lines, cell: &LineCell, lines: &[Vec<Point>], n: usiz
     // Distance of each diagonal from the patch, by q along the rising and by p along the falling one.
     let rising_gap = |q: f64| {
         let s = (1.0 + q) / 2.0;
-        minus(at(rising, s), patch(s, s))
+        sub(interpolate(rising, s), patch(s, s))
     };
     let falling_gap = |p: f64| {
         let s = (1.0 + p) / 2.0;
-        minus(at(falling, 1.0 - s), patch(s, 1.0 - s))
+        sub(interpolate(falling, 1.0 - s), patch(s, 1.0 - s))
     };
     let (r0, f0) = (rising_gap(0.0), falling_gap(0.0));
     let center = if r0[2] < f0[2] { r0 } else { f0 };
@@ -248,12 +249,8 @@ fn fade(p: f64, q: f64) -> f64 {
     (1.0 - (p / reach).powi(2)).max(0.0)
 }
 
-fn minus(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|c| a[c] - b[c])
-}
-
-/// A line of equally spaced stations at a share of its way.
-fn at(line: &[Point], share: f64) -> Point {
+/// The point of a line of equally spaced stations at a share of its length.
+fn interpolate(line: &[Point], share: f64) -> Point {
     let last = line.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;
     let low = (place as usize).min(last.saturating_sub(1));
@@ -274,7 +271,7 @@ mod tests {
         let lines = lines(&result, step, &result.curves(step), n);
         let at = &graph.cells()[1];
         let cell = cell(&graph, at, &lines, n);
-        let on = |s: usize, t: usize| cell[t * (n + 1) + s];
+        let node = |s: usize, t: usize| cell[t * (n + 1) + s];
         let near = |a: Point, b: Point| {
             assert!((0..3).all(|c| (a[c] - b[c]).abs() < 1e-12), "{a:?} {b:?}");
         };
@@ -292,12 +289,12 @@ mod tests {
                 near(on_cell(k), *point);
             }
         };
-        each(c0, &|k| on(k, 0));
-        each(c1, &|k| on(k, n));
-        each(d0, &|k| on(0, k));
-        each(d1, &|k| on(n, k));
-        each(rising, &|k| on(k, k));
-        each(falling, &|k| on(n - k, k));
+        each(c0, &|k| node(k, 0));
+        each(c1, &|k| node(k, n));
+        each(d0, &|k| node(0, k));
+        each(d1, &|k| node(n, k));
+        each(rising, &|k| node(k, k));
+        each(falling, &|k| node(n - k, k));
     }
 
     /// Stations of a plain line are equally spaced, whatever the spacing of its points.

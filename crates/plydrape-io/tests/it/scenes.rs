@@ -210,6 +210,21 @@ fn a_plan_and_its_limits_are_read_in_si() {
     assert_eq!((scene.limits.most(Name::GripperDistance), scene.limits.workspace), (0.05, None));
 }
 
+/// Locking angle and the test that found it go together: neither is left out in silence.
+#[test]
+fn a_locking_angle_has_its_test_and_a_test_its_angle() {
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = { mass = 0.3, bending_rigidity_warp = 0, bending_rigidity_weft = 0, LOCKING }\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n";
+    let read = |keys: &str| parse(&text.replace("LOCKING", keys));
+    assert!(read("locking_angle = \"40 deg\", locking_test = \"picture frame\"").is_ok());
+    for (alone, missing) in [
+        ("locking_angle = \"40 deg\"", "locking_test"),
+        ("locking_test = \"picture frame\"", "locking_angle"),
+    ] {
+        let Err(refused) = read(alone) else { panic!("{alone}") };
+        assert!(refused.help().contains(missing), "{refused}");
+    }
+}
+
 /// What a scene says nothing of follows from its ply and its contact, or from the sources that the keys name.
 #[test]
 fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {

@@ -19,12 +19,12 @@ pub(super) struct Misread {
     pub fault: Fault,
 }
 
-/// Nothing in it.
+/// A formula without text.
 pub(super) fn empty() -> Fault {
     Fault::new("the formula is empty", HEIGHT)
 }
 
-/// A word that stands for nothing.
+/// A name that is not known.
 pub(super) fn name(name: &str) -> Fault {
     let names: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
     let hint = match name {
@@ -55,7 +55,7 @@ pub(super) fn character(sign: char) -> Fault {
     Fault::new(format!("`{sign}` has no place in a formula"), help)
 }
 
-/// A number that is none.
+/// A number that cannot be read.
 pub(super) fn number(written: &str) -> Fault {
     Fault::new(format!("`{written}` is no number"), "write numbers as 0.05 or 5e-2")
 }
@@ -91,7 +91,7 @@ pub(super) fn long(length: usize) -> Fault {
     Fault::new(message, "give a height grid or a mesh instead")
 }
 
-/// Brackets in brackets in brackets.
+/// Too many brackets in brackets.
 pub(super) fn depth() -> Fault {
     Fault::new("the formula is nested too deeply", "write it with fewer brackets in brackets")
 }

@@ -5,7 +5,7 @@
 //! first and then turned about an axis. Sets, materials and steps are passed over; a keyword that would
 //! change the geometry is refused.
 
-use super::element::{self, element};
+use super::element::{Element, element};
 use super::instance::{Placing, turned};
 use super::text::{CORRECT, Lines, refused};
 use crate::Error;
@@ -35,14 +35,14 @@ struct Scope {
     name: String,
     /// Nodes by number: place and line.
     nodes: HashMap<u64, ([f64; 3], usize)>,
-    elements: Vec<Element>,
+    elements: Vec<SurfaceElement>,
     /// Elements that may be part of the surface and cannot be read: which of the skipped types, and their nodes.
     lost: Vec<(usize, Vec<u64>)>,
 }
 
 /// A surface element.
 #[derive(Debug)]
-struct Element {
+struct SurfaceElement {
     number: u64,
     line: usize,
     /// Numbers of its corner nodes.
@@ -182,13 +182,13 @@ impl Reader<'_> {
                 let kind = kind.ok_or_else(|| self.lines.fault(line, "`*Element, type=…`"))?;
                 let kind = kind.to_ascii_uppercase();
                 let role = match element(&kind) {
-                    element::Element::Face { nodes, corners } => {
+                    Element::Face { nodes, corners } => {
                         self.data = Data::Elements { nodes, corners };
                         return Ok(());
                     }
-                    element::Element::Thick => Role::Thick,
-                    element::Element::NoFace => Role::NoSurface,
-                    element::Element::Unknown => Role::Unknown,
+                    Element::Thick => Role::Thick,
+                    Element::NoFace => Role::NoSurface,
+                    Element::Unknown => Role::Unknown,
                 };
                 self.data = Data::Skipped(self.skipped_type(kind, role));
             }
@@ -298,7 +298,7 @@ impl Reader<'_> {
                     return Err(self.lines.fault(line, element_line(nodes)));
                 }
                 if self.pending.len() == nodes + 1 {
-                    let mut element = Element {
+                    let mut element = SurfaceElement {
                         number: self.pending[0],
                         line: self.lines.number,
                         corners: [0; 4],
@@ -410,7 +410,7 @@ fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<
                 Some(index) => *index,
                 None => {
                     let (point, _) = scope.nodes.get(node).ok_or_else(|| {
-                        let Element { number, line, .. } = element;
+                        let SurfaceElement { number, line, .. } = element;
                         let message = format!(
                             "element {number} uses node {node}, which {} does not define",
                             scope.name

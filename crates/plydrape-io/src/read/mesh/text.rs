@@ -44,17 +44,12 @@ impl<'a> Lines<'a> {
 
     /// A fault of the line read last.
     pub fn fault(&self, found: &str, expected: impl Into<String>) -> Error {
-        self.fault_at(self.number, found, expected)
-    }
-
-    /// A fault of a certain line.
-    pub fn fault_at(&self, line: usize, found: &str, expected: impl Into<String>) -> Error {
         let mut found: String = found.trim().chars().take(60).collect();
         if found.is_empty() {
             found = "an empty line".to_owned();
         }
         let message = format!("found `{found}`, expected {}", expected.into());
-        refused(self.file, line, message, CORRECT)
+        refused(self.file, self.number, message, CORRECT)
     }
 
     /// The file ends where something else belongs.

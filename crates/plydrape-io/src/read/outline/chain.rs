@@ -155,13 +155,13 @@ impl End {
         End { last: !self.last, ..self }
     }
 
-    fn at(self, curves: &[Curve]) -> [f64; 2] {
+    fn point(self, curves: &[Curve]) -> [f64; 2] {
         let points = &curves[self.curve].points;
         if self.last { points[points.len() - 1] } else { points[0] }
     }
 
     fn place(self, curves: &[Curve]) -> EntityPlace {
-        curves[self.curve].place(self.at(curves))
+        curves[self.curve].place(self.point(curves))
     }
 }
 
@@ -195,7 +195,7 @@ fn near<'a>(
     most: f64,
 ) -> impl Iterator<Item = [End; 2]> + use<'a> {
     let mut sorted: Vec<([f64; 2], End)> =
-        ends.into_iter().map(|end| (end.at(curves), end)).collect();
+        ends.into_iter().map(|end| (end.point(curves), end)).collect();
     sorted.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     (0..sorted.len()).flat_map(move |n| {
         let (at, end) = sorted[n];
@@ -213,14 +213,14 @@ fn over_gaps(curves: &mut [Curve], extents: &[f64], joints: &mut [Joint], gap: f
     let apart_enough = |[a, b]: &[End; 2]| a.curve != b.curve || extents[a.curve] > 2.0 * gap;
     let mut pairs: Vec<(f64, [End; 2])> = near(alone.collect(), curves, gap)
         .filter(apart_enough)
-        .map(|pair| (apart(pair[0].at(curves), pair[1].at(curves)), pair))
+        .map(|pair| (apart(pair[0].point(curves), pair[1].point(curves)), pair))
         .collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (width, [a, b]) in pairs {
         if [a, b].iter().any(|end| joints[end.index()] != Joint::Alone) {
             continue;
         }
-        let (p, q) = (a.at(curves), b.at(curves));
+        let (p, q) = (a.point(curves), b.point(curves));
         let middle = [0, 1].map(|n| 0.5 * (p[n] + q[n]));
         for (from, to) in [(a, b), (b, a)] {
             joints[from.index()] = Joint::To(to, width);

@@ -56,7 +56,7 @@ impl Placed {
 pub struct Text {
     /// What it says, line by line.
     pub lines: Vec<String>,
-    /// Where it stands (m).
+    /// Where it is (m).
     pub at: [f64; 2],
     /// The block that it is of.
     pub placed: Placed,
@@ -86,7 +86,7 @@ pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves,
     let hidden = drawing.layers().filter(|layer| !layer.is_layer_on);
     let mut reader = Reader {
         blocks: drawing.blocks().map(|block| (key(&block.name), block)).collect(),
-        wanted: options.layers.as_ref().map(|names| names.iter().map(|n| key(n)).collect()),
+        layers: options.layers.as_ref().map(|names| names.iter().map(|n| key(n)).collect()),
         hidden: hidden.map(|layer| key(&layer.name)).collect(),
         tolerance: options.tolerance,
         points: 0,
@@ -120,7 +120,7 @@ pub fn key(name: &str) -> String {
 
 struct Reader<'a> {
     blocks: HashMap<String, &'a ::dxf::Block>,
-    wanted: Option<BTreeSet<String>>,
+    layers: Option<BTreeSet<String>>,
     hidden: BTreeSet<String>,
     tolerance: f64,
     points: usize,
@@ -171,9 +171,9 @@ impl Reader<'_> {
         }
 
         // other entities that are no curves are left out; meshes are reported
-        let Some((kind, origin, normal)) = sort(&entity.specific) else {
+        let Some((kind, origin, normal)) = classify(&entity.specific) else {
             let mesh = matches!(&entity.specific, EntityType::Polyline(_));
-            self.found.meshes += usize::from(mesh && self.is_wanted(layer, entity));
+            self.found.meshes += usize::from(mesh && self.is_read(layer, entity));
             return Ok(());
         };
 
@@ -196,7 +196,7 @@ impl Reader<'_> {
         }
 
         // curves on other layers than those to be read are left out, and messages name these layers
-        if !self.is_wanted(layer, entity) {
+        if !self.is_read(layer, entity) {
             self.found.others.insert(layer.to_owned());
             return Ok(());
         }
@@ -310,10 +310,10 @@ impl Reader<'_> {
     }
 
     /// Whether an entity is to be read: its layer is named, or none is and it is visible.
-    fn is_wanted(&self, layer: &str, entity: &Entity) -> bool {
+    fn is_read(&self, layer: &str, entity: &Entity) -> bool {
         let name = key(layer);
-        match &self.wanted {
-            Some(wanted) => wanted.contains(&name),
+        match &self.layers {
+            Some(layers) => layers.contains(&name),
             None => !self.hidden.contains(&name) && entity.common.is_visible,
         }
     }
@@ -357,8 +357,11 @@ impl Reader<'_> {
                     .after(&Transform::shift(shift))
                     .after(&scale)
                     .after(&Transform::shift(base));
-                // an empty block in many rows takes time too
+                // a block of nothing, or of texts alone, in many rows takes time and memory too
                 self.visited += 1;
+                if self.visited > MOST_ENTITIES {
+                    return Err(too_many_in_blocks(place, MOST_ENTITIES, "entities in blocks"));
+                }
                 if depth == 0 {
                     self.places += 1;
                     self.placed.number = self.places;
@@ -405,7 +408,7 @@ fn plain(value: &str) -> Vec<String> {
 }
 
 /// What an entity is called, a point of it, and the normal of its plane; `None` for what is no curve.
-fn sort(entity: &EntityType) -> Option<(&'static str, Point, &Vector)> {
+fn classify(entity: &EntityType) -> Option<(&'static str, Point, &Vector)> {
     Some(match entity {
         EntityType::Line(line) => ("LINE", line.p1.clone(), &line.extrusion_direction),
         EntityType::Circle(circle) => ("CIRCLE", circle.center.clone(), &circle.normal),

@@ -49,10 +49,10 @@ impl Arc {
     /// The polygon from its beginning to its end.
     pub fn flatten(&self, limit: Limit) -> Result<Vec<[f64; 2]>, TooMany> {
         let lines = lines(self.sweep, stretch(self.p, self.q), limit)?;
-        Ok((0..=lines).map(|n| self.at(self.sweep * (n as f64 / lines as f64))).collect())
+        Ok((0..=lines).map(|n| self.point(self.sweep * (n as f64 / lines as f64))).collect())
     }
 
-    fn at(&self, angle: f64) -> [f64; 2] {
+    fn point(&self, angle: f64) -> [f64; 2] {
         let (sin, cos) = (self.start + angle).sin_cos();
         [0, 1].map(|n| self.center[n] + self.p[n] * cos + self.q[n] * sin)
     }
@@ -69,12 +69,12 @@ pub fn stretch(p: [f64; 2], q: [f64; 2]) -> f64 {
 /// They are computed from the chord and not from the center, which is far away where a bulge is almost straight.
 pub fn bulge(a: [f64; 2], b: [f64; 2], bulge: f64, limit: Limit) -> Result<Vec<[f64; 2]>, TooMany> {
     let half = 2.0 * bulge.atan();
-    let way = [b[0] - a[0], b[1] - a[1]];
-    let chord = way[0].hypot(way[1]);
-    if half == 0.0 || chord == 0.0 {
+    let chord = [b[0] - a[0], b[1] - a[1]];
+    let length = chord[0].hypot(chord[1]);
+    if half == 0.0 || length == 0.0 {
         return Ok(Vec::new());
     }
-    let lines = lines(2.0 * half, 0.5 * chord / half.sin().abs(), limit)?;
+    let lines = lines(2.0 * half, 0.5 * length / half.sin().abs(), limit)?;
     let point = |n: usize| {
         let s = 2.0 * n as f64 / lines as f64 - 1.0;
         let x = (half * s).sin() / half.sin();
@@ -82,8 +82,8 @@ pub fn bulge(a: [f64; 2], b: [f64; 2], bulge: f64, limit: Limit) -> Result<Vec<[
         let rise = 2.0 * (0.5 * half * (1.0 + s)).sin() * (0.5 * half * (1.0 - s)).sin();
         let y = -rise / half.sin();
         [
-            0.5 * (a[0] + b[0] + x * way[0] - y * way[1]),
-            0.5 * (a[1] + b[1] + x * way[1] + y * way[0]),
+            0.5 * (a[0] + b[0] + x * chord[0] - y * chord[1]),
+            0.5 * (a[1] + b[1] + x * chord[1] + y * chord[0]),
         ]
     };
     Ok((1..lines).map(point).collect())
@@ -221,12 +221,12 @@ fn plane([x, y, w]: [f64; 3]) -> [f64; 2] {
 
 /// Distance of a point from the line between two ends.
 fn distance(a: [f64; 2], b: [f64; 2], point: [f64; 2]) -> f64 {
-    let (way, to) = ([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]]);
-    let square = way[0] * way[0] + way[1] * way[1];
+    let (line, to) = ([b[0] - a[0], b[1] - a[1]], [point[0] - a[0], point[1] - a[1]]);
+    let square = line[0] * line[0] + line[1] * line[1];
     let t = if square > 0.0 {
-        ((way[0] * to[0] + way[1] * to[1]) / square).clamp(0.0, 1.0)
+        ((line[0] * to[0] + line[1] * to[1]) / square).clamp(0.0, 1.0)
     } else {
         0.0
     };
-    (to[0] - t * way[0]).hypot(to[1] - t * way[1])
+    (to[0] - t * line[0]).hypot(to[1] - t * line[1])
 }

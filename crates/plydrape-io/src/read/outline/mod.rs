@@ -121,6 +121,7 @@ pub fn read_dxf(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Er
 const INCOMPLETE: &str = "is the file complete? copy it or save it as ASCII DXF once more";
 
 fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
+    // the text becomes a drawing with a unit
     let above_zero = |what, value: f64| match value.is_finite() && value > 0.0 {
         true => Ok(value),
         false => Err(Fault::new(
@@ -142,6 +143,7 @@ fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
     };
     check_layers(&drawing, options)?;
 
+    // the curves of the layers that are read, and of the block that is chosen
     let Curves { mut curves, others, texts, meshes } = entity::curves(&drawing, unit, options)?;
     let mut skipped = skipped_on(&drawing, skipped, options);
     if meshes > 0 {
@@ -158,12 +160,13 @@ fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
             return Err(no_block(block, &blocks));
         }
     }
+    // curves become closed lines; what stays open is a fault unless another piece is chosen
     let size = extent(curves.iter().flat_map(|curve| &curve.points));
     let size = size[0].hypot(size[1]);
     let reach = Reach { join: join * size, gap: tolerance };
     let by_layer = layers_that_close(&curves, reach, options);
     let chained = chained(curves, reach);
-    let open = |open: &chain::Open| {
+    let fault_of = |open: &chain::Open| {
         let mut fault = chained.fault(open, reach, file, size);
         if let Some(layer) = &by_layer {
             let (file, layer) = (toml(file), toml(layer));
@@ -174,38 +177,42 @@ fn drawn(file: &str, bytes: &[u8], options: &Options) -> Result<Drawn, Fault> {
         fault
     };
     if let (None, Some(first)) = (&options.piece, chained.open.first()) {
-        return Err(open(first));
+        return Err(fault_of(first));
     }
+
+    // closed lines become pieces with holes, of which one is the ply
     let nest = Nest::new(chained.closed.clone());
     let Some(outer) = nest.lines().first() else {
         return Err(match chained.open.first() {
-            Some(first) => open(first),
+            Some(first) => fault_of(first),
             None => empty(options, &[], &skipped),
         });
     };
     check_size(outer, tolerance)?;
-    let asked = |lines: &[&Closed]| match &options.layers {
+    let check_layers = |lines: &[&Closed]| match &options.layers {
         None => piece::check_layers(lines, file),
         Some(_) => Ok(()),
     };
     if options.piece.is_none() {
         let lines: Vec<&Closed> = nest.lines().iter().collect();
-        asked(&lines)?;
+        check_layers(&lines)?;
         check_twice(&lines)?;
     }
     let chosen = nest.chosen(options.piece.as_ref(), &texts)?;
     let boundary = &nest.lines()[chosen.boundary];
     let holes: Vec<&Closed> = chosen.holes.iter().map(|n| &nest.lines()[*n]).collect();
     let all: Vec<&Closed> = std::iter::once(boundary).chain(holes.iter().copied()).collect();
-    asked(&all)?;
+    check_layers(&all)?;
     check_twice(&all)?;
     // what is open elsewhere belongs to other pieces
     let is_within = |open: &&chain::Open| {
         matches!(options.piece, Some(Piece::Block(_))) || inside(&boundary.ring, open.place.at)
     };
     if let Some(first) = chained.open.iter().find(is_within) {
-        return Err(open(first));
+        return Err(fault_of(first));
     }
+
+    // the outline, and what was found on the way to it
     let mut gaps: Vec<f64> = all.iter().flat_map(|line| line.gaps.iter().copied()).collect();
     gaps.sort_by(|a, b| b.total_cmp(a));
     let rings = holes.iter().map(|hole| hole.ring.clone()).collect();
@@ -323,7 +330,7 @@ fn skipped_on(
     all: BTreeMap<[String; 2], usize>,
     options: &Options,
 ) -> BTreeMap<String, usize> {
-    let wanted = |layer: &str| match &options.layers {
+    let is_read = |layer: &str| match &options.layers {
         // on layer 0 of a block they may be on any layer
         _ if layer == "0" => true,
         Some(layers) => layers.iter().any(|name| entity::key(name) == entity::key(layer)),
@@ -333,7 +340,7 @@ fn skipped_on(
     };
     let mut skipped = BTreeMap::new();
     for ([kind, layer], count) in all {
-        if wanted(&layer) {
+        if is_read(&layer) {
             *skipped.entry(kind).or_default() += count;
         }
     }
@@ -342,7 +349,7 @@ fn skipped_on(
 
 /// A drawing with nothing that could be an outline; `others` are the layers that have curves.
 fn empty(options: &Options, others: &[String], skipped: &BTreeMap<String, usize>) -> Fault {
-    let wanted = match options.layers.as_deref() {
+    let read = match options.layers.as_deref() {
         None => "its visible layers".into(),
         Some([layer]) => format!("layer `{}`", layer.escape_debug()),
         Some(layers) => format!("layers {}", listed(layers)),
@@ -357,7 +364,7 @@ fn empty(options: &Options, others: &[String], skipped: &BTreeMap<String, usize>
         true => String::new(),
         false => format!(", and {} that no outline is made of", skipped.join(", ")),
     };
-    Fault::new(format!("it has no lines or curves on {wanted}{instead}"), help)
+    Fault::new(format!("it has no lines or curves on {read}{instead}"), help)
 }
 
 /// What the library reads of a file, and how many entities of each type and layer are no curves.

@@ -111,9 +111,8 @@ impl Nest {
         let mut labels = vec![Vec::new(); self.pieces.len()];
         for text in texts {
             let piece = self.named(text);
-            let place = self.pieces.iter().position(|other| Some(*other) == piece);
-            for line in place.iter().flat_map(|_| &text.lines) {
-                labels[place.unwrap_or_default()].push(line.clone());
+            if let Some(n) = self.pieces.iter().position(|other| Some(*other) == piece) {
+                labels[n].extend(text.lines.iter().cloned());
             }
         }
         labels

@@ -771,6 +771,17 @@ fn blocks_within_blocks_are_refused_before_they_grow() {
     assert!(refused(&loops).0.contains("places more than"));
 }
 
+/// A text in a block of 30 000 rows and columns: a few bytes would be 10⁹ texts.
+#[test]
+fn a_block_of_texts_in_many_rows_is_refused_before_it_grows() {
+    let label = text("TEXT", "A", [0.0, 0.0]);
+    let drawing = blocks(&[("P", label.as_str(), [0.0, 0.0])]);
+    let rows = drawing.replace("2\nP\n10\n", "2\nP\n70\n30000\n71\n30000\n10\n");
+    let (message, remedy) = refused(&rows);
+    assert!(message.contains("places more than"), "{message}");
+    assert!(remedy.contains("explode"));
+}
+
 #[test]
 fn curves_that_are_inclined_or_not_flat_are_refused() {
     let tilted = circle("0", [0.0, 0.0], 10.0).replace("40\n", "210\n0.6\n230\n0.8\n40\n");

@@ -38,7 +38,7 @@ pub struct SheetSize {
 }
 
 impl SheetSize {
-    /// That of the sheet of a scene.
+    /// The size of the sheet of a scene.
     ///
     /// # Errors
     /// [`Error`] if the scene has no sheet, or one that is too large.
@@ -46,7 +46,7 @@ impl SheetSize {
         let sheet = Sheet::new(&scene.layup)?;
         let (nodes, states) = (sheet.fabric.places.len(), most_states(scene));
         size::sheet(nodes as f64, states)?;
-        Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })
+        Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::sheet_bytes(nodes as f64, states) })
     }
 }
 

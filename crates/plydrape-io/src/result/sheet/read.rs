@@ -108,10 +108,10 @@ impl SheetStates {
     }
 
     fn read_mesh(&mut self) -> io::Result<()> {
-        self.mesh.places = pairs(self.reals(0, 0)?);
+        self.mesh.places = groups(self.reals(0, 0)?);
         self.mesh.areas = self.reals(1, 0)?.into();
-        self.mesh.segments = pairs(self.indices(2, 0)?);
-        self.mesh.cells = pairs(self.indices(3, 0)?);
+        self.mesh.segments = groups(self.indices(2, 0)?);
+        self.mesh.cells = groups(self.indices(3, 0)?);
         self.landing_step = self.indices(4, 0)?;
         Ok(())
     }
@@ -120,14 +120,14 @@ impl SheetStates {
         Ok(SheetState {
             step: self.indices(OF_MESH, n)?[0],
             time: self.reals(OF_MESH + 1, n)?[0],
-            positions: pairs(self.reals(OF_MESH + 2, n)?),
+            positions: groups(self.reals(OF_MESH + 2, n)?),
             height: self.reals(OF_MESH + 3, n)?.into(),
             contact: self.flags(OF_MESH + 4, n)?.into(),
             shear: self.reals(OF_MESH + 5, n)?.into(),
             tension: self.reals(OF_MESH + 6, n)?.into(),
-            grippers: pairs(self.reals(OF_MESH + 7, n)?),
-            pad_forces: pairs(self.reals(OF_MESH + 8, n)?),
-            pad_rotation: pairs(self.reals(OF_MESH + 9, n)?),
+            grippers: groups(self.reals(OF_MESH + 7, n)?),
+            pad_forces: groups(self.reals(OF_MESH + 8, n)?),
+            pad_rotation: groups(self.reals(OF_MESH + 9, n)?),
             pad_holds: match self.sizes.releases {
                 true => Some(self.flags(OF_MESH + 10, n)?.into()),
                 false => None,
@@ -170,8 +170,8 @@ fn unreadable(path: &Path, source: io::Error) -> Error {
     }
 }
 
-/// Numbers in groups.
-fn pairs<T: Copy, const N: usize>(numbers: Vec<T>) -> Cow<'static, [[T; N]]> {
+/// Numbers in groups of N.
+fn groups<T: Copy, const N: usize>(numbers: Vec<T>) -> Cow<'static, [[T; N]]> {
     numbers.as_chunks().0.to_vec().into()
 }
 

@@ -18,7 +18,7 @@ pub struct SheetSeal {
 }
 
 impl SheetSeal {
-    /// That of all that is left to read.
+    /// The seal of all that is left to read.
     pub(super) fn read(content: impl Read) -> io::Result<Self> {
         let Stamp { crc32, length } = Stamp::read(content)?;
         Ok(SheetSeal { file: NAME.into(), length, checksum: format!("crc32:{crc32:08x}") })

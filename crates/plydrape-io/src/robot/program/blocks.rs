@@ -47,7 +47,7 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Of a track, within a tolerance, with zones of some radii (m), of which the first is the smallest; or with splines through the points.
+    /// The blocks of a track within a tolerance, with zones of some radii (m), of which the first is the smallest; or with splines through the points.
     pub fn new(track: &Track, tolerance: &Tolerance, radii: &[f64], splines: bool) -> Self {
         let program = track.program;
         let times = &program.times;
@@ -100,10 +100,10 @@ impl Blocks {
             for n in 0..block.points.len() {
                 let sample = block.points[n].sample;
                 if let Some(next) = block.points.get(n + 1).map(|next| next.sample) {
-                    let (radius, off) =
+                    let (radius, distance) =
                         zone(track, [from, sample, next], tolerance.position, radii);
                     block.points[n].radius = radius;
-                    corner = corner.max(off);
+                    corner = corner.max(distance);
                 }
                 from = sample;
             }
@@ -123,33 +123,35 @@ impl Blocks {
         points.map(|point| point.duration).reduce(f64::min)
     }
 
-    /// In parts of so many points at most. A block that is longer than that is cut, and the cell stops there.
+    /// The blocks in parts of at most this many points. A longer block is cut, and the cell stops there.
     pub fn parts(&self, most: usize) -> Vec<Vec<Block>> {
-        let mut parts: Vec<Vec<Block>> = vec![Vec::new()];
+        let (mut parts, mut part) = (Vec::new(), Vec::new());
         let mut room = most;
         for block in &self.blocks {
             let mut points = &block.points[..];
             if points.len() > room && room < most {
-                parts.push(Vec::new());
+                parts.push(std::mem::take(&mut part));
                 room = most;
             }
             while points.len() > room {
                 let (now, later) = points.split_at(room);
                 let mut cut = Block { points: now.to_vec(), ..Block::default() };
-                cut.points.iter_mut().skip(room - 1).for_each(|last| last.radius = 0.0);
-                parts.last_mut().into_iter().for_each(|part| part.push(cut.clone()));
-                parts.push(Vec::new());
+                if let Some(last) = cut.points.last_mut() {
+                    last.radius = 0.0;
+                }
+                part.push(cut);
+                parts.push(std::mem::take(&mut part));
                 (points, room) = (later, most);
             }
             room -= points.len();
-            let rest = Block { points: points.to_vec(), ..block.clone() };
-            parts.last_mut().into_iter().for_each(|part| part.push(rest.clone()));
+            part.push(Block { points: points.to_vec(), ..block.clone() });
         }
+        parts.push(part);
         parts
     }
 }
 
-/// How many times as far as the center is from its point the turning of the tool and external axes begin to go round it at most: `pzone_ori` and
+/// The zone in which the tool turns and external axes move is wider than that of the center by this factor at most: `pzone_ori` and
 /// `pzone_eax` of ABB's zones are up to 1.6 times `pzone_tcp` (technical reference manual 3HAC050917, `zonedata`).
 const WIDER: f64 = 1.6;
 
@@ -158,7 +160,7 @@ const WIDER: f64 = 1.6;
 fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> (f64, f64) {
     let lengths = [track.distance(from, at), track.distance(at, to)];
     let half = 0.5 * lengths[0].min(lengths[1]);
-    let off = |radius: f64| {
+    let distance = |radius: f64| {
         let shares = |radius: f64| {
             let within = radius.min(half);
             lengths.map(|length| if length > 0.0 { within / length } else { 0.0 })
@@ -196,7 +198,8 @@ fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> 
         let own = if track.program.pads.is_empty() { own } else { 0.0 };
         pads.fold(center.max(own), f64::max) + late
     };
-    let fits = radii.iter().skip(1).rev().find(|radius| **radius <= half && off(**radius) <= most);
+    let fits =
+        radii.iter().skip(1).rev().find(|radius| **radius <= half && distance(**radius) <= most);
     let radius = fits.or(radii.first()).copied().unwrap_or_default();
-    (radius, off(radius))
+    (radius, distance(radius))
 }

@@ -243,14 +243,14 @@ fn accelerations(track: &Track) -> [f64; 2] {
     let moves: Vec<(f64, [f64; 3], [f64; 3])> = (1..times.len())
         .map(|k| {
             let takes = times[k] - times[k - 1];
-            let way = sub(center[k].position, center[k - 1].position);
+            let shift = sub(center[k].position, center[k - 1].position);
             let turn = turn_between(&center[k - 1].axes, &center[k].axes);
-            (0.5 * (times[k] + times[k - 1]), way.map(|c| c / takes), turn.map(|c| c / takes))
+            (0.5 * (times[k] + times[k - 1]), shift.map(|c| c / takes), turn.map(|c| c / takes))
         })
         .collect();
-    let most = |of: &dyn Fn(usize) -> [f64; 3]| {
-        let gains =
-            (1..moves.len()).map(|n| norm(sub(of(n), of(n - 1))) / (moves[n].0 - moves[n - 1].0));
+    let most = |velocity: &dyn Fn(usize) -> [f64; 3]| {
+        let gains = (1..moves.len())
+            .map(|n| norm(sub(velocity(n), velocity(n - 1))) / (moves[n].0 - moves[n - 1].0));
         gains.fold(0.0, f64::max)
     };
     [most(&|n| moves[n].1), most(&|n| moves[n].2)]

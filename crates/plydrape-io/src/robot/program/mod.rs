@@ -90,9 +90,9 @@ pub struct Axis {
     pub gripper: GripperId,
     /// Where it is at each time (m).
     pub values: Vec<f64>,
-    /// Its ends (m), where they are known.
+    /// Least and largest value (m), where they are known.
     pub stroke: Option<[f64; 2]>,
-    /// Its largest speed (m/s).
+    /// Largest speed (m/s).
     pub speed: f64,
 }
 
@@ -136,15 +136,16 @@ impl Program {
         let all: Vec<GripperId> = (0..ply.grippers()).map(|n| ply.id(n)).collect();
         let event = |time, kind| Event { time, kind, grippers: all.clone() };
 
-        let arm = match &result.scene.tool {
-            Some(tool) => arm_joints(result, tool, &times, &pads),
-            None => None,
-        };
-        let (flange, axes, frames) = match &result.scene.tool {
+        let (arm, flange, axes, frames) = match &result.scene.tool {
             Some(tool) => {
-                let (flange, axes) = carried(tool, &mut pads, &all);
+                let places = |k: usize| -> Vec<[f64; 3]> {
+                    pads.iter().map(|pad| pad.poses[k].position).collect()
+                };
+                let postures: Vec<Posture> =
+                    (0..times.len()).map(|k| tool.posture(&places(k))).collect();
+                let (flange, axes) = carried(tool, &postures, &mut pads, &all);
                 let frames = Frames { mold: tool.world, tool: tool.flange.inverse() };
-                (Some(flange), axes, frames)
+                (arm_joints(result, &times, &postures), Some(flange), axes, frames)
             }
             // every gripper is a gantry of its own
             None => {
@@ -152,6 +153,7 @@ impl Program {
                     pad.tilts = pad.poses.iter().map(|pose| tilt(pose, [0.0, 0.0, 1.0])).collect();
                 }
                 (
+                    None,
                     None,
                     gantries(&pads, &all, result.scene.limits.most(Name::Speed)),
                     Frames::default(),
@@ -211,10 +213,10 @@ impl Program {
                 return Err(Error::not_possible(message, "leave one of them out of the motion"));
             }
         }
-        let near = |pose: &Pose| {
+        let is_finite = |pose: &Pose| {
             pose.position.iter().chain(pose.axes.as_flattened()).all(|x| x.is_finite())
         };
-        let poses = |poses: &Vec<Pose>| poses.len() == count && poses.iter().all(near);
+        let poses = |poses: &Vec<Pose>| poses.len() == count && poses.iter().all(is_finite);
         let numbers = |axis: &Axis| {
             axis.values.len() == count && axis.values.iter().all(|value| value.is_finite())
         };
@@ -281,27 +283,25 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), Error> {
 }
 
 /// The joints of the arm that brings the pads to their places, in the configuration in which the motion was judged.
-fn arm_joints(result: &ResultFile, tool: &Tool, times: &[f64], pads: &[Pad]) -> Option<ArmJoints> {
-    let arm = tool.arm.clone()?;
-    let record = result.summary.tool.as_ref().and_then(|record| record.arm);
-    let tool = record.map_or_else(|| tool.clone(), |record| tool.beginning_as(&record));
-    let places = |k: usize| pads.iter().map(|pad| pad.poses[k].position).collect::<Vec<_>>();
-    let postures: Vec<Posture> = (0..times.len()).map(|k| tool.posture(&places(k))).collect();
-    let angles = tool.arm_along(times, &postures, &[])?.angles;
-    Some(ArmJoints { arm, angles })
+fn arm_joints(result: &ResultFile, times: &[f64], postures: &[Posture]) -> Option<ArmJoints> {
+    let tool = result.judged_tool()?;
+    let angles = tool.arm_along(times, postures, &[])?.angles;
+    Some(ArmJoints { arm: result.scene.tool.as_ref()?.arm.clone()?, angles })
 }
 
-/// The flange and the strokes of a tool that brings the pads to their places.
-fn carried(tool: &Tool, pads: &mut [Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<Axis>) {
-    let count = pads.first().map_or(0, |pad| pad.poses.len());
-    let places = |k: usize| pads.iter().map(|pad| pad.poses[k].position).collect::<Vec<_>>();
-    let postures: Vec<Posture> = (0..count).map(|k| tool.posture(&places(k))).collect();
+/// The flange and the strokes of a tool in the postures that bring the pads to their places; the pads get their tilts.
+fn carried(
+    tool: &Tool,
+    postures: &[Posture],
+    pads: &mut [Pad],
+    ids: &[GripperId],
+) -> (Vec<Pose>, Vec<Axis>) {
     for pad in pads.iter_mut() {
         let pad_tilt = |(pose, posture): (&Pose, &Posture)| match tool.fixed_pads {
             Some(_) => 0.0,
             None => tilt(pose, posture.frame.axes[2]),
         };
-        pad.tilts = pad.poses.iter().zip(&postures).map(pad_tilt).collect();
+        pad.tilts = pad.poses.iter().zip(postures).map(pad_tilt).collect();
     }
     let flange = postures.iter().map(|posture| posture.frame.compose(&tool.flange)).collect();
     let strokes = |n: usize, a: usize| -> Vec<f64> {

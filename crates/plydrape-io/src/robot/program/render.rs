@@ -110,12 +110,12 @@ fn environment() -> Environment<'static> {
     }
     environment.set_fuel(Some(STEPS));
     environment.set_recursion_limit(DEPTH);
-    // it would print every point and whatever the template has made of them, and no bound would hold while it does
     // with it a loop could nest lists without end
     environment.add_function("namespace", |_: Rest<Value>, _: Kwargs| -> Result<String, Error> {
         let what = "`namespace` is not there: points have a `number`, and loops an `index`";
         Err(Error::new(ErrorKind::UnknownFunction, what))
     });
+    // it would print every point and whatever the template has made of them, and no bound would hold while it does
     environment.add_function("debug", |_: Rest<Value>, _: Kwargs| -> Result<String, Error> {
         let what = "`debug` is not there: print one variable, as in {{ name }}";
         Err(Error::new(ErrorKind::UnknownFunction, what))

@@ -77,8 +77,8 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The larger ones.
-    pub fn or(self, other: Self) -> Self {
+    /// The larger position and the larger angle of two errors.
+    pub fn max(self, other: Self) -> Self {
         Deviation {
             position: self.position.max(other.position),
             angle: self.angle.max(other.angle),
@@ -352,7 +352,7 @@ pub(crate) fn largest(
     let mut error = Deviation::default();
     for pair in kept.windows(2) {
         for k in pair[0] + 1..pair[1] {
-            error = error.or(deviation(pair[0], pair[1], k));
+            error = error.max(deviation(pair[0], pair[1], k));
         }
     }
     error

@@ -12,6 +12,9 @@ use plydrape::geometry::vector::distance;
 /// Rounds in which points are added; each halves the ways that need it.
 const ROUNDS: usize = 24;
 
+/// Shortest way between two points (m), also of a turn in place: the squares of its inverse are finite.
+const LEAST_WAY: f64 = 1e-9;
+
 /// Adds points between the `stops`, which are among those that are `kept`, and returns the largest error that is left: where the splines pass
 /// the motion.
 pub(super) fn refine(
@@ -34,7 +37,7 @@ pub(super) fn refine(
             if run.len() == 2 && to - from > 1 {
                 run.insert(1, track.halfway(from, to).unwrap_or(from + (to - from) / 2));
             }
-            error = error.or(refined(track, &mut run, tolerance));
+            error = error.max(refined(track, &mut run, tolerance));
         }
         points.extend(&run[1..]);
     }
@@ -61,12 +64,12 @@ fn refined(track: &Track, run: &mut Vec<usize>, tolerance: &Tolerance) -> Deviat
             })
             .collect();
         if added.is_empty() {
-            return errors.into_iter().fold(Deviation::default(), Deviation::or);
+            return errors.into_iter().fold(Deviation::default(), Deviation::max);
         }
         run.extend(added);
         run.sort_unstable();
     }
-    errors(track, run).into_iter().fold(Deviation::default(), Deviation::or)
+    errors(track, run).into_iter().fold(Deviation::default(), Deviation::max)
 }
 
 /// The largest error of both splines on each way between two points.
@@ -76,8 +79,11 @@ fn errors(track: &Track, run: &[usize]) -> Vec<Deviation> {
     for pair in run.windows(2) {
         let last = knots[knots.len() - 1];
         // where the center stands and an axis moves, the way is that of the axis
-        let way = track.distance(pair[0], pair[1]).max(f64::MIN_POSITIVE);
-        knots.push(last + way.max(1e-9 * last));
+        let way = match track.distance(pair[0], pair[1]) {
+            0.0 => track.movement(pair[0], pair[1]).position,
+            way => way,
+        };
+        knots.push(last + way.max(LEAST_WAY).max(1e-9 * last));
     }
     let splines = [cubic(&knots, &rows), quintic(&knots, &rows)];
     let on_way = |n: usize| {
@@ -85,7 +91,7 @@ fn errors(track: &Track, run: &[usize]) -> Vec<Deviation> {
         let mut worst = Deviation::default();
         for (k, share) in (run[n] + 1..run[n + 1]).zip(shares) {
             for spline in &splines {
-                worst = worst.or(track.deviation_of_row(k, &spline.at(n, share)));
+                worst = worst.max(track.deviation_of_row(k, &spline.row(n, share)));
             }
         }
         worst
@@ -157,8 +163,8 @@ impl Track<'_> {
     /// The sample nearest to the middle of the way between two, if there is one.
     fn halfway(&self, a: usize, b: usize) -> Option<usize> {
         let shares = self.shares(a, b);
-        let off = |k: &usize| (shares[k - a - 1] - 0.5).abs();
-        (a + 1..b).min_by(|p, q| off(p).total_cmp(&off(q)))
+        let from_middle = |k: &usize| (shares[k - a - 1] - 0.5).abs();
+        (a + 1..b).min_by(|p, q| from_middle(p).total_cmp(&from_middle(q)))
     }
 }
 
@@ -172,7 +178,7 @@ struct Spline<'a> {
 
 impl Spline<'_> {
     /// The row at a share of the n-th way.
-    fn at(&self, n: usize, share: f64) -> Vec<f64> {
+    fn row(&self, n: usize, share: f64) -> Vec<f64> {
         let (h, x) = (self.knots[n + 1] - self.knots[n], share);
         let column = |c: usize| {
             let [p, q] = [self.rows[n][c], self.rows[n + 1][c]];
@@ -295,10 +301,10 @@ mod tests {
                 let x = knots[n] + share * (knots[n + 1] - knots[n]);
                 let rows: Vec<Vec<f64>> = knots.iter().map(|x| line(*x)).collect();
                 for spline in [cubic(&knots, &rows), quintic(&knots, &rows)] {
-                    assert!((spline.at(n, share)[0] - line(x)[0]).abs() < 1e-13);
+                    assert!((spline.row(n, share)[0] - line(x)[0]).abs() < 1e-13);
                 }
                 let rows: Vec<Vec<f64>> = knots.iter().map(|x| parabola(*x)).collect();
-                let off = quintic(&knots, &rows).at(n, share)[0] - parabola(x)[0];
+                let off = quintic(&knots, &rows).row(n, share)[0] - parabola(x)[0];
                 assert!(off.abs() < 1e-12, "{off}");
             }
         }
@@ -313,7 +319,7 @@ mod tests {
         let bend = |n: usize, share: f64| {
             let h = 1e-4;
             let step = h / (knots[n + 1] - knots[n]);
-            let [a, b, c] = [-1.0, 0.0, 1.0].map(|k: f64| spline.at(n, share + k * step)[0]);
+            let [a, b, c] = [-1.0, 0.0, 1.0].map(|k: f64| spline.row(n, share + k * step)[0]);
             (a - 2.0 * b + c) / (h * h)
         };
         for n in 0..2 {

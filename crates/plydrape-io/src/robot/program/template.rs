@@ -29,7 +29,7 @@ pub enum Robot {
 pub struct Template {
     /// Name of its file; behind the ending `.j2` stands that of what it makes, as in `cell.src.j2`.
     pub name: String,
-    /// Its text.
+    /// Text.
     pub text: String,
 }
 
@@ -63,7 +63,7 @@ impl Robot {
     /// All of them.
     pub const ALL: [Robot; 3] = [Robot::Rapid, Robot::Krl, Robot::Urscript];
 
-    /// Its name on the command line, which is that of its folder too.
+    /// Name on the command line and of the folder of templates.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -73,7 +73,7 @@ impl Robot {
         }
     }
 
-    /// Its maker, by whose name it is known too.
+    /// Name of the maker, another name of the controller on the command line.
     #[must_use]
     pub const fn maker(self) -> &'static str {
         match self {
@@ -121,14 +121,13 @@ impl Robot {
     /// Whether a file of the program holds what is measured in a cell, so that an export leaves it as it is where it exists.
     #[must_use]
     pub fn is_of_cell(self, file: &str, templates: &[Template]) -> bool {
-        let endings = match self {
+        let ending = match self {
             Robot::Rapid => "_cell.mod",
             Robot::Krl => ".dat",
             Robot::Urscript => "_cell.script",
         };
-        let own =
-            templates.iter().any(|template| template.name.ends_with(&format!("{endings}.j2")));
-        file.ends_with(endings) && !own
+        let own = templates.iter().any(|template| template.name.ends_with(&format!("{ending}.j2")));
+        file.ends_with(ending) && !own
     }
 
     /// What its controller takes. For a number of points none of the makers states a limit, so 5000 to a file is a number

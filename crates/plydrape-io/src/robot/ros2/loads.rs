@@ -17,7 +17,7 @@ use crate::write::loads::{Load, Loads, Stiffness};
 pub(super) fn loads(program: &Program, loads: &Loads) -> Result<JointTrajectory, Error> {
     let clock = time::clock(&program.times)?;
     let point = |(t, at): (&f64, &u64)| {
-        let all = loads.at(*t)?;
+        let all = loads.interpolate(*t)?;
         let flat = |vector: fn(&Load) -> [f64; 3]| all.iter().flat_map(vector).collect::<Vec<_>>();
         Some(JointTrajectoryPoint {
             positions: loads.mounts.map(|_| flat(|load| load.preload)).unwrap_or_default(),

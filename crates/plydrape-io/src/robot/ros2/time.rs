@@ -19,13 +19,13 @@ pub(super) fn nanoseconds(point: usize, time: f64) -> Result<u64, Error> {
     Ok(whole as u64)
 }
 
-/// The same time as a field of a message.
+/// A time (ns) as a duration of a message.
 pub(super) fn duration(nanoseconds: u64) -> Duration {
     // checked above: below 2³¹ s
     Duration { sec: (nanoseconds / NANO) as i32, nanosec: (nanoseconds % NANO) as u32 }
 }
 
-/// The same time as a stamp.
+/// A time (ns) as a stamp of a message.
 pub(super) fn stamp(nanoseconds: u64) -> Time {
     let Duration { sec, nanosec } = duration(nanoseconds);
     Time { sec, nanosec }

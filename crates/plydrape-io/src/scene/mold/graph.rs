@@ -4,8 +4,8 @@ use super::Keys;
 use super::heights::heights;
 use crate::Error;
 use crate::read::formula;
-use crate::scene::layup::extent;
 use crate::scene::located::Located;
+use crate::scene::placement::extent;
 use crate::scene::quantity::Read;
 use crate::scene::source::Document;
 use plydrape::mold::{Graph, Mold, Saddle, Surface};
@@ -28,7 +28,8 @@ pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, Error> {
     let text = keys.required(&keys.table.z, "z", "\"0.1*x^2 - y^2\"")?;
     let z = formula::read(&text.value).map_err(|error| in_place(text, document, error))?;
     let domain = range(keys)?;
-    let reach = (0..2).map(|n| extent(ply)[n]).fold(0.0, f64::hypot);
+    let [u, v] = extent(ply);
+    let reach = u.hypot(v);
     let looked_at = domain.unwrap_or([[-reach, reach]; 2]);
     if let Some([x, y]) = z.undefined_within(looked_at) {
         let help = match domain {

@@ -3,8 +3,8 @@
 use super::Keys;
 use crate::Error;
 use crate::read::mesh;
-use crate::scene::layup::{MESH, round};
 use crate::scene::located::Located;
+use crate::scene::placement::{MESH, round};
 use crate::scene::quantity::Read;
 use crate::scene::read;
 use crate::scene::source::Document;
@@ -34,7 +34,7 @@ pub(super) fn mesh(
         base,
     )?;
     if let Some(unit) = unit {
-        of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
+        check_size(&mesh, unit, ply, keys.document)?;
     }
     let (mesh, report) = mesh.spanned(report, width, usual_width(ply), tolerance);
     Ok((Mold::Mesh(Arc::new(mesh)), report))
@@ -65,12 +65,12 @@ pub(in crate::scene) fn usual_width(ply: &Ply) -> f64 {
 
 /// Smallest and largest mold, in diagonals of its ply: on a smaller one no ply can lie. A larger one does not exist: a thousand
 /// times a ply of 200 mm are twice the longest blade of a wind turbine.
-const OF_PLIES: [f64; 2] = [0.1, 1000.0];
+const SIZES_IN_PLIES: [f64; 2] = [0.1, 1000.0];
 /// Units that meshes are written in.
 const MESH_UNITS: [&str; 4] = ["mm", "cm", "in", "m"];
 
 /// Refuses a mold that its ply cannot be meant for, with the sizes of both.
-fn of_the_size_of_plies(
+fn check_size(
     mesh: &Mesh,
     unit: &Located<String>,
     ply: &Ply,
@@ -80,7 +80,7 @@ fn of_the_size_of_plies(
     let sides = [0, 1, 2].map(|n| high[n] - low[n]);
     let of_ply = [0, 1].map(|n| to[n] - from[n]);
     let ratio = sides[0].hypot(sides[1]).hypot(sides[2]) / of_ply[0].hypot(of_ply[1]);
-    let [least, most] = OF_PLIES;
+    let [least, most] = SIZES_IN_PLIES;
     if (least..=most).contains(&ratio) {
         return Ok(());
     }

@@ -7,10 +7,11 @@ mod plane;
 mod round;
 
 use super::file::{MoldKind, MoldTable};
-use super::heading::pose;
 use super::located::Located;
+use super::pose::pose;
 use super::source::Document;
 use crate::Error;
+use crate::store::shown::listed;
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::ops::Range;
@@ -144,14 +145,5 @@ impl Keys<'_> {
             )),
             _ => Ok(pose),
         }
-    }
-}
-
-/// A list with commas and an `and`.
-fn listed(items: &[String]) -> String {
-    match items {
-        [] => String::new(),
-        [only] => only.clone(),
-        [most @ .., last] => format!("{} and {last}", most.join(", ")),
     }
 }

@@ -2,7 +2,6 @@
 
 use super::Keys;
 use crate::Error;
-
 use crate::scene::file::SideKey;
 use crate::scene::quantity::Read;
 use plydrape::mold::{Cylinder, Face, Mold, Pose, Sphere, Torus};

@@ -20,10 +20,15 @@ impl Column {
     }
 }
 
+/// Most bytes of a unit behind a name: a line without titles may be long, and each of its words is tried.
+const LONGEST_UNIT: usize = 64;
+
 /// The name of a column, and its unit where the title says one.
 pub(in crate::scene) fn title(text: &str) -> (String, Option<&str>) {
     let text = text.trim();
-    let known = |unit: &&str| units::unit(unit).is_ok() && !unit.trim().is_empty();
+    let known = |unit: &&str| {
+        unit.len() <= LONGEST_UNIT && !unit.trim().is_empty() && units::unit(unit).is_ok()
+    };
     let brackets = last_group(text).map(|(name, unit, rest)| (format!("{name} {rest}"), unit));
     let after = |mark: &str| {
         let (name, unit) = text.split_once(mark)?;
@@ -109,11 +114,11 @@ fn last_group(text: &str) -> Option<(&str, &str, &str)> {
 
 /// A unit without brackets around it.
 pub(super) fn bare(text: &str) -> &str {
-    let text = text.trim();
-    match last_group(text) {
-        Some(("", inner, "")) => bare(inner),
-        _ => text,
+    let mut text = text.trim();
+    while let Some(("", inner, "")) = last_group(text) {
+        text = inner.trim();
     }
+    text
 }
 
 #[cfg(test)]

@@ -53,7 +53,8 @@ impl Walk {
         if value.abs() <= self.most { Ok(()) } else { Err(Fault::Number(value)) }
     }
 
-    fn at<T: Serialize + ?Sized>(&mut self, part: Part, value: &T) -> Result<(), Fault> {
+    /// Looks at a value one step further on.
+    fn enter<T: Serialize + ?Sized>(&mut self, part: Part, value: &T) -> Result<(), Fault> {
         self.path.push(part);
         value.serialize(&mut *self)?;
         self.path.pop();
@@ -145,7 +146,7 @@ impl<'a> Serializer for &'a mut Walk {
         variant: &'static str,
         value: &T,
     ) -> Result<(), Fault> {
-        self.at(Part::Key(variant), value)
+        self.enter(Part::Key(variant), value)
     }
     fn serialize_seq(self, _: Option<usize>) -> Result<Items<'a>, Fault> {
         Ok(Items { walk: self, next: 0 })
@@ -190,7 +191,7 @@ macro_rules! list {
             type Error = Fault;
             fn $item<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
                 self.next += 1;
-                self.walk.at(Part::Index(self.next - 1), value)
+                self.walk.enter(Part::Index(self.next - 1), value)
             }
             fn end(self) -> Result<(), Fault> {
                 Ok(())
@@ -212,7 +213,7 @@ macro_rules! record {
                 key: &'static str,
                 value: &T,
             ) -> Result<(), Fault> {
-                self.at(Part::Key(key), value)
+                self.enter(Part::Key(key), value)
             }
             fn end(self) -> Result<(), Fault> {
                 Ok(())
@@ -229,7 +230,7 @@ impl ser::SerializeMap for &mut Walk {
         Ok(())
     }
     fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Fault> {
-        self.at(Part::MapKey, value)
+        self.enter(Part::MapKey, value)
     }
     fn end(self) -> Result<(), Fault> {
         Ok(())

@@ -2,9 +2,9 @@
 
 use super::ink::{Ink, Tone};
 use super::{
-    WIDTH, beside, errors, limited_by, limits, model_name, report, significant, steps, tool,
+    WIDTH, beside, errors, limited_by, limiting, limits, model_name, report, significant, steps,
+    steps_table, tool, verdict_text,
 };
-use super::{limiting, steps_table, verdict_text};
 use crate::result::ResultFile;
 use crate::result::sheet::{ended, overstrained};
 use crate::store::shown;
@@ -109,11 +109,11 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
 fn forces(result: &ResultFile) -> String {
     let summary = &result.summary;
     let pad = &result.scene.settings.pad;
-    let held = |name: Name, way: &str, holds: Option<f64>| {
+    let held = |name: Name, direction: &str, holds: Option<f64>| {
         let verdict = summary.limits.iter().find(|verdict| verdict.name == name)?;
         let [value, holds] = [verdict.value, holds?].map(significant);
         let at = verdict.at.trim_start_matches("gripper ");
-        Some(format!("{value} of {holds} N {way} ({at})"))
+        Some(format!("{value} of {holds} N {direction} ({at})"))
     };
     let cups = [
         held(Name::Slip, "along the ply", pad.slip_force),

@@ -1,11 +1,11 @@
-//! The slack at the end in the currencies of an engineer: as an angle of the fibers and as the height of a wrinkle.
+//! The slack at the end as what an engineer sees of it: an angle of the fibers and the height of a wrinkle.
 
 use super::significant;
 use plydrape::measure::{Name, Verdict, angle_of_slack};
 use plydrape::outcome::Summary;
 
-/// The worst slack of the catenaries at the end in words, each currency once: those that have a limit of their own have a row of
-/// their own. None without slack, or where slack is not judged.
+/// The worst slack of the catenaries at the end in words, as an angle and as a height. Of these one that has a limit of its own is left
+/// out, because the limits have a row of it. None without slack, or where slack is not judged.
 #[must_use]
 pub(crate) fn slack_in_words(summary: &Summary) -> Option<String> {
     let judged = |name: Name| summary.limits.iter().find(|verdict| verdict.name == name);
@@ -35,7 +35,7 @@ mod tests {
 
     /// 2√0.005 is 8.1°, 2√0.0005 2.6°; what has a row of its own in the table of limits is not said twice.
     #[test]
-    fn slack_is_said_once_in_each_currency() {
+    fn angle_and_height_of_slack_are_said_once() {
         let mut summary = sample::draped(4, 2, 3).summary;
         let verdict = |name: Name, value: f64, limit: f64| {
             Verdict::new(name, Worst { value, at: String::new(), place: None }, limit, None)

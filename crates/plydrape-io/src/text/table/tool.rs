@@ -31,7 +31,7 @@ pub(super) fn arm(result: &ResultFile) -> String {
     let found = result.summary.tool.as_ref().and_then(|record| record.arm);
     let (Some(arm), Some(found)) = (arm, found) else { return String::new() };
     let name = &arm.name;
-    let start = found.start_deg.map(|angle| format!("{}", angle.round() + 0.0)).join(", ");
+    let start = found.start_deg.map(|angle| (angle.round() + 0.0).to_string()).join(", ");
     match (found.configurations, found.keeping) {
         (0, _) => format!("{name} reaches the first pose in no configuration"),
         (all, 0) => {

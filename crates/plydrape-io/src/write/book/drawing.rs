@@ -172,9 +172,9 @@ fn yarns(ply: &BookPly) -> Vec<Vec<[f64; 2]>> {
     };
     let Some((net, mold, outline)) = found() else { return Vec::new() };
     let ([low, high], axis) = (outline.bounds(), warp_axis(ply));
-    let mut lines = vec![Vec::new()];
+    let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();
     for n in 0..YARNS[0] {
-        lines.push(Vec::new());
+        let mut line = Vec::new();
         for k in 0..=YARNS[1] {
             let share = [k as f64 / YARNS[1] as f64, (n as f64 + 0.5) / YARNS[0] as f64];
             let mut uv = [0.0; 2];
@@ -182,13 +182,11 @@ fn yarns(ply: &BookPly) -> Vec<Vec<[f64; 2]>> {
                 uv[along] = low[along] + share * (high[along] - low[along]);
             }
             match net.place(mold, uv).filter(|_| outline.depth(uv) >= -1e-9 * (high[0] - low[0])) {
-                Some([x, y, _]) => lines
-                    .last_mut()
-                    .into_iter()
-                    .for_each(|line: &mut Vec<[f64; 2]>| line.push([x, y])),
-                None => lines.push(Vec::new()),
+                Some([x, y, _]) => line.push([x, y]),
+                None => lines.push(std::mem::take(&mut line)),
             }
         }
+        lines.push(line);
     }
     lines.retain(|line| line.len() > 1);
     lines

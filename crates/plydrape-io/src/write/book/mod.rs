@@ -1,12 +1,13 @@
 //! The results of a planned book: `book.json` and one report over all of its plies, beside a folder of results for each ply.
 //!
-//! `book.json` is one JSON object with `format` ("plydrape-book"), `version`, `program`, `title`, `accepted`, `interrupted` and `plies`; what stands
-//! there of each ply is [`PlyRecord`].
+//! `book.json` is one JSON object with `format` ("plydrape-book"), `version`, `program`, `title`, `accepted`, `interrupted` and `plies`, which has a
+//! [`PlyRecord`] for each ply.
 
 mod drawing;
 mod report;
 mod table;
 
+pub use report::html;
 pub use table::table;
 
 use crate::scene::{Book, BookPly};
@@ -52,7 +53,7 @@ pub struct PlyRecord {
 }
 
 impl PlyRecord {
-    /// Of a ply of a book and its planned result.
+    /// The record of a ply of a book, whose index counts from 0, from its planned result.
     #[must_use]
     pub fn new(book: &Book, index: usize, result: &ResultFile) -> Self {
         let ply: &BookPly = &book.plies[index];
@@ -133,12 +134,6 @@ pub fn is_better(plies: &[PlyRecord], dir: &Path) -> bool {
     let accepted = plies.iter().filter(|ply| ply.accepted).count();
     let fewer = |book: Earlier| book.plies.iter().filter(|ply| ply.accepted).count() < accepted;
     !path.exists() || earlier().is_some_and(fewer)
-}
-
-/// `report.html` of a book: a page for any browser, without a network. Same plans, same bytes.
-#[must_use]
-pub fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> String {
-    report::html(book, plies, interrupted)
 }
 
 /// Stages the files of a book; they come in together with those of its plies, see [`crate::store::folder::write_together`].

@@ -23,8 +23,9 @@ svg.all{width:100%;max-width:40rem;border:1px solid var(--line)}svg.one{width:10
 @media(prefers-color-scheme:dark){.c0{color:#58a6ff}.c1{color:#f0883e}.c2{color:#3fb950}.c3{color:#a371f7}.c4{color:#f778ba}.c5{color:#d29922}}
 @media print{body{margin:0}}";
 
-/// The page as text.
-pub(super) fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> String {
+/// `report.html` of a book: a page for any browser, without a network. Same plans, same bytes.
+#[must_use]
+pub fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> String {
     let title = text(&book.title);
     let accepted = plies.iter().filter(|ply| ply.accepted).count();
     let (class, verdict) = match (accepted == plies.len(), interrupted) {

@@ -7,11 +7,11 @@ pub(super) const LABEL: f64 = 12.5;
 
 /// Round numbers (mm) within a range (m), at most this many intervals.
 pub(super) fn ticks(low: f64, high: f64, most: f64) -> Vec<f64> {
-    round(low * 1e3, high * 1e3, most)
+    round_numbers(low * 1e3, high * 1e3, most)
 }
 
 /// Round numbers within a range, at most this many intervals.
-pub(super) fn round(low: f64, high: f64, most: f64) -> Vec<f64> {
+pub(super) fn round_numbers(low: f64, high: f64, most: f64) -> Vec<f64> {
     let raw = (high - low) / most.max(1.0);
     if !raw.is_finite() || raw <= 0.0 {
         return Vec::new();

@@ -27,7 +27,7 @@ pub(super) fn bar(
         let slice = [[left, y], [right, y], [right, top], [left, top]];
         canvas.polygon(&slice, viridis((f64::from(k) + 0.5) / f64::from(slices)));
     }
-    for tick in axes::round(low, high, length / 42.0) {
+    for tick in axes::round_numbers(low, high, length / 42.0) {
         let y = top + length * (1.0 - (tick - low) / (high - low));
         canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0);
         canvas.text(&axes::label(tick), [right + 8.0, y], plain(TICK, -1));

@@ -49,7 +49,7 @@ pub(super) fn viridis(share: f64) -> Ink {
     Ink([mix(0), mix(1), mix(2)], 1.0)
 }
 
-/// The same color as red, green and blue.
+/// The color at a share of the range, 0 to 1, as red, green and blue.
 pub(crate) fn viridis_rgb(share: f64) -> [u8; 3] {
     viridis(share).0
 }

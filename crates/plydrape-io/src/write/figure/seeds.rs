@@ -94,25 +94,25 @@ pub fn svg(seeds: &Seeds, net: &Net, name: &str) -> String {
 
     if by_heading.len() > 1 {
         let top = HEAD + height + ROOM[1] + 18.0;
-        of_headings(&mut canvas, &by_heading, taken.held_heading.to_degrees(), top);
+        draw_headings(&mut canvas, &by_heading, taken.held_heading.to_degrees(), top);
     }
     canvas.finish()
 }
 
 /// The largest shear over the heading: both in degrees.
-fn of_headings(canvas: &mut Canvas, costs: &[(f64, f64)], taken: f64, top: f64) {
+fn draw_headings(canvas: &mut Canvas, costs: &[(f64, f64)], taken: f64, top: f64) {
     let high = costs.iter().map(|(_, cost)| *cost).fold(LEAST, f64::max);
     let (first, last) = (costs[0].0, costs[costs.len() - 1].0);
     let pixel = |degrees: f64, cost: f64| -> Px {
         let share = (degrees - first) / (last - first).max(1e-9);
         [ROOM[0] + PANEL * share, top + HEADINGS * (1.0 - cost / high)]
     };
-    for tick in axes::round(0.0, high, 5.0) {
+    for tick in axes::round_numbers(0.0, high, 5.0) {
         let [x, y] = pixel(first, tick);
         canvas.line(&[[x, y], [x + PANEL, y]], GRID, 1.0);
         canvas.text(&axes::label(tick), [x - 8.0, y], plain(TICK, 1));
     }
-    for tick in axes::round(first, last, 8.0) {
+    for tick in axes::round_numbers(first, last, 8.0) {
         let [x, y] = pixel(tick, 0.0);
         canvas.text(&axes::label(tick), [x, y + 13.0], plain(TICK, 0));
     }

@@ -73,7 +73,7 @@ pub(super) fn write(
     for line in &section.assumed {
         paragraph(deck, line);
     }
-    let held = if mesh.strip() { "the whole line across the strip" } else { "one node" };
+    let held = if mesh.strip { "the whole line across the strip" } else { "one node" };
     paragraph(
         deck,
         &format!(

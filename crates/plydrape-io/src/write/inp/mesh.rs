@@ -1,6 +1,6 @@
 //! The flat ply in quadratic shells of eight nodes: rectangles along its fibers, squares or nearly so.
 //!
-//! Corners of elements stand where lines along u and along v cross, and every gripper on lines of both. Between
+//! Corners of elements are where lines along u and along v cross, and every gripper is on lines of both. Between
 //! the grippers of an array the lines divide each cell evenly, and the elements are the rectangle of all cells. A ply that is cut has
 //! the elements of which half or more is ply, and those that grippers hold. Nodes lie on a grid of half an element's side, without the middles
 //! of the elements. Numbers count from 1, along u first.
@@ -29,7 +29,7 @@ pub(super) struct Mesh {
     /// Lowest corner of each element in this grid.
     corners: Vec<[usize; 2]>,
     /// Whether it is a strip with one line of grippers, which hold it across its whole width.
-    strip: bool,
+    pub strip: bool,
     /// Longest sides of an element (m).
     pub side: [f64; 2],
 }
@@ -114,11 +114,6 @@ impl Mesh {
         self.corners.len()
     }
 
-    /// Whether the ply is a strip with one line of grippers.
-    pub fn strip(&self) -> bool {
-        self.strip
-    }
-
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.numbers.iter().flatten().count()
@@ -139,9 +134,9 @@ impl Mesh {
     /// The point of the grid nearest to a fabric point (m).
     fn nearest(&self, place: [f64; 2]) -> [usize; 2] {
         [0, 1].map(|c| {
-            let off = |n: &usize| (self.grid[c][*n] - place[c]).abs();
+            let distance = |n: &usize| (self.grid[c][*n] - place[c]).abs();
             let points = 0..self.grid[c].len();
-            points.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
+            points.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
         })
     }
 

@@ -44,17 +44,8 @@ pub fn text(result: &ResultFile, membrane: f64) -> Result<String, Error> {
     let scene = &result.scene;
 
     // the flat ply begins at the rigid place that best fits the grippers of step 1
-    let first = result.steps.first().ok_or_else(|| {
-        let message = "the result has no steps, so there is no motion to write";
-        Error::not_possible(message, "simulate the scene again")
-    })?;
-    let grippers = first.grippers.iter().enumerate();
-    let (flat, places): (Vec<_>, Vec<_>) =
-        grippers.map(|(n, gripper)| (scene.ply.place(n), gripper.position)).unzip();
-    let pose = Pose::fit(&flat, &places).ok_or_else(|| {
-        let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
-        Error::not_possible(message, "spread them in the scene and simulate it again")
-    })?;
+    let flat: Vec<[f64; 2]> = (0..scene.ply.grippers()).map(|n| scene.ply.place(n)).collect();
+    let pose = Pose::start(result, &flat, |gripper| gripper.position)?;
 
     // shells and their section, the tracks of the grippers, and the mold below them
     let mesh = Mesh::new(&scene.ply);

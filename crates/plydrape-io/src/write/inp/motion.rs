@@ -19,17 +19,17 @@ pub(super) const HANG: f64 = 1.0;
 /// Time in which gravity grows (s), before the grippers move.
 pub(super) const LOAD: f64 = 0.1;
 
-/// A gripper's way.
+/// The motion of one gripper.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
     pub id: GripperId,
-    /// Its fabric point (m).
+    /// Fabric point that the gripper holds (m).
     pub place: [f64; 2],
     /// Displacement from the flat ply (m) at every time of [`Tracks::times`].
     pub moves: Vec<[f64; 3]>,
 }
 
-/// All grippers' ways over the total time.
+/// The motions of all grippers over the total time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tracks {
     /// Total times (s), ascending: 0 and [`LOAD`] for the flat ply, then the result's steps.
@@ -91,8 +91,11 @@ impl Tracks {
         let end = self.times.last().copied().unwrap_or_default();
         deck.numbers([0.0, 0.0, LOAD, 1.0, 1.0 + end, 1.0]);
         for track in &self.tracks {
-            for c in (0..3).filter(|c| track.goes(*c)) {
-                deck.line(&format!("*AMPLITUDE, NAME={}, TIME=TOTAL TIME", table(track.id, c)));
+            for c in (0..3).filter(|c| track.moves_along(*c)) {
+                deck.line(&format!(
+                    "*AMPLITUDE, NAME={}, TIME=TOTAL TIME",
+                    table_name(track.id, c)
+                ));
                 let pairs: Vec<String> = (self.times.iter().zip(&track.moves))
                     .map(|(time, step)| format!("{}, {}", number(*time), number(step[c])))
                     .collect();
@@ -108,8 +111,8 @@ impl Tracks {
         for track in &self.tracks {
             for c in 0..3 {
                 let (set, dof) = (gripper_name(track.id), c + 1);
-                if track.goes(c) {
-                    deck.line(&format!("*BOUNDARY, AMPLITUDE={}", table(track.id, c)));
+                if track.moves_along(c) {
+                    deck.line(&format!("*BOUNDARY, AMPLITUDE={}", table_name(track.id, c)));
                     deck.line(&format!("{set}, {dof}, {dof}, 1.0"));
                 } else {
                     deck.line("*BOUNDARY");
@@ -122,12 +125,13 @@ impl Tracks {
 
 impl Track {
     /// Whether the gripper moves along a direction at all.
-    fn goes(&self, c: usize) -> bool {
+    fn moves_along(&self, c: usize) -> bool {
         self.moves.iter().any(|step| step[c] != 0.0)
     }
 }
 
-fn table(id: GripperId, c: usize) -> String {
+/// Name of the table of a gripper along a direction.
+fn table_name(id: GripperId, c: usize) -> String {
     format!("{}_{}", gripper_name(id), ["x", "y", "z"][c])
 }
 
@@ -137,10 +141,9 @@ mod tests {
     use crate::sample;
 
     fn pose(result: &ResultFile) -> Pose {
-        let grippers = result.steps[0].grippers.iter().enumerate();
-        let (flat, places): (Vec<_>, Vec<_>) =
-            grippers.map(|(n, gripper)| (result.scene.ply.place(n), gripper.position)).unzip();
-        Pose::fit(&flat, &places).unwrap()
+        let ply = &result.scene.ply;
+        let flat: Vec<[f64; 2]> = (0..ply.grippers()).map(|n| ply.place(n)).collect();
+        Pose::start(result, &flat, |gripper| gripper.position).unwrap()
     }
 
     /// Flat place and table add up to the gripper's position in every step; before them is the flat ply.

@@ -25,7 +25,7 @@ pub fn table(boundary: &Boundary) -> Result<String, Error> {
     text(table)
 }
 
-/// The same lines in space as DXF, in millimeters.
+/// The lines of the boundary in space as DXF, in millimeters.
 #[must_use]
 pub fn dxf(boundary: &Boundary) -> String {
     let line = |(line, part): (&plydrape::net::BoundaryLine, usize)| pattern::PatternLine {

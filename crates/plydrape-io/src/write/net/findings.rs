@@ -17,7 +17,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Of a net on its mold, with the target boundary and the search for its seed, if there are any.
+    /// What is found of a net on its mold, with the target boundary and the search for its seed, if there are any.
     #[must_use]
     pub fn new(net: &Net, mold: &Mold, wanted: Option<&Wanted>, seeds: Option<Seeds>) -> Self {
         let boundary = net.boundary(mold);

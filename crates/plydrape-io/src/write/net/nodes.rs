@@ -5,6 +5,7 @@
 
 use super::nodal_shear;
 use crate::Error;
+use crate::write::csv::{number, text};
 use ::csv::Writer;
 use plydrape::net::Net;
 
@@ -30,10 +31,5 @@ pub fn table(net: &Net) -> Result<String, Error> {
         row.push(u8::from(coverage.node(id)).to_string());
         table.write_record(&row)?;
     }
-    super::super::csv::text(table)
-}
-
-/// The shortest decimal that reads back to the same double.
-fn number(value: f64) -> String {
-    format!("{value:?}")
+    text(table)
 }

@@ -49,8 +49,8 @@ pub fn net(net: &Net) -> Vec<u8> {
         let [p, q, r, s] = [a, b, c, d].map(|n| points[n]);
         magnitude.push(shear.magnitude.to_degrees());
         angle.push(shear.angle.to_degrees());
-        fibers[0].push(middle([p, q], [s, r]));
-        fibers[1].push(middle([p, s], [q, r]));
+        fibers[0].push(mean_direction([p, q], [s, r]));
+        fibers[1].push(mean_direction([p, s], [q, r]));
     }
     let in_cells = vec![
         Array::new("shear_deg", magnitude),
@@ -71,16 +71,12 @@ pub fn mold(net: &Net, mold: &Mold) -> Option<Vec<u8>> {
     let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
     let more = BEYOND * (high[0] - low[0]).hypot(high[1] - low[1]);
     let found = patch(mold, low.map(|c| c - more), high.map(|c| c + more), TRIANGLES);
-    let cells: Vec<Vec<usize>> =
-        found.triangles.iter().map(|corners| corners.map(|n| n as usize).to_vec()).collect();
-    let (kind, at_points, in_cells, fields) = (Kind::Polys, Vec::new(), Vec::new(), Vec::new());
-    let data = PolyData { points: found.vertices, kind, cells, at_points, in_cells, fields };
-    (!data.cells.is_empty()).then(|| data.bytes())
+    (!found.triangles.is_empty()).then(|| PolyData::surface(found, Vec::new()).bytes())
 }
 
 /// Unit vector along the mean of two opposite sides.
-fn middle(one: [Point; 2], other: [Point; 2]) -> Point {
-    let sum = [0, 1, 2].map(|c| one[1][c] - one[0][c] + other[1][c] - other[0][c]);
+fn mean_direction(side: [Point; 2], opposite: [Point; 2]) -> Point {
+    let sum = [0, 1, 2].map(|c| side[1][c] - side[0][c] + opposite[1][c] - opposite[0][c]);
     let size = sum.iter().map(|c| c * c).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
     sum.map(|c| c / size)
 }

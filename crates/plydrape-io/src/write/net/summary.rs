@@ -1,6 +1,7 @@
 //! A net in a few numbers, judged: what `plydrape net` prints as a table or as JSON.
 
 use super::Findings;
+use crate::store::shown::millimeters;
 use plydrape::net::{
     Boundary, EdgeRule, Generators, Missing, Net, PlyPoint, Reason, Seeds, SharpEdges, Trim,
 };
@@ -118,13 +119,13 @@ pub struct ShearPlace {
 }
 
 impl Summary {
-    /// Of a net and what is found of it, with the largest shear allowed (rad), if there is a limit.
+    /// A net and what is found of it in a few numbers, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
     pub fn new(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
-        let (layup, report) = (&net.placement, &net.report);
+        let (placement, report) = (&net.placement, &net.report);
         let boundary = findings.boundary.as_ref().map(BoundarySummary::new);
-        let hair = HAIR * layup.mesh[0].min(layup.mesh[1]);
-        let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies(hair));
+        let hair = HAIR * placement.mesh[0].min(placement.mesh[1]);
+        let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies_on_mold(hair));
         let all = net.missing.is_empty() && lies;
         let within = match (report.largest_shear, shear_limit) {
             (Some((largest, _)), Some(limit)) => largest <= limit,
@@ -132,12 +133,12 @@ impl Summary {
         };
         Summary {
             accepted: all && within,
-            nodes: layup.nodes,
-            mesh: layup.mesh,
-            generators: layup.generators,
-            edges: layup.edges,
-            seed: layup.seed,
-            seed_place: layup.place,
+            nodes: placement.nodes,
+            mesh: placement.mesh,
+            generators: placement.generators,
+            edges: placement.edges,
+            seed: placement.seed,
+            seed_place: placement.place,
             max_shear_deg: report.largest_shear.map(|(largest, _)| largest.to_degrees()),
             max_shear_at: report.largest_shear.and_then(|(_, cell)| ShearPlace::new(net, cell)),
             mean_shear_deg: report.mean_shear.to_degrees(),
@@ -170,20 +171,23 @@ impl Summary {
         };
         let mut lines = vec![
             ("nodes", format!("{nu} × {nv}, {} on the mold", self.placed)),
-            ("mesh", format!("{} × {} mm, measured {edges}", mm(du), mm(dv))),
+            ("mesh", format!("{} × {} mm, measured {edges}", millimeters(du), millimeters(dv))),
             (
                 "generators",
-                format!("{generators}, from node [{i}, {j}] at {} mm", at(self.seed_place)),
+                format!("{generators}, from node [{i}, {j}] at {} mm", place_text(self.seed_place)),
             ),
         ];
 
         // its shear, and how exactly its edges have their length
         match (self.max_shear_deg, &self.max_shear_at) {
             (Some(largest), Some(ShearPlace { u, v, place, .. })) => {
-                let (u, v) = (mm(*u), mm(*v));
+                let (u, v) = (millimeters(*u), millimeters(*v));
                 lines.push((
                     "largest shear",
-                    format!("{largest:.2}° at u = {u} mm, v = {v} mm, which is {} mm", at(*place)),
+                    format!(
+                        "{largest:.2}° at u = {u} mm, v = {v} mm, which is {} mm",
+                        place_text(*place)
+                    ),
                 ));
                 lines.push(("mean shear", format!("{:.2}°", self.mean_shear_deg)));
             }
@@ -264,7 +268,11 @@ impl Summary {
         if let Some(trim) = &self.trim {
             let most = |place: &Option<plydrape::net::TrimPlace>, side: &str| match place {
                 Some(place) => {
-                    format!("{} mm {side} at most, at {}", mm(place.error.abs()), of_ply(&place.at))
+                    format!(
+                        "{} mm {side} at most, at {}",
+                        millimeters(place.error.abs()),
+                        of_ply(&place.at)
+                    )
                 }
                 None => format!("nowhere {side}"),
             };
@@ -272,12 +280,20 @@ impl Summary {
             lines.push(("", most(&trim.short, "short")));
             lines.push((
                 "",
-                format!("{} mm on the mean of {} mm", mm(trim.mean), tenths(trim.compared)),
+                format!(
+                    "{} mm on the mean of {} mm",
+                    millimeters(trim.mean),
+                    tenths(trim.compared)
+                ),
             ));
             let (place, far) = trim.farthest_wanted;
             lines.push((
                 "",
-                format!("{} mm from the target boundary at most, at {} mm", mm(far), at(place)),
+                format!(
+                    "{} mm from the target boundary at most, at {} mm",
+                    millimeters(far),
+                    place_text(place)
+                ),
             ));
             if trim.not_compared > 0.0 {
                 lines.push((
@@ -326,8 +342,8 @@ impl Summary {
         if self.off_mold > 0 {
             faults.push(format!("{} of its nodes lie beyond the mold's boundary", self.off_mold));
         }
-        if self.folded == 0 && self.off_mold == 0 && !faults_of(self.boundary.as_ref()).is_empty() {
-            faults.push(faults_of(self.boundary.as_ref()));
+        if self.folded == 0 && self.off_mold == 0 {
+            faults.extend(self.boundary.as_ref().and_then(BoundarySummary::fault));
         }
         match (self.max_shear_deg, self.shear_limit_deg) {
             (Some(largest), Some(limit)) if largest > limit => {
@@ -367,20 +383,22 @@ impl BoundarySummary {
         }
     }
 
-    /// Whether all of the ply lies on the mold, a hair (m) apart.
-    fn lies(&self, hair: f64) -> bool {
+    /// Whether all of the ply lies on the mold, but for a hair (m).
+    fn lies_on_mold(&self, hair: f64) -> bool {
         self.farthest_beyond <= hair && self.folded_length == 0.0 && self.folded_area == 0.0
     }
-}
 
-/// What of a ply without missing nodes does not lie on the mold; empty if all does.
-fn faults_of(boundary: Option<&BoundarySummary>) -> String {
-    match boundary {
-        Some(b) if b.folded_length > 0.0 || b.folded_area > 0.0 => "the ply folds".into(),
-        Some(b) if b.farthest_beyond > 0.0 => {
-            format!("the ply reaches {} mm beyond the mold's boundary", mm(b.farthest_beyond))
+    /// What of a ply without missing nodes does not lie on the mold; `None` if all does.
+    fn fault(&self) -> Option<String> {
+        if self.folded_length > 0.0 || self.folded_area > 0.0 {
+            return Some("the ply folds".into());
         }
-        _ => String::new(),
+        (self.farthest_beyond > 0.0).then(|| {
+            format!(
+                "the ply reaches {} mm beyond the mold's boundary",
+                millimeters(self.farthest_beyond)
+            )
+        })
     }
 }
 
@@ -419,14 +437,9 @@ fn missing_text(count: usize, first: &Missing) -> String {
     let text = format!("{count} nodes; next to the seed [{i}, {j}]");
     match (first.beyond, first.near) {
         (Some(beyond), _) => format!("{text}, {:.1} mm beyond the boundary", beyond * 1e3),
-        (None, Some(near)) => format!("{text} at {} mm", at(near)),
+        (None, Some(near)) => format!("{text} at {} mm", place_text(near)),
         (None, None) => text,
     }
-}
-
-/// Millimeters, to a thousandth.
-fn mm(meters: f64) -> String {
-    format!("{}", (meters * 1e6).round() / 1e3 + 0.0)
 }
 
 /// Millimeters, to a tenth.
@@ -440,7 +453,7 @@ fn square_millimeters(area: f64) -> String {
 }
 
 /// A place in millimeters, to a tenth.
-fn at(place: [f64; 3]) -> String {
+fn place_text(place: [f64; 3]) -> String {
     let [x, y, z] = place.map(|c| (c * 1e4).round() / 10.0 + 0.0);
     format!("({x}, {y}, {z})")
 }

@@ -123,16 +123,8 @@ pub(crate) fn files(
     }
 
     // the flat ply begins at the rigid place that best fits the grippers of step 1
-    let first = result.steps.first().ok_or_else(|| {
-        let message = "the result has no steps, so there is no motion to write";
-        Error::not_possible(message, "simulate the scene again")
-    })?;
     let places: Vec<[f64; 2]> = sheet.grippers.iter().map(|gripper| gripper.place).collect();
-    let held: Vec<[f64; 3]> = first.grippers.iter().map(|gripper| gripper.commanded).collect();
-    let pose = Pose::fit(&places, &held).ok_or_else(|| {
-        let message = "the grippers of step 1 are on one line or in one point, so the flat ply has no place among them";
-        Error::not_possible(message, "spread them in the scene and simulate it again")
-    })?;
+    let pose = Pose::start(result, &places, |gripper| gripper.commanded)?;
 
     // the nodes at which the two drapes are compared
     let points = match &result.sheet_states {
@@ -145,20 +137,20 @@ pub(crate) fn files(
     let angles: Vec<f64> = ANGLES.map(|degrees| f64::from(degrees).to_radians()).collect();
 
     // cups follow the commanded motion of their grippers; one that lets go does so for good
-    let cups =
-        sheet.grippers.iter().zip(&first.grippers).enumerate().map(|(n, (held, gripper))| {
-            let track = || result.steps.iter().map(|step| &step.grippers[n]);
-            let last = track().rposition(|gripper| gripper.holds).unwrap_or_default();
-            Cup {
-                name: plydrape::ply::gripper_name(gripper.id),
-                place: held.place,
-                radius: held.radius,
-                stiffness: held.mount.unwrap_or([RIGID * tension; 3]),
-                release: (last + 1 < result.steps.len()).then(|| result.steps[last].time),
-                positions: track().map(|gripper| gripper.commanded).collect(),
-                quaternions: track().map(|gripper| gripper.quaternion).collect(),
-            }
-        });
+    let start = &result.steps[0].grippers;
+    let cups = sheet.grippers.iter().zip(start).enumerate().map(|(n, (held, gripper))| {
+        let track = || result.steps.iter().map(|step| &step.grippers[n]);
+        let last = track().rposition(|gripper| gripper.holds).unwrap_or_default();
+        Cup {
+            name: plydrape::ply::gripper_name(gripper.id),
+            place: held.place,
+            radius: held.radius,
+            stiffness: held.mount.unwrap_or([RIGID * tension; 3]),
+            release: (last + 1 < result.steps.len()).then(|| result.steps[last].time),
+            positions: track().map(|gripper| gripper.commanded).collect(),
+            quaternions: track().map(|gripper| gripper.quaternion).collect(),
+        }
+    });
 
     // all data of the script, in SI units
     let reach = layup.settings.sheet.overhang.max(0.5 * pitch);

@@ -30,7 +30,7 @@ pub(super) struct DistanceGrid {
 }
 
 impl DistanceGrid {
-    /// That of the mold of a result, `reach` (m) beyond the grippers, for grippers that are a `pitch` (m) apart; `None` without a mold.
+    /// The distances of the mold of a result, `reach` (m) beyond the grippers, for grippers that are a `pitch` (m) apart; `None` without a mold.
     pub fn under(result: &ResultFile, reach: f64, pitch: f64) -> Option<DistanceGrid> {
         let mold = result.scene.mold.as_ref()?;
         let [low, high] = extent(result)?;

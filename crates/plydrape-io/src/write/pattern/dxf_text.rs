@@ -32,7 +32,7 @@ impl Text {
         self.entity("LWPOLYLINE", layer, "AcDbPolyline");
         self.pairs(&[(90, &points.len()), (70, &u8::from(closed)), (43, &0)]);
         for point in points {
-            let [x, y, _] = self.at([point[0], point[1], 0.0]);
+            let [x, y, _] = self.shown([point[0], point[1], 0.0]);
             self.pairs(&[(10, &x), (20, &y)]);
         }
     }
@@ -45,7 +45,7 @@ impl Text {
         for point in points {
             self.part("VERTEX", &line, layer);
             self.pairs(&[(100, &"AcDbVertex"), (100, &"AcDb3dPolylineVertex")]);
-            let [x, y, z] = self.at(*point);
+            let [x, y, z] = self.shown(*point);
             self.pairs(&[(10, &x), (20, &y), (30, &z), (70, &32)]);
         }
         self.part("SEQEND", &line, layer);
@@ -55,17 +55,17 @@ impl Text {
     pub fn circle(&mut self, layer: &str, center: [f64; 2], radius: f64) {
         self.entity("CIRCLE", layer, "AcDbCircle");
         for side in [-radius, radius] {
-            self.at([center[0] + side, center[1] + side, 0.0]);
+            self.shown([center[0] + side, center[1] + side, 0.0]);
         }
-        let [x, y, z] = self.at([center[0], center[1], 0.0]);
+        let [x, y, z] = self.shown([center[0], center[1], 0.0]);
         self.pairs(&[(10, &x), (20, &y), (30, &z), (40, &mm(radius))]);
     }
 
     /// A line of text, its middle at a place, of a height of its capital letters (m).
     pub fn text(&mut self, layer: &str, middle: [f64; 2], height: f64, text: &str) {
         self.entity("TEXT", layer, "AcDbText");
-        let [x, y, z] = self.at([middle[0], middle[1], 0.0]);
-        self.pairs(&[(10, &x), (20, &y), (30, &z), (40, &mm(height)), (1, &one_line(text))]);
+        let [x, y, z] = self.shown([middle[0], middle[1], 0.0]);
+        self.pairs(&[(10, &x), (20, &y), (30, &z), (40, &mm(height)), (1, &without_codes(text))]);
         self.pairs(&[(72, &1), (11, &x), (21, &y), (31, &z), (100, &"AcDbText"), (73, &2)]);
     }
 
@@ -82,15 +82,15 @@ impl Text {
         for (owner, name, begin, end) in
             [(MODEL, "*Model_Space", "22", "23"), (PAPER, "*Paper_Space", "24", "25")]
         {
-            let of = [(330, owner), (100, "AcDbEntity")];
+            let entity = [(330, owner), (100, "AcDbEntity")];
             let paper: &[(i32, &str)] = if owner == PAPER { &[(67, "1")] } else { &[] };
             all.strings(&[(0, "BLOCK"), (5, begin)]);
-            all.strings(&of);
+            all.strings(&entity);
             all.strings(paper);
             all.strings(&[(8, "0"), (100, "AcDbBlockBegin"), (2, name), (70, "0")]);
             all.strings(&[(10, "0.0"), (20, "0.0"), (30, "0.0"), (3, name), (1, "")]);
             all.strings(&[(0, "ENDBLK"), (5, end)]);
-            all.strings(&of);
+            all.strings(&entity);
             all.strings(paper);
             all.strings(&[(8, "0"), (100, "AcDbBlockEnd")]);
         }
@@ -193,7 +193,7 @@ impl Text {
     }
 
     /// A place as it is written, which the drawing must show.
-    fn at(&mut self, point: [f64; 3]) -> [String; 3] {
+    fn shown(&mut self, point: [f64; 3]) -> [String; 3] {
         for n in 0..3 {
             self.bounds[0][n] = self.bounds[0][n].min(point[n]);
             self.bounds[1][n] = self.bounds[1][n].max(point[n]);
@@ -237,9 +237,6 @@ fn finite(value: f64) -> f64 {
 }
 
 /// A text without control characters; a caret begins a code in DXF.
-fn one_line(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect::<String>()
-        .replace('^', "^ ")
+fn without_codes(text: &str) -> String {
+    super::one_line(text).replace('^', "^ ")
 }

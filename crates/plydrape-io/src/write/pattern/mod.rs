@@ -73,3 +73,8 @@ fn arrow(pattern: &Pattern) -> [Vec<[f64; 2]>; 2] {
         vec![point(0.35, 0.06), point(0.5, 0.0), point(0.35, -0.06)],
     ]
 }
+
+/// A text with spaces in place of control characters.
+fn one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

@@ -3,7 +3,7 @@
 //! The page is as large as the pattern and its margins. A PDF page of more than 200 inches has a unit of its own, which PDF 1.6
 //! and newer know. A bar of 100 mm shows whether the page was printed at full size.
 
-use super::{Pattern, arrow, bounds};
+use super::{Pattern, arrow, bounds, one_line};
 use pdf_writer::{Content, Name, Pdf, Rect, Ref, Str, TextStr};
 
 /// Points of PDF in a meter.
@@ -81,14 +81,14 @@ impl Page {
         to.set_stroke_rgb(0.8, 0.0, 0.0);
         self.stroke(&mut to, 0.25);
         for ring in pattern.outline.rings() {
-            self.path(&mut to, ring.iter().map(|p| self.at(*p)));
+            self.path(&mut to, ring.iter().map(|p| self.on_page(*p)));
             to.close_path().stroke();
         }
 
         // pads of the grippers, in green
         to.set_stroke_rgb(0.0, 0.4, 0.0).set_fill_rgb(0.0, 0.4, 0.0);
         for gripper in pattern.grippers {
-            let (middle, radius) = (self.at(gripper.place), gripper.radius * 1e3);
+            let (middle, radius) = (self.on_page(gripper.place), gripper.radius * 1e3);
             self.circle(&mut to, middle, radius);
             self.cross(&mut to, middle);
             let beside = [middle[0] + radius.max(1.5) + 1.0, middle[1] + 1.0];
@@ -99,11 +99,11 @@ impl Page {
         to.set_stroke_rgb(0.0, 0.0, 0.6).set_fill_rgb(0.0, 0.0, 0.6);
         self.stroke(&mut to, 0.5);
         for line in arrow(pattern) {
-            self.path(&mut to, line.iter().map(|p| self.at(*p)));
+            self.path(&mut to, line.iter().map(|p| self.on_page(*p)));
             to.stroke();
         }
         let [line, _] = arrow(pattern);
-        let tip = self.at(line[0]);
+        let tip = self.on_page(line[0]);
         self.text(&mut to, [tip[0] + 2.0, tip[1] + 2.0], 4.0, "warp");
 
         // a bar to measure on the print
@@ -130,7 +130,7 @@ impl Page {
     }
 
     /// A point of the drawing (m) on the page (mm).
-    fn at(&self, point: [f64; 2]) -> [f64; 2] {
+    fn on_page(&self, point: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|n| point[n] * 1e3 - self.corner[n])
     }
 
@@ -196,9 +196,4 @@ fn latin(text: &str) -> Vec<u8> {
         _ => b'?',
     };
     one_line(text).chars().map(letter).collect()
-}
-
-/// A text without control characters.
-fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -95,9 +95,11 @@ pub(super) fn catenaries(result: &ResultFile, step: &Step) -> PolyData {
     let cells = pieces.iter().map(&mut joined).collect();
     let on_mold = |piece: &Piece| vec![u8::from(piece.state() > 2); piece.points.len()];
 
-    let numbers = |name, of: fn(&Piece) -> f64| Array::new(name, pieces.iter().map(of).collect());
-    let codes = |name, of: fn(&Piece) -> u8| Array::codes(name, pieces.iter().map(of).collect());
-    let whole = |name, of: fn(&Piece) -> usize| Array::whole(name, pieces.iter().map(of));
+    let numbers =
+        |name, value: fn(&Piece) -> f64| Array::new(name, pieces.iter().map(value).collect());
+    let codes =
+        |name, value: fn(&Piece) -> u8| Array::codes(name, pieces.iter().map(value).collect());
+    let whole = |name, value: fn(&Piece) -> usize| Array::whole(name, pieces.iter().map(value));
     let in_cells = vec![
         whole("catenary", |p| p.number),
         codes("kind", |p| u8::from(!p.line.kind.is_edge())),

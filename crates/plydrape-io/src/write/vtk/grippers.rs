@@ -17,7 +17,7 @@ use plydrape::ply::gripper_name;
 pub(super) fn grippers(step: &Step) -> PolyData {
     let grippers = &step.grippers;
     let numbers =
-        |name, of: fn(&Gripper) -> f64| Array::new(name, grippers.iter().map(of).collect());
+        |name, value: fn(&Gripper) -> f64| Array::new(name, grippers.iter().map(value).collect());
     let normals: Vec<[f64; 3]> = grippers.iter().map(|g| g.normal()).collect();
     let quaternions: Vec<[f64; 4]> = grippers.iter().map(|g| g.quaternion).collect();
     let known = grippers.iter().map(|g| g.target_distance_mm.is_some().into()).collect();

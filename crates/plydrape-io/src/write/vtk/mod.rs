@@ -57,7 +57,7 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, Error> {
             let own = Part { time: step.time, part, name, file: file.clone() };
             collection.parts.push(Part { part: 0, ..own.clone() });
             all.parts.push(own);
-            files.push((file, data.at(step.time).bytes()));
+            files.push((file, data.with_time(step.time).bytes()));
         }
         if mold.is_some() {
             let (part, name) = (series.len(), "mold");
@@ -83,7 +83,7 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, Error> {
                 let own = Part { time, part, name, file: file.clone() };
                 collection.parts.push(Part { part: 0, ..own.clone() });
                 all.parts.push(own);
-                files.push((file, data.at(time).bytes()));
+                files.push((file, data.with_time(time).bytes()));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The mold under the drape, in triangles, with its smooth normals as point data.
 
-use super::polydata::{Array, Kind, PolyData};
+use super::polydata::{Array, PolyData};
 use crate::result::ResultFile;
 use crate::write::mold_patch::mold_patch;
 
@@ -12,13 +12,5 @@ pub(super) fn mold(result: &ResultFile) -> Option<PolyData> {
     let mold = result.scene.mold.as_ref()?;
     let found = mold_patch(result, TRIANGLES)?;
     let normals: Vec<[f64; 3]> = found.vertices.iter().map(|p| mold.normal(*p)).collect();
-    let cells = found.triangles.iter().map(|t| t.map(|n| n as usize).to_vec()).collect();
-    Some(PolyData {
-        points: found.vertices,
-        kind: Kind::Polys,
-        cells,
-        at_points: vec![Array::vectors("Normals", &normals)],
-        in_cells: Vec::new(),
-        fields: Vec::new(),
-    })
+    Some(PolyData::surface(found, vec![Array::vectors("Normals", &normals)]))
 }

@@ -3,6 +3,7 @@
 //! The arrays are at the end in their own binary form, little endian, each behind its length in bytes as an
 //! unsigned number of 64 bits, so that doubles come back to the last bit; version 1.0 of the format.
 
+use plydrape::mold::patch::Triangles;
 use std::fmt::Write;
 
 /// Points and what joins them. All cells are of one kind.
@@ -13,7 +14,7 @@ pub(crate) struct PolyData {
     pub cells: Vec<Vec<usize>>,
     pub at_points: Vec<Array>,
     pub in_cells: Vec<Array>,
-    /// Of the whole.
+    /// What is of the whole and of no point or cell.
     pub fields: Vec<Array>,
 }
 
@@ -95,8 +96,21 @@ impl Array {
 }
 
 impl PolyData {
+    /// A surface of triangles.
+    pub fn surface(surface: Triangles, at_points: Vec<Array>) -> Self {
+        let cells = surface.triangles.iter().map(|t| t.map(|n| n as usize).to_vec()).collect();
+        PolyData {
+            points: surface.vertices,
+            kind: Kind::Polys,
+            cells,
+            at_points,
+            in_cells: Vec::new(),
+            fields: Vec::new(),
+        }
+    }
+
     /// This data with its time (s), where VTK looks for it.
-    pub fn at(mut self, time: f64) -> Self {
+    pub fn with_time(mut self, time: f64) -> Self {
         self.fields.push(Array::new("TimeValue", vec![time]));
         self
     }

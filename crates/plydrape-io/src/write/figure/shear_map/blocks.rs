@@ -115,7 +115,7 @@ impl<'a> Blocks<'a> {
         // a level that the map hardly passes would only draw rounding errors
         let hair = 1e-3 * self.top();
         let passed = |level: &f64| *level > low + hair && *level < high - hair;
-        axes::round(0.0, self.top(), 8.0).into_iter().filter(passed).collect()
+        axes::round_numbers(0.0, self.top(), 8.0).into_iter().filter(passed).collect()
     }
 }
 

@@ -1,4 +1,4 @@
-//! What is marked on the picture of a net: its seed, the ways of u and v, the largest shear.
+//! What is marked on the picture of a net: its seed, the directions of u and v, the largest shear.
 
 use crate::write::figure::canvas::{Canvas, Ink, Px, Type};
 use crate::write::figure::color::{BLACK, DARK, RED};
@@ -9,13 +9,13 @@ const ALIKE: f64 = 0.05;
 const WHITE: Ink = Ink([255; 3], 1.0);
 
 /// The fabric from the seed on, a sixth of the net along u and along v, or against it where u or v ends.
-pub(super) fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
+pub(super) fn seed_arrows(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
     let (nodes, seed) = (net.placement.nodes, net.placement.seed);
     let arrow = |(c, name): (usize, &'static str)| {
-        let wanted = (nodes[c] / 6).max(1);
+        let length = (nodes[c] / 6).max(1);
         // beside the far edge the arrow leads to the seed
-        let from = seed[c].min((nodes[c] - 1).saturating_sub(wanted));
-        let to = (from + wanted).min(nodes[c] - 1);
+        let from = seed[c].min((nodes[c] - 1).saturating_sub(length));
+        let to = (from + length).min(nodes[c] - 1);
         let node = |n: usize| if c == 0 { [n, seed[1]] } else { [seed[0], n] };
         (name, (from..=to).map(node).collect())
     };

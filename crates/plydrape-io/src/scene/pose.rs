@@ -1,4 +1,4 @@
-//! Poses.
+//! A pose of a scene: a place and a turn about fixed axes.
 
 use super::located::{Fixed, Located};
 use super::quantity::{Measure, Quantity, Read};

@@ -35,7 +35,7 @@ pub(super) fn extent(ply: &Ply) -> [f64; 2] {
     }
 }
 
-/// What `[target]` has searched for.
+/// What `[target]` leaves to a search.
 pub(super) fn free(keys: &TargetTable) -> Free {
     let seed = keys.seed.as_ref().is_some_and(|seed| matches!(seed.value, SeedChoice::Best));
     let best = |heading: &Located<HeadingChoice>| matches!(heading.value, HeadingChoice::Best);
@@ -45,7 +45,7 @@ pub(super) fn free(keys: &TargetTable) -> Free {
 /// Checks the keys of `[target]` that say how the ply is laid on the mold; `table` is the place of the
 /// whole table. What is to be searched for is the middle of the ply, and a heading of 0. Headings are given of the direction
 /// from which u is turned by `turn` (rad).
-pub(super) fn layup(
+pub(super) fn placement(
     keys: &TargetTable,
     table: &Range<usize>,
     ply: &Ply,
@@ -344,13 +344,12 @@ fn own_divisions(
         if !is_too_fine(ply, divisions) {
             return Ok(divisions);
         }
-        if divisions == [1; 2] || widest > 2.0 * ply.cell[0].max(ply.cell[1]) {
-            // as coarse as the seed allows
-            return if divisions == [1; 2] {
-                Ok(divisions)
-            } else {
-                Err(off_nodes(usize::from(divisions[0] == 1), seed, ply, document))
-            };
+        // as coarse as the array allows, or as the seed does
+        if divisions == [1; 2] {
+            return Ok(divisions);
+        }
+        if widest > 2.0 * ply.cell[0].max(ply.cell[1]) {
+            return Err(off_nodes(usize::from(divisions[0] == 1), seed, ply, document));
         }
         widest *= 1.25;
     }
