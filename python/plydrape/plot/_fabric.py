@@ -217,13 +217,17 @@ def _frame(axis: Axes, sheet: _Sheet) -> None:
     axis.set_axisbelow(True)
     for part in (axis.xaxis, axis.yaxis):
         part.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
-    u, v = (
-        np.arange(n) * side * 1e3
-        for n, side in zip(sheet.result.grid, sheet.result.cell, strict=True)
-    )
-    at = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
+    cups = sheet.result.ply.places * 1e3
     axis.plot(
-        *at.T, "o", ms=3.6, mfc=BLACK, mec="white", mew=0.6, zorder=4, gid="grippers", clip_on=False
+        *cups.T,
+        "o",
+        ms=3.6,
+        mfc=BLACK,
+        mec="white",
+        mew=0.6,
+        zorder=4,
+        gid="grippers",
+        clip_on=False,
     )
 
 
