@@ -124,11 +124,11 @@ impl Equilibria {
     fn array<const N: usize>(
         &self,
         count: usize,
-        of: impl Fn(&Found) -> &[[f64; N]],
+        numbers: impl Fn(&Found) -> &[[f64; N]],
         axes: &[usize],
     ) -> Array<f64> {
         let shape = [&[self.found.len(), count], axes].concat();
-        Array::rows(&shape, self.found.iter().flat_map(|found| of(found).iter().copied()))
+        Array::rows(&shape, self.found.iter().flat_map(|found| numbers(found).iter().copied()))
     }
 }
 
