@@ -136,19 +136,19 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
     lines += ["| key | meaning | unit | default | allowed | found in practice | example |"]
     lines += ["|---" * 7 + "|"]
     needed = table.get("required", [])
-    for key, of in table["properties"].items():
-        meaning, default = parted(of.get("description", ""))
+    for key, held in table["properties"].items():
+        meaning, default = parted(held.get("description", ""))
         if key in needed:
             default = "**needed**"
         example = used.get(f"{path}.{key}".strip(".")) or likely(
-            schema, f"{path}.{key}", of, default
+            schema, f"{path}.{key}", held, default
         )
         shown = f"`{key} = {example}`" if example else ""
-        meaning += choices(schema, of)
-        units, ranges = kinds(schema, of)
-        if limits := bounds(schema, of):
+        meaning += choices(schema, held)
+        units, ranges = kinds(schema, held)
+        if limits := bounds(schema, held):
             ranges = [text if WORDS.search(text) else f"{text}, {limits}" for text in ranges]
-        allowed, usual = " or ".join(ranges), found(schema, of)
+        allowed, usual = " or ".join(ranges), found(schema, held)
         row = [f"`{key}`", meaning, ", ".join(units), default, allowed, usual, shown]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") or "–" for cell in row) + " |")
     return "\n".join([*lines, ""])
@@ -292,9 +292,9 @@ def ranges() -> dict[str, str]:
     texts = {}
     for name, table in schema["properties"].items():
         for option in alternatives(schema, table):
-            for key, of in option.get("properties", {}).items():
-                scalar = any(inner.get("type") == "number" for inner in alternatives(schema, of))
-                if scalar and (text := bounds(schema, of)):
+            for key, held in option.get("properties", {}).items():
+                scalar = any(inner.get("type") == "number" for inner in alternatives(schema, held))
+                if scalar and (text := bounds(schema, held)):
                     texts[f"{name}.{key}"] = text
     return texts
 
@@ -345,9 +345,7 @@ def examples() -> Json:
     found: Json = {}
     texts = [path.read_text() for path in sorted((DOCS.parent / "examples").glob("*/scene.toml"))]
     for page in sorted((DOCS / "guide").glob("*.md")):
-        blocks = re.findall(
-            r"^```(?:\{code-block\} )?toml\n(.*?)^```", page.read_text(), re.M | re.S
-        )
+        blocks = BLOCK.findall(page.read_text())
         texts += [re.sub(r"^:caption:.*\n", "", block) for block in blocks]
     for text in texts:
         with suppress(tomllib.TOMLDecodeError):

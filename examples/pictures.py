@@ -292,8 +292,8 @@ def moving(results: Path, picture: Path) -> None:
     """Draws the sheet along both motions of the mold, frame by frame."""
     from PIL import Image
 
-    of = folders(results, MOVING)
-    both = [of[key] for key in ("straight", "planned")]
+    drapes = folders(results, MOVING)
+    both = [drapes[key] for key in ("straight", "planned")]
     lasts = [json.loads((one / "result.json").read_text())["summary"]["steps"] for one in both]
     numbered = [
         [1 + round(frame / (FRAMES - 1) * (last - 1)) for frame in range(FRAMES)] for last in lasts
@@ -361,16 +361,16 @@ def keep(results: Path, name: str) -> None:
 def make(results: Path) -> None:
     """Makes all pictures and the numbers beside them."""
     for name in SOLVED:
-        of = folders(results, name)
+        drapes = folders(results, name)
         for motion, what in (("straight", "straight paths"), ("planned", "planned")):
-            head, accepted = title(of[motion])
-            rows = [two_steps(of[motion], fronts=motion == "planned")]
+            head, accepted = title(drapes[motion])
+            rows = [two_steps(drapes[motion], fronts=motion == "planned")]
             save(compose(f"{head}, {what}", accepted, rows), EXAMPLES / name / f"{motion}.png")
         if name in COMPARED:
-            head, accepted = title(of["straight"])
+            head, accepted = title(drapes["straight"])
             rows = [
-                two_steps(of["straight catenaries"], model="catenaries"),
-                two_steps(of["straight"]),
+                two_steps(drapes["straight catenaries"], model="catenaries"),
+                two_steps(drapes["straight"]),
             ]
             both = compose(f"{head}, straight paths", accepted, rows)
             save(both, EXAMPLES / name / "straight_both.png")

@@ -50,7 +50,9 @@ try {
     const canvas = document.querySelector("#picture");
     return [canvas.width, canvas.height];
   });
-  const points = Math.max(...data.grid.map((count) => (count - 1) * data.divisions + 1));
+  const { catenaries } = data.drape;
+  if (catenaries === null) throw new Error("the page is none of catenaries, as large/report.html is");
+  const points = Math.max(...catenaries.grid.map((count) => (count - 1) * catenaries.divisions + 1));
 
   const { outputFiles } = await build({
     stdin: { contents: PEER, resolveDir: import.meta.dirname },

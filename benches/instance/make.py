@@ -120,7 +120,8 @@ def publish_states(folder: Path, states: Any, figures: dict[str, Any], result: A
 
     places = 1e3 * states["places"]
     lines = [sorted(set(np.round(places[:, axis], 6)))[::2] for axis in (0, 1)]
-    coarse = [n for n, at in enumerate(np.round(places, 6)) if all(map(is_in, at, lines))]
+    rounded = np.round(places, 6)
+    coarse = [n for n, (u, v) in enumerate(rounded) if u in lines[0] and v in lines[1]]
     kept = sorted({int(n) for n in np.linspace(0, len(steps) - 1, STATES).round()})
     rows = [
         [str(steps[n][0]), *digits(places[k], 3), *digits(1e3 * states["positions"][n, k], 3)]
@@ -141,11 +142,6 @@ def grippers(result: Any) -> list[Any]:
     """Columns and rows of the grippers, in the order of all tables."""
     grid = result["scene"]["ply"]["grid"]
     return [(i, j) for j in range(grid["nv"]) for i in range(grid["nu"])]
-
-
-def is_in(value: float, lines: list[float]) -> bool:
-    """Whether a line is among some."""
-    return value in lines
 
 
 def digits(values: Any, count: int) -> list[str]:

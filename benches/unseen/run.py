@@ -36,9 +36,6 @@ ROOT = HERE.parents[1]
 GRACE = 60.0
 """Time that a plan which is asked to end may take to write its best (s)."""
 
-AT_LEAST = ("contact_share", "gripper_distance")
-"""Limits that a value shall not fall below."""
-
 
 @dataclass(frozen=True)
 class Run:
@@ -80,7 +77,8 @@ def run(command: list[str], timeout: float) -> Run:
 def excess(limit: dict[str, Any]) -> float:
     """How many times the allowed a value is; above one it is exceeded."""
     value, allowed = float(limit["value"]), float(limit["limit"])
-    if limit["name"] in AT_LEAST:
+    # a limit that a larger value keeps, or a smaller one breaks, is the least that is allowed
+    if limit["ok"] == (value > allowed):
         value, allowed = allowed, value
     return value / allowed if allowed else float("inf" if value else 0.0)
 

@@ -255,15 +255,14 @@ def sheet(sheet: Sheet) -> str:
 
 def span(span: Span) -> str:
     """The span from the side."""
-    run = span.run
-    x = np.linspace(0.0, run, 41)
-    curve = np.column_stack([x, np.zeros_like(x), span.heights(x)])
+    x, z = span.points(41).T
+    curve = np.column_stack([x, np.zeros_like(x), z])
     ends = curve[[0, -1]]
     picture = Picture(SIDE, "the span from the side").lines([ends], QUIET, 0.8, "4 3")
     picture.lines([curve], RED, 1.6).dots(ends, "currentColor", 3.5)
     rows = {
         "state": span.state,
-        "run": f"{1e3 * run:.4g} mm",
+        "run": f"{1e3 * span.run:.4g} mm",
         "length": f"{1e3 * span.length:.4g} mm",
         "horizontal force": "none" if span.force is None else f"{span.force:.4g} N",
         "sag": f"{1e3 * span.sag:.4g} mm",

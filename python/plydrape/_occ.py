@@ -50,8 +50,8 @@ STEP_UNITS = {
 REFUSED, MISSING = 3, 4
 """Exit codes of the process that reads: its `CadError` is in a file; there is no OpenCASCADE."""
 
-TOO_LONG = int(getattr(signal, "SIGXCPU", 0))
-"""The signal that ends the process after its processor time."""
+TOO_LONG = -signal.SIGXCPU if hasattr(signal, "SIGXCPU") else None
+"""Exit code of a process that a signal ends after its processor time; None without this signal."""
 
 PROGRAM = """\
 import sys
@@ -111,7 +111,7 @@ def read(
             raise ExtraError("OpenCASCADE", "cadquery-ocp-novtk")
         if done.returncode == REFUSED:
             raise CadError((Path(folder) / "refused").read_text(encoding="utf-8"))
-        if done.returncode == -TOO_LONG:
+        if done.returncode == TOO_LONG:
             raise CadError(
                 f"{path}: OpenCASCADE is busy for more than {seconds:.0f} s of processor time; "
                 f"{REPAIR}, or give a larger tolerance"

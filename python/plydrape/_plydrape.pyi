@@ -674,7 +674,7 @@ class Mold:
     def kind(self, /) -> str:
         """
         Kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
-        of a scene laid waves on it.
+        of a scene laid waves on it; "layered" where plies of a book lie on it.
         """
     def mesh(self, /) -> tuple[NDArray[float64], NDArray[uint32]] | None:
         """
@@ -1485,17 +1485,20 @@ class Result:
         True
         """
     def plot(
-        self, /, kind: typing.Literal["steps", "measures", "shear"] = "steps", **options: typing.Any
+        self,
+        /,
+        kind: typing.Literal["steps", "measures", "shear", "sheet"] = "steps",
+        **options: typing.Any,
     ) -> matplotlib.figure.Figure:
         """
         A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs Matplotlib.
 
         Parameters
         ----------
-        kind : {"steps", "measures", "shear"}, default "steps"
-            "steps", "measures" or "shear".
+        kind : {"steps", "measures", "shear", "sheet"}, default "steps"
+            "steps", "measures", "shear" or "sheet".
         **options
-            Those of the function of that name in `plydrape.plot`.
+            Those of `steps`, `measures`, `shear_map` or `sheet` in `plydrape.plot`.
 
         Returns
         -------
@@ -2232,7 +2235,7 @@ class Scene:
 
         Returns
         -------
-        scene : Scene
+        Scene
             The same scene with another `world` in its `tool`.
 
         Raises
@@ -2872,7 +2875,7 @@ class Span:
         Parameters
         ----------
         n : int, default 101
-            How many, 2 or more.
+            How many, 2 to 100 000.
 
         Returns
         -------
@@ -2882,7 +2885,7 @@ class Span:
         Raises
         ------
         ValueError
-            If n is below 2.
+            If n is below 2 or above 100 000.
 
         Examples
         --------

@@ -43,14 +43,14 @@ def ply(result: Result, step: int, intervals: int) -> Ply | None:
     cells = np.asarray(sheet.cells, np.int64)
     if len(cells) == 0:
         return None
-    at = state(sheet, step)
+    shown = state(sheet, step)
     triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
-    shear = np.tile(np.rad2deg(sheet.shear[at]), 2)
-    return Ply(sheet.positions[at], triangles, np.asarray(sheet.heights[at], float), shear)
+    shear = np.tile(np.rad2deg(sheet.shear[shown]), 2)
+    return Ply(sheet.positions[shown], triangles, np.asarray(sheet.heights[shown], float), shear)
 
 
 def lines(result: Result, step: int) -> list[NDArray[np.float64]]:
-    """The catenaries of a step where these decide; None for the sheet."""
+    """The catenaries of a step where these decide; none of a sheet."""
     return result.lines(step) if result.model == "catenaries" else []
 
 
@@ -66,9 +66,8 @@ def between(result: Result, step: int, intervals: int) -> Ply | None:
     i = np.floor((triangles % across).mean(axis=1) / intervals).astype(np.int64)
     j = np.floor((triangles // across).mean(axis=1) / intervals).astype(np.int64)
     shear = np.asarray(result.shear_deg[step - 1], float)[j, i]
-    gap = surface.gap
-    held = np.full(len(surface.points), np.nan) if gap is None else np.asarray(gap, float)
-    return Ply(np.asarray(surface.points, float), triangles, held, shear)
+    gap = np.asarray(surface.gap, float)
+    return Ply(np.asarray(surface.points, float), triangles, gap, shear)
 
 
 def edges(grid: tuple[int, int]) -> int:

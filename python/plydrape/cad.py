@@ -1,8 +1,8 @@
 """Molds from CAD: the faces of a STEP or IGES file as triangles.
 
     read     points and triangles (m)
-    mold     the same as a `plydrape.Mold`
-    convert  the same as a file for the `[mold]` of a scene
+    mold     a `plydrape.Mold` of these triangles
+    convert  a file of these triangles for the `[mold]` of a scene
 
     $ python -m plydrape.cad mold.step -o mold.stl --tolerance 0.1mm
 
@@ -213,8 +213,9 @@ def convert(
         Path(draft).chmod(0o666 & ~mask)
         Path(draft).replace(target)
     except OSError as fault:
-        Path(draft).unlink(missing_ok=True)
         raise CadError(f"{target}: cannot be written: {fault.strerror}") from fault
+    finally:
+        Path(draft).unlink(missing_ok=True)
     return found
 
 

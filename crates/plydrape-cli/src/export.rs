@@ -1,6 +1,6 @@
 //! `plydrape export`: files for other programs and for machines, from a result alone.
 
-use crate::argument::value;
+use crate::argument::{refused, value};
 use crate::failure::{Done, Failure};
 use crate::results;
 use crate::watch::whole;
@@ -213,7 +213,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         if !is_robot {
             let fault = format!("has no meaning for {}", arguments.to.folder());
             let help = "it is for rapid, krl and urscript, whose points are thinned out";
-            return Err(crate::argument::refused(option, text, &fault, help));
+            return Err(refused(option, text, &fault, help));
         }
         let help = match option {
             "--position-error" => {
@@ -226,20 +226,13 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     }
 
     // mesh and tension stiffness of shells, which only some formats have
-    let checked = |option: &str, text: &Option<String>, formats: &[Format], what, usual, range| {
+    let checked = |option, text: &Option<String>, formats: &[Format], what, usual, range, help| {
         let Some(text) = text else { return Ok(None) };
         let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
         if !formats.contains(&arguments.to) {
             let fault = format!("has no meaning for {}", arguments.to.folder());
-            return Err(crate::argument::refused(
-                option,
-                text,
-                &fault,
-                &format!("it is for {names}"),
-            ));
+            return Err(refused(option, text, &fault, &format!("it is for {names}")));
         }
-        let help =
-            "give a positive value with its unit, as in --mesh \"10 mm\" or --tension \"2e4 N/m\"";
         value(option, text, what, usual, range, help).map(Some)
     };
     let mesh = checked(
@@ -249,6 +242,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         Measured::Length,
         &usual::Mesh::USUAL,
         MESHES,
+        "give a length from 0.1 mm to 10 m, as in --mesh \"10 mm\"",
     )?;
     let shells = [Format::Inp, Format::Ngsolve];
     let tension = checked(
@@ -258,6 +252,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         Measured::ForcePerLength,
         &usual::Tension::USUAL,
         TENSIONS,
+        "give a force per length from 1 to 1e9 N/m, as in --tension \"2e4 N/m\"",
     )?;
 
     // templates are read before anything is written

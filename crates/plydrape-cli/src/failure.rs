@@ -213,7 +213,7 @@ impl Source {
         let start = boundary(text, span.start.min(text.len().saturating_sub(1)));
         let fault = text.get(start..span.end.max(start))?;
         let length = fault.find(['\n', '\r']).unwrap_or(fault.len());
-        Some((start, length.min(LONGEST_LINE)).into())
+        Some((start, boundary(fault, length.min(LONGEST_LINE))).into())
     }
 }
 
@@ -257,9 +257,9 @@ impl SourceCode for Source {
 
 /// The last boundary between characters at or before a byte.
 fn boundary(text: &str, byte: usize) -> usize {
-    let mut at = byte.min(text.len());
-    while !text.is_char_boundary(at) {
-        at -= 1;
+    let mut boundary = byte.min(text.len());
+    while !text.is_char_boundary(boundary) {
+        boundary -= 1;
     }
-    at
+    boundary
 }

@@ -15,7 +15,6 @@ mod net;
 mod new;
 mod numbers;
 mod outcome;
-mod peer;
 mod plan;
 mod replan;
 mod report;
@@ -63,7 +62,7 @@ enum Command {
     Check(check::Arguments),
     Report(report::Arguments),
     Export(export::Arguments),
-    Compare(peer::Arguments),
+    Compare(compare::Arguments),
     Template(template::Arguments),
     Span(span::Arguments),
     Fit(fit::Arguments),
@@ -89,7 +88,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Report(arguments) => report::run(&arguments, quiet),
         Command::Export(arguments) => export::run(&arguments, quiet),
-        Command::Compare(arguments) => peer::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Template(arguments) => template::run(&arguments),
         Command::Span(arguments) => span::run(&arguments),
         Command::Fit(arguments) => fit::run(&arguments, quiet),

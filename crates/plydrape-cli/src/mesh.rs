@@ -1,9 +1,11 @@
 //! What is possible but hardly meant of a mold that is a mesh: every command that drapes on it says so.
 
+use plydrape::geometry::vector::{cross, norm, sub};
 use plydrape::mold::{Mesh, MeshReport, Mold};
 
-/// Relief of a flat side and of a shaped one, as shares of the size of a mold.
+/// Largest relief of a flat side, as a share of the size of a mold.
 const FLAT: f64 = 1e-4;
+/// Least relief of a shaped side, as a share of the size of a mold.
 const SHAPED: f64 = 0.02;
 /// Share of a triangle's normal along z below which it is a wall.
 const WALL: f64 = 0.1;
@@ -42,11 +44,8 @@ fn relief(mesh: &Mesh, side: f64) -> f64 {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for corners in mesh.triangles() {
         let [a, b, c] = corners.map(|n| mesh.vertices()[n as usize]);
-        let [p, q] = [b, c].map(|end| [0, 1, 2].map(|n| end[n] - a[n]));
-        let normal =
-            [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-        let area = normal.into_iter().fold(0.0, f64::hypot);
-        if side * normal[2] > WALL * area {
+        let normal = cross(sub(b, a), sub(c, a));
+        if side * normal[2] > WALL * norm(normal) {
             low = [a, b, c].into_iter().fold(low, |low, corner| low.min(corner[2]));
             high = [a, b, c].into_iter().fold(high, |high, corner| high.max(corner[2]));
         }

@@ -38,6 +38,11 @@ pub fn short(value: f64) -> String {
     if plain { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
+/// A value with three digits.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
 /// Nine decimals; a zero without a sign.
 fn without_noise(value: f64) -> f64 {
     (value * 1e9).round() / 1e9 + 0.0

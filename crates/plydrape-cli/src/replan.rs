@@ -5,8 +5,8 @@ use crate::numbers::{degrees, millimeters, short};
 use crate::outcome::{code, is_unsolved};
 use crate::results;
 use crate::watch::whole;
+use plydrape::geometry::Pose;
 use plydrape::measure::Verdict;
-use plydrape::mold::Pose;
 use plydrape::planner::replan::{Replanned, Replanner};
 use plydrape::tool::Posture;
 use plydrape_io::replan::PlannedResult;
@@ -180,10 +180,7 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
     loop {
         let mut line = Vec::new();
         let read = (&mut input).take(LONGEST_LINE).read_until(b'\n', &mut line);
-        let read = read.map_err(|fault| Failure::Refused {
-            message: format!("standard input cannot be read: {fault}"),
-            help: "give offsets, one JSON object a line".into(),
-        })?;
+        let read = read.map_err(|fault| unread(&fault))?;
         if read == 0 {
             break;
         }
@@ -213,20 +210,25 @@ fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner)
             }
         };
         // nobody asks for what nobody reads
-        if !results::shown(&text, &[])? {
+        if !results::print_to_reader(&text, &[])? {
             break;
         }
     }
     Ok(if refused { ExitCode::from(2) } else { code(false, unsolved, accepted) })
 }
 
+/// Standard input that cannot be read.
+fn unread(fault: &io::Error) -> Failure {
+    Failure::Refused {
+        message: format!("standard input cannot be read: {fault}"),
+        help: "give offsets, one JSON object a line".into(),
+    }
+}
+
 /// Reads on to the end of a line.
 fn skip_line(input: &mut impl BufRead) -> Result<(), Failure> {
     loop {
-        let bytes = input.fill_buf().map_err(|fault| Failure::Refused {
-            message: format!("standard input cannot be read: {fault}"),
-            help: "give offsets, one JSON object a line".into(),
-        })?;
+        let bytes = input.fill_buf().map_err(|fault| unread(&fault))?;
         let end = bytes.iter().position(|byte| *byte == b'\n');
         let length = end.map_or(bytes.len(), |end| end + 1);
         let done = end.is_some() || bytes.is_empty();

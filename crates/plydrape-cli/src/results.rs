@@ -12,11 +12,11 @@ use std::path::{Path, PathBuf};
 
 /// Prints a text, after these files were written. A reader that has seen enough, such as `head`, is no failure and changes no exit code.
 pub fn print(text: &str, files: &[PathBuf]) -> Result<(), Failure> {
-    shown(text, files).map(drop)
+    print_to_reader(text, files).map(drop)
 }
 
 /// Prints a text as [`print`] does, and returns whether somebody reads it.
-pub fn shown(text: &str, files: &[PathBuf]) -> Result<bool, Failure> {
+pub fn print_to_reader(text: &str, files: &[PathBuf]) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(true),

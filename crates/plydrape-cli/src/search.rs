@@ -38,24 +38,25 @@ pub struct Search<'a> {
     kept: Option<Kept<'a>>,
 }
 
-/// Where the state of a search is put by.
+/// Where the state of a search is kept, and since when.
 struct Kept<'a> {
     folder: &'a Folder,
     scene: SceneEcho,
-    /// When it is next.
+    /// Time of the search at which the state is written next.
     due: Duration,
-    /// Drapes at the last time.
+    /// Drapes that the state had when it was last written.
     drapes: usize,
 }
 
-/// Shortest and longest time between two times (s): the first one is soon, and none loses more than half a minute.
+/// Shortest and longest time from one writing of the state to the next (s): the first one is soon, and no crash loses more than half a
+/// minute.
 const KEPT: [f64; 2] = [1.0, 20.0];
 
 impl Kept<'_> {
-    /// Puts the state by, if that is due and it is another one.
+    /// Writes the state of the search, if that is due and the state is another one.
     fn put_by(&mut self, progress: &Progress, elapsed: Duration) -> Result<(), Error> {
         let drapes = progress.candidates + progress.decisions;
-        // what follows the search is not judged again by it, so that all of it is put by before
+        // a search that goes on does not judge again what follows the search, so all of the state is written before that
         let due = elapsed >= self.due || progress.finishing;
         if !due || drapes == self.drapes {
             return Ok(());
@@ -163,15 +164,15 @@ impl<'a> Search<'a> {
 /// The plain lines of a search: one a minute, none within the first; and one before the first decision and each that takes longer
 /// than a minute.
 #[derive(Debug, Default)]
-pub struct Lines {
+struct Lines {
     minutes: u64,
     deciding: bool,
     decided: bool,
 }
 
 impl Lines {
-    /// Whether the next line is due; a decision under way takes such a time.
-    pub fn is_due(&mut self, elapsed: Duration, decision: Option<Duration>) -> bool {
+    /// Whether the next line is due; `decision` is how long the decision under way takes.
+    fn is_due(&mut self, elapsed: Duration, decision: Option<Duration>) -> bool {
         let minutes = elapsed.as_secs() / 60;
         let begins = decision.filter(|_| !self.deciding);
         let due = minutes > self.minutes

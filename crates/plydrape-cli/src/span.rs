@@ -273,14 +273,13 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
 struct Solved {
     span: Span,
     root: Root,
-    /// Shape.
-    curve: Curve,
+    shape: SpanShape,
     /// Whether the moment is a table of which only the first slope was used.
     at_rest: bool,
 }
 
 /// The shape of a span.
-enum Curve {
+enum SpanShape {
     /// A straight inextensible span, which has no force.
     Straight,
     /// The closed form of small sag.
@@ -306,11 +305,11 @@ impl Solved {
     /// Solves a span, or says that no force gives it its length.
     fn new(span: Span, at_rest: bool) -> Result<Solved, Failure> {
         let root = span.solve(None);
-        let curve = match root.force {
-            Some(force) => Curve::Small(Box::new(Profile::new(&span, force))),
-            None => Curve::Straight,
+        let shape = match root.force {
+            Some(force) => SpanShape::Small(Box::new(Profile::new(&span, force))),
+            None => SpanShape::Straight,
         };
-        let solved = Solved { span, root, curve, at_rest };
+        let solved = Solved { span, root, shape, at_rest };
         let is_finite = |s: Station| s.z.is_finite() && s.moment.is_finite();
         if root.residual <= LARGEST_RESIDUAL && solved.stations().all(is_finite) {
             return Ok(solved);
@@ -341,12 +340,12 @@ impl Solved {
         })?;
         let force = Some(shape.horizontal_force());
         let root = Root { force, state, evaluations: 0, residual: 0.0 };
-        Ok(Solved { span, root, curve: Curve::Exact(Box::new(shape)), at_rest: false })
+        Ok(Solved { span, root, shape: SpanShape::Exact(Box::new(shape)), at_rest: false })
     }
 
     /// Whether it is straight, without a force.
     fn is_straight(&self) -> bool {
-        matches!(self.curve, Curve::Straight)
+        matches!(self.shape, SpanShape::Straight)
     }
 
     /// How the span holds its length, briefly.
@@ -363,13 +362,13 @@ impl Solved {
     /// The span at a share of its run; of its length where it bulges beyond its ends.
     fn station(&self, share: f64) -> Station {
         let x = share * self.span.run;
-        match &self.curve {
-            Curve::Straight => {
+        match &self.shape {
+            SpanShape::Straight => {
                 let slope = self.span.rise / self.span.run;
                 Station { x, z: slope * x, slope, moment: 0.0, vertical_force: 0.0 }
             }
-            Curve::Small(profile) => profile.station(x),
-            Curve::Exact(shape) => {
+            SpanShape::Small(profile) => profile.station(x),
+            SpanShape::Exact(shape) => {
                 let s = if share == 1.0 { None } else { shape.arc(x) };
                 shape.station(s.unwrap_or(share * self.span.length))
             }
@@ -382,10 +381,10 @@ impl Solved {
 
     /// Largest vertical distance below the chord, and where (m).
     fn sag(&self) -> (f64, f64) {
-        match &self.curve {
-            Curve::Straight => (0.0, 0.0),
-            Curve::Small(profile) => profile.sag(),
-            Curve::Exact(shape) => {
+        match &self.shape {
+            SpanShape::Straight => (0.0, 0.0),
+            SpanShape::Small(profile) => profile.sag(),
+            SpanShape::Exact(shape) => {
                 let (depth, s) = shape.sag();
                 (depth, shape.at(s)[0])
             }

@@ -103,6 +103,11 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
         let help = "see in the verdict what limits its speed, give a lower `rate` in [plan], or write them with --large (in Python large=True)";
         return Err(Error::not_possible(why, help));
     }
+    let is_stiffness = |tension: f64| tension > 0.0 && tension.is_finite();
+    if let Some(tension) = options.tension.filter(|tension| !is_stiffness(*tension)) {
+        let message = format!("a tension stiffness of {tension} N/m is none");
+        return Err(Error::not_possible(message, "give a number above 0, such as 2e4"));
+    }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
         Format::Csv => {
@@ -208,6 +213,17 @@ mod tests {
             let options = Options { even_if_rejected: true, ..Options::default() };
             assert!(files(&result, Format::Csv, &options).is_ok());
             result.scene.limits = usual;
+        }
+    }
+
+    /// No thickness of a shell follows from them, and NaN would be in the file.
+    #[test]
+    fn a_tension_stiffness_that_is_none_is_refused() {
+        let result = sample::draped(4, 2, 3);
+        for tension in [f64::NAN, f64::INFINITY, 0.0, -2e4] {
+            let options = Options { tension: Some(tension), ..Options::default() };
+            let refused = files(&result, Format::Inp, &options).unwrap_err();
+            assert!(refused.message().contains("tension stiffness"), "{refused}");
         }
     }
 }

@@ -266,10 +266,10 @@ impl Read {
     }
 
     fn check_finite(&self, what: &str) -> PyResult<()> {
-        let Some(at) = self.values.iter().position(|value| !value.is_finite()) else {
+        let Some(index) = self.values.iter().position(|value| !value.is_finite()) else {
             return Ok(());
         };
-        let mut rest = at;
+        let mut rest = index;
         let mut place: Vec<String> = Vec::new();
         for length in self.shape.iter().rev() {
             place.push((rest % length).to_string());
@@ -283,7 +283,7 @@ impl Read {
         };
         Err(PyValueError::new_err(format!(
             "{place} is {}; expected finite numbers",
-            self.values[at]
+            self.values[index]
         )))
     }
 }

@@ -21,12 +21,12 @@ use std::sync::Arc;
 
 /// Threads for a batch, as many as there are cores unless given.
 fn pool(threads: Option<usize>) -> PyResult<ThreadPool> {
-    let threads = threads.unwrap_or(0);
-    if threads > 1024 {
+    if let Some(threads) = threads.filter(|threads| !(1..=1024).contains(threads)) {
         let text = format!("threads is {threads}; 1 to 1024 are possible, None is one a core");
         return Err(PyValueError::new_err(text));
     }
-    let made = ThreadPoolBuilder::new().num_threads(threads).build();
+    // rayon takes 0 for as many as there are cores
+    let made = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
     made.map_err(|fault| PyRuntimeError::new_err(format!("cannot start threads: {fault}")))
 }
 
@@ -124,11 +124,11 @@ impl Equilibria {
     fn array<const N: usize>(
         &self,
         count: usize,
-        of: impl Fn(&Found) -> &[[f64; N]],
+        numbers: impl Fn(&Found) -> &[[f64; N]],
         axes: &[usize],
     ) -> Array<f64> {
         let shape = [&[self.found.len(), count], axes].concat();
-        Array::rows(&shape, self.found.iter().flat_map(|found| of(found).iter().copied()))
+        Array::rows(&shape, self.found.iter().flat_map(|found| numbers(found).iter().copied()))
     }
 }
 

@@ -7,8 +7,7 @@ use crate::model::for_models;
 use crate::quantity::Amount;
 use crate::result::Result;
 use crate::scene::{SceneArgument, blocks, warn};
-use crate::work::parallel;
-use crate::work::{Watch, run};
+use crate::work::{Watch, parallel, run};
 use plydrape::motion::TimedMotion;
 use plydrape::outcome::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, PlanRecord};
@@ -257,7 +256,7 @@ pub fn plan(
     let planned = run(py, progress, move |watch| {
         let began = Instant::now();
         if let Some(time) = time {
-            watch.end_after(2 * time);
+            watch.end_after(time.saturating_mul(2));
         }
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
         let cells = errors.map_or(0, |errors| errors.samples);

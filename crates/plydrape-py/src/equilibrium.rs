@@ -154,7 +154,7 @@ impl Equilibrium {
     /// array([49. ,  0. , -8.7])
     #[pyo3(signature = (stations = 17))]
     fn points(&self, stations: usize) -> PyResult<Array<f64>> {
-        let (spans, count) = (&self.shape.spans, at_least_two(stations)?);
+        let (spans, count) = (&self.shape.spans, at_least_two("stations", stations)?);
         let points = every_station(spans, count).map(|(span, t)| span.point(t));
         Ok(Array::rows(&[spans.len(), count, 3], points))
     }

@@ -75,7 +75,7 @@ use std::path::PathBuf;
     force: "str | None" = None, overhang: "str | None" = None, x: "str | None" = None,
     z: "str | None" = None, curvature: "str | None" = None, moment: "str | None" = None
 ))]
-#[allow(clippy::too_many_arguments)]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn fit(
     test: &str,
     warp: Vec<PathBuf>,

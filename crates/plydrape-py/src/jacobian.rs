@@ -29,9 +29,9 @@ pub struct Jacobian {
 }
 
 impl Jacobian {
-    /// Rows of derivatives: `of(tangent, column)` gives what all rows do along a direction.
-    fn block(&self, rows: &[usize], of: impl Fn(usize) -> Vec<f64>) -> Array<f64> {
-        let columns: Vec<Vec<f64>> = (0..self.tangents.len()).map(of).collect();
+    /// Derivatives of numbers with the axes `rows`; `derivatives` gives those of all of them along a direction, by its index.
+    fn block(&self, rows: &[usize], derivatives: impl Fn(usize) -> Vec<f64>) -> Array<f64> {
+        let columns: Vec<Vec<f64>> = (0..self.tangents.len()).map(derivatives).collect();
         let count: usize = rows.iter().product();
         let values = (0..count).flat_map(|row| columns.iter().map(move |column| column[row]));
         Array::new(&[rows, &self.axes].concat(), values.collect())
@@ -112,7 +112,7 @@ impl Jacobian {
     /// (1, 5, 3, 2)
     #[pyo3(signature = (stations = 17))]
     fn points(&self, stations: usize) -> PyResult<Array<f64>> {
-        let count = at_least_two(stations)?;
+        let count = at_least_two("stations", stations)?;
         Ok(self.block(&[self.spans.len(), count, 3], |column| {
             let tangent = &self.tangents[column];
             let point = |(span, t): (&FreeSpan, f64)| {

@@ -36,8 +36,8 @@ pub struct ClosestPoints {
 }
 
 impl ClosestPoints {
-    fn vectors(&self, of: impl Fn(&mold::ClosestPoint) -> [f64; 3]) -> Array<f64> {
-        Array::rows(&[&self.axes[..], &[3]].concat(), self.found.iter().map(of))
+    fn vectors(&self, vector: impl Fn(&mold::ClosestPoint) -> [f64; 3]) -> Array<f64> {
+        Array::rows(&[&self.axes[..], &[3]].concat(), self.found.iter().map(vector))
     }
 }
 
@@ -124,7 +124,7 @@ impl Mold {
     }
 
     /// Kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
-    /// of a scene laid waves on it.
+    /// of a scene laid waves on it; "layered" where plies of a book lie on it.
     #[getter]
     fn kind(&self) -> &'static str {
         match &self.0 {

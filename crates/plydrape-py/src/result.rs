@@ -881,10 +881,10 @@ impl Result {
     ///
     /// Parameters
     /// ----------
-    /// kind : {"steps", "measures", "shear"}, default "steps"
-    ///     "steps", "measures" or "shear".
+    /// kind : {"steps", "measures", "shear", "sheet"}, default "steps"
+    ///     "steps", "measures", "shear" or "sheet".
     /// **options
-    ///     Those of the function of that name in `plydrape.plot`.
+    ///     Those of `steps`, `measures`, `shear_map` or `sheet` in `plydrape.plot`.
     ///
     /// Returns
     /// -------
@@ -897,7 +897,7 @@ impl Result {
     /// >>> result = plydrape.simulate(scene)
     /// >>> figure = result.plot("measures")
     #[pyo3(signature = (
-        kind: "typing.Literal['steps', 'measures', 'shear']" = "steps", **options: "typing.Any"
+        kind: "typing.Literal['steps', 'measures', 'shear', 'sheet']" = "steps", **options: "typing.Any"
     ) -> "matplotlib.figure.Figure")]
     fn plot<'py>(
         slf: &Bound<'py, Self>,

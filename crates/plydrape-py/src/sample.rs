@@ -24,8 +24,8 @@ pub struct Sample(pub SampleVerdict);
 
 impl Sample {
     /// A number of each cell.
-    fn cells(&self, of: impl Fn(&CellVerdict) -> f64) -> Array<f64> {
-        Array::new(&[self.0.cells.len()], self.0.cells.iter().map(of).collect())
+    fn cells(&self, number: impl Fn(&CellVerdict) -> f64) -> Array<f64> {
+        Array::new(&[self.0.cells.len()], self.0.cells.iter().map(number).collect())
     }
 }
 

@@ -593,7 +593,7 @@ impl Scene {
     ///
     /// Returns
     /// -------
-    /// scene : Scene
+    /// Scene
     ///     The same scene with another `world` in its `tool`.
     ///
     /// Raises

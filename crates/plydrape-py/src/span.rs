@@ -3,6 +3,7 @@
 use crate::arrays::{Array, Numbers};
 use crate::error;
 use crate::quantity::Amount;
+use crate::stations::at_least_two;
 use plydrape::catenary::{self, EndCondition, Profile, SpanState};
 use plydrape::elastica::{Bending, HeavyStrip, Shape};
 use plydrape::equilibrium::Status;
@@ -78,7 +79,7 @@ impl Span {
         axial_stiffness: "float | str | None" = None, slopes = (None, None), theory = "small-sag",
         moment = None
     ))]
-    #[allow(clippy::too_many_arguments)]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         run: Amount,
         length: Amount,
@@ -159,7 +160,6 @@ impl Span {
                 "slopes are prescribed; without flexural_rigidity they must be free".into(),
             );
         }
-
         if !(rise.is_finite() && given.iter().flatten().all(|slope| slope.is_finite())) {
             return fault("rise and slopes must be finite".into());
         }
@@ -274,7 +274,7 @@ impl Span {
     /// Parameters
     /// ----------
     /// n : int, default 101
-    ///     How many, 2 or more.
+    ///     How many, 2 to 100 000.
     ///
     /// Returns
     /// -------
@@ -284,7 +284,7 @@ impl Span {
     /// Raises
     /// ------
     /// ValueError
-    ///     If n is below 2.
+    ///     If n is below 2 or above 100 000.
     ///
     /// Examples
     /// --------
@@ -293,9 +293,7 @@ impl Span {
     /// array([ 0.01  , -0.0409])
     #[pyo3(signature = (n = 101))]
     fn points(&self, n: usize) -> PyResult<Array<f64>> {
-        if n < 2 {
-            return Err(PyValueError::new_err(format!("n is {n}; expected 2 or more places")));
-        }
+        let n = at_least_two("n", n)?;
         let share = |k: usize| k as f64 / (n - 1) as f64;
         let points: Vec<f64> = match (&self.shape, &self.profile) {
             (Some(shape), _) => {

@@ -15,7 +15,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 from matplotlib.tri import Triangulation
 
 from plydrape import _shapes
-from plydrape.plot._sheet import BLACK, GRID, MM, RED, Sheet, breadth, plain, style
+from plydrape.plot._page import BLACK, GRID, MM, RED, Page, breadth, plain, style
 
 if TYPE_CHECKING:
     from matplotlib.colorbar import Colorbar
@@ -58,9 +58,7 @@ class _Sheet:
         self.limit = result.limits.get("height")
 
 
-def figure(
-    result: Result, show: Sequence[str], step: int, width: Width, title: str | None
-) -> Sheet:
+def figure(result: Result, show: Sequence[str], step: int, width: Width, title: str | None) -> Page:
     """See `plydrape.plot.sheet`."""
     shown = [show] if isinstance(show, str) else list(show)
     if not shown or any(name not in NAMES for name in shown):
@@ -85,7 +83,7 @@ def figure(
         "tension": _tension,
     }
     with style():
-        page = Sheet(figsize=(wide * MM, high * MM), layout="constrained")
+        page = Page(figsize=(wide * MM, high * MM), layout="constrained")
         engine = page.get_layout_engine()
         assert engine is not None
         engine.set(rect=(0, 0, 1, 1 - head / high))  # type: ignore[call-arg]
@@ -217,13 +215,17 @@ def _frame(axis: Axes, sheet: _Sheet) -> None:
     axis.set_axisbelow(True)
     for part in (axis.xaxis, axis.yaxis):
         part.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
-    u, v = (
-        np.arange(n) * side * 1e3
-        for n, side in zip(sheet.result.grid, sheet.result.cell, strict=True)
-    )
-    at = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
+    cups = sheet.result.ply.places * 1e3
     axis.plot(
-        *at.T, "o", ms=3.6, mfc=BLACK, mec="white", mew=0.6, zorder=4, gid="grippers", clip_on=False
+        *cups.T,
+        "o",
+        ms=3.6,
+        mfc=BLACK,
+        mec="white",
+        mew=0.6,
+        zorder=4,
+        gid="grippers",
+        clip_on=False,
     )
 
 

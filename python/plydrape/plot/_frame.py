@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.proj3d import proj_transform
 
 from plydrape.plot import _hidden
-from plydrape.plot._sheet import FRAME, GRID
+from plydrape.plot._page import FRAME, GRID
 
 if TYPE_CHECKING:
     from mpl_toolkits.mplot3d.axes3d import Axes3D
@@ -113,6 +113,6 @@ def _flat(axes: Axes3D, point: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def _screen(axes: Axes3D, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where points (N, 3) in mm are drawn (N, 2), in dots of the sheet."""
+    """Where points (N, 3) in mm are drawn (N, 2), in dots of the page."""
     x, y, _ = proj_transform(*points.T, axes.get_proj())
     return np.asarray(axes.transData.transform(np.stack([x, y], axis=-1)))

@@ -12,7 +12,7 @@ from matplotlib.textpath import TextPath
 from matplotlib.ticker import MaxNLocator
 
 import plydrape
-from plydrape.plot._sheet import DARK, GRID, LINE, MM, QUIET, RED, Sheet, breadth, style
+from plydrape.plot._page import DARK, GRID, LINE, MM, QUIET, RED, Page, breadth, style
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -45,7 +45,7 @@ def figure(
     columns: int | None,
     width: Width,
     title: str | None,
-) -> Sheet:
+) -> Page:
     """See `plydrape.plot.measures`."""
     if against not in ("step", "time"):
         raise ValueError(f'measures can be drawn against "step" or "time", not "{against}"')
@@ -68,12 +68,12 @@ def figure(
         head, foot = 6.0 if title else 1.0, 0.0 if inside else 9.0 if wide > 120.0 else 19.0
         row = min(ROW + HEAD * narrow, max((PAGE - head - foot) / rows, LOW))
         high = head + row * rows + foot
-        sheet = Sheet(figsize=(wide * MM, high * MM), layout="constrained")
-        engine = sheet.get_layout_engine()
+        page = Page(figsize=(wide * MM, high * MM), layout="constrained")
+        engine = page.get_layout_engine()
         assert engine is not None
         rect = (0, foot / high, 1, 1 - (foot + head) / high)
         engine.set(w_pad=0.05, h_pad=0.03, rect=rect)  # type: ignore[call-arg]
-        axes = sheet.subplots(rows, across, sharex=True, squeeze=False).ravel()
+        axes = page.subplots(rows, across, sharex=True, squeeze=False).ravel()
         first = result.first_contact_step
         for k, panel in enumerate(axes):
             if k >= len(chosen):
@@ -91,11 +91,11 @@ def figure(
                 panel.set_xlabel("step" if against == "step" else "time (s)")
             if against == "step":
                 panel.xaxis.set_major_locator(MaxNLocator(5, integer=True, steps=[1, 2, 5, 10]))
-        _legend(sheet, axes[len(chosen)] if inside else None, contact=first is not None)
+        _legend(page, axes[len(chosen)] if inside else None, contact=first is not None)
         if title:
-            sheet.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
-        sheet.align_ylabels()
-    return sheet
+            page.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
+        page.align_ylabels()
+    return page
 
 
 def _chosen(
@@ -200,7 +200,7 @@ def _draw(
     panel.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
 
 
-def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
+def _legend(page: Page, room: Axes | None, *, contact: bool) -> None:
     """What the marks mean, in a free cell or in a strip at the bottom."""
     marks = [
         Line2D([], [], color=LINE, label="worst of each step"),
@@ -224,8 +224,8 @@ def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
         )
         box.set_in_layout(False)
     else:
-        columns = 3 if sheet.get_figwidth() > 120 * MM else 1
-        sheet.legend(
+        columns = 3 if page.get_figwidth() > 120 * MM else 1
+        page.legend(
             handles=marks,
             loc="lower center",
             ncols=columns,

@@ -11,7 +11,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from plydrape import _shapes
-from plydrape.plot._sheet import BLACK, MOLD_DARK, MOLD_LIGHT, RED, TARGET
+from plydrape.plot._page import BLACK, MOLD_DARK, MOLD_LIGHT, RED, TARGET
 from plydrape.plot._stage import values
 
 if TYPE_CHECKING:

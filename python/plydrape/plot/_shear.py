@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
-from plydrape.plot._sheet import BLACK, GRID, MM, RED, Sheet, breadth, plain, style
+from plydrape.plot._page import BLACK, GRID, MM, RED, Page, breadth, plain, style
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,7 +24,7 @@ ROUND = [1, 2, 5, 10]
 
 def figure(
     net: Net | Result, view: str, signed: bool, most: float | None, width: Width, title: str | None
-) -> Sheet:
+) -> Page:
     """See `plydrape.plot.shear_map`."""
     if view not in ("both", "fabric", "plan"):
         raise ValueError(f'a shear map has the views "fabric", "plan" and "both", not "{view}"')
@@ -44,7 +44,7 @@ def figure(
     panels = [("fabric", flat, "u", "v"), ("plan", above, "x", "y")]
     panels = [panel for panel in panels if view in ("both", panel[0])]
 
-    # Panels side by side, on a narrow sheet one below the other.
+    # Panels side by side, on a narrow page one below the other.
     wide = breadth(width)
     side = len(panels) == 1 or wide > 120.0
     sizes = [np.nanmax(p[1], axis=(0, 1)) - np.nanmin(p[1], axis=(0, 1)) for p in panels]
@@ -54,13 +54,13 @@ def figure(
     high += 8.0 if title else 2.0
 
     with style():
-        sheet = Sheet(figsize=(wide * MM, high * MM), layout="compressed")
+        page = Page(figsize=(wide * MM, high * MM), layout="compressed")
         shape = (1, len(panels)) if side else (len(panels), 1)
-        engine = sheet.get_layout_engine()
+        engine = page.get_layout_engine()
         assert engine is not None
         rect = (0, 0, 1, 1 - (5.0 if title else 0.0) / high)
         engine.set(w_pad=0.08, h_pad=0.06, rect=rect)  # type: ignore[call-arg]
-        axes = sheet.subplots(*shape, squeeze=False).ravel()
+        axes = page.subplots(*shape, squeeze=False).ravel()
         names = {"fabric": "on the flat fabric", "plan": "on the mold, from above"}
         for letter, axis, (name, corners, right, up) in zip("ab", axes, panels, strict=False):
             _cells(axis, corners, value, scale, colors)
@@ -72,7 +72,7 @@ def figure(
             axis.set_title(f"{tag}{names[name]}{even}", loc="left", pad=4)
             axis.set_xlabel(f"{right} (mm)")
             axis.set_ylabel(f"{up} (mm)")
-        bar = sheet.colorbar(
+        bar = page.colorbar(
             ScalarMappable(scale, colors),
             ax=list(axes),
             aspect=22,
@@ -84,8 +84,8 @@ def figure(
         plain(bar)
         bar.update_ticks()
         if title:
-            sheet.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
-    return sheet
+            page.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
+    return page
 
 
 def _arrays(net: Any) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

@@ -112,8 +112,8 @@ def values(stage: Stage, step: int) -> NDArray[np.float64] | None:
         return None
     if stage.color == "shear":
         return np.abs(ply.shear_deg)
-    of = ply.gap if stage.color == "gap" else ply.points[:, 2]
-    value: NDArray[np.float64] = of[ply.triangles].mean(axis=1) * 1e3
+    height = ply.gap if stage.color == "gap" else ply.points[:, 2]
+    value: NDArray[np.float64] = height[ply.triangles].mean(axis=1) * 1e3
     return np.maximum(value, TOUCHING) if stage.color == "gap" else value
 
 

@@ -11,8 +11,8 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 
 from plydrape.plot._frame import frame
 from plydrape.plot._key import key
+from plydrape.plot._page import MM, Page, breadth, style
 from plydrape.plot._panel import panel as draw
-from plydrape.plot._sheet import MM, Sheet, breadth, style
 from plydrape.plot._stage import projected
 from plydrape.plot._stage import stage as staged
 
@@ -24,7 +24,7 @@ MOST_STEPS = 12
 CAPTION = 5.0
 """Height of the line above a panel (mm)."""
 CELL = 7.0
-"""Cells smaller than this on the sheet (mm) get thinner lines."""
+"""Cells smaller than this on the page (mm) get thinner lines."""
 LEFT_RIGHT, TOP_BOTTOM = (9.5, 8.0), (1.0, 8.0)
 """Room around the box for its numbers and names (mm)."""
 
@@ -37,7 +37,7 @@ def figure(
     columns: int | None,
     width: Width,
     title: str | None,
-) -> Sheet:
+) -> Page:
     """See `plydrape.plot.steps`."""
     wide = breadth(width)
     chosen = _telling(result) if steps is None else _checked(result, steps)
@@ -63,7 +63,7 @@ def figure(
     high = head + rows * panel + strip
 
     with style():
-        sheet = Sheet(figsize=(wide * MM, high * MM))
+        page = Page(figsize=(wide * MM, high * MM))
         for k, step in enumerate(chosen):
             row, column = divmod(k, across)
             bottom = high - head - (row + 1) * panel
@@ -78,22 +78,22 @@ def figure(
                 side / wide,
                 side / high,
             )
-            axes = sheet.add_axes(at, projection="3d", proj_type="ortho", computed_zorder=False)
+            axes = page.add_axes(at, projection="3d", proj_type="ortho", computed_zorder=False)
             assert isinstance(axes, Axes3D)
             frame(axes, stage, scale * unit[0] / side, named=k == 0)
             draw(axes, stage, step)
             letter = f"{chr(97 + k)}  " if len(chosen) > 1 else ""
             corner = ((column * box + 2.0) / wide, (bottom + panel - 1.0) / high)
-            sheet.text(*corner, f"{letter}{_caption(result, step)}", va="top", gid="caption")
+            page.text(*corner, f"{letter}{_caption(result, step)}", va="top", gid="caption")
         rect = (
             (0.0, 0.0, 1.0, strip / high)
             if strip
             else ((across - free) * box / wide, 0.0, free * box / wide, panel / high)
         )
-        key(sheet, stage, chosen, rect)
+        key(page, stage, chosen, rect)
         if title:
-            sheet.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
-    return sheet
+            page.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
+    return page
 
 
 def _telling(result: Result) -> list[int]:

@@ -169,14 +169,14 @@ def report(outcome: Outcome, study: Study) -> str:
     for key, entry in about["measures"].items():
         if not key.startswith("value_"):
             continue
-        at = entry["percentiles"]
-        cells = [amount(at[q]) for q in ("50", "5", "95")]
+        percentiles = entry["percentiles"]
+        cells = [amount(percentiles[q]) for q in ("50", "5", "95")]
         limit = "varies" if entry["limit"] is None else amount(entry["limit"])
         driver = entry["driver"]
-        by = f"{driver} ({entry['correlations'][driver]:+.2f})" if driver else "–"
+        cause = f"{driver} ({entry['correlations'][driver]:+.2f})" if driver else "–"
         lines.append(
             f"{name(key):<17}{cells[0]:>10}{cells[1]:>10}{cells[2]:>10}{limit:>9}  "
-            f"{entry['unit']:<6}{100 * entry['exceeded']:>7.1f} %  {by}"
+            f"{entry['unit']:<6}{100 * entry['exceeded']:>7.1f} %  {cause}"
         )
     if accepted["share"] is None:
         lines += ["", "nothing was draped"]

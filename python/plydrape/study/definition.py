@@ -231,7 +231,7 @@ class Study:
 
     @cached_property
     def checksum(self) -> str:
-        """Of everything that the rows depend on, but for the version of plydrape."""
+        """The check sum of everything that the rows depend on, but for the version of plydrape."""
         text = json.dumps([self.described(), self.values], sort_keys=True)
         return "sha256:" + hashlib.sha256(text.encode()).hexdigest()
 
@@ -370,15 +370,15 @@ def _scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...])
                 help="remove it: a grid has every combination of its numbers",
                 key="samples",
             )
-        samples, of = math.prod(x.count for x in laws), "the grid"
+        samples, maker = math.prod(x.count for x in laws), "the grid"
         remedy = "give fewer points or values"
     else:
         samples = _whole(table, "samples", None, least=1)
-        of, remedy = f"`samples` = {samples}", "write fewer"
+        maker, remedy = f"`samples` = {samples}", "write fewer"
     if samples > most:
         number = str(samples) if samples <= LARGEST else f"about 1e{len(str(samples)) - 1}"
         raise StudyError(
-            f"{of} makes {number} scenarios, which is more than {most}; their rows would take "
+            f"{maker} makes {number} scenarios, which is more than {most}; their rows would take "
             f"about {_size(samples * ROW)} of memory",
             help=f"{remedy}, or allow them by max_scenarios = {min(samples, LARGEST)}",
             key="vary" if sampling == "grid" else "samples",

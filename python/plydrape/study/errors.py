@@ -72,7 +72,7 @@ def with_cell(tables: Mapping[str, Any], errors: Mapping[str, Any] | None) -> Ma
     return {**tables, "errors": table}
 
 
-def names(of: Iterable[str]) -> list[str]:
+def names(chosen: Iterable[str]) -> list[str]:
     """Columns of terms.
 
     Examples
@@ -83,7 +83,7 @@ def names(of: Iterable[str]) -> list[str]:
     """
     return [
         f"errors.{term}.{part}" if part else f"errors.{term}"
-        for term in of
+        for term in chosen
         for part in TERMS[term][0] or ("",)
     ]
 
@@ -100,8 +100,8 @@ def unit(column: str) -> str:
     return next((unit for term, (_, unit, _) in TERMS.items() if column in names([term])), "")
 
 
-def columns(of: Iterable[str], draw: Mapping[str, Any]) -> dict[str, float]:
-    """The numbers of a draw in these columns: of the grippers the root mean square distance.
+def columns(chosen: Iterable[str], draw: Mapping[str, Any]) -> dict[str, float]:
+    """The numbers of a draw in the columns of terms: of the grippers the root mean square distance.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def columns(of: Iterable[str], draw: Mapping[str, Any]) -> dict[str, float]:
 
     """
     row: dict[str, float] = {}
-    for term in of:
+    for term in chosen:
         parts, _, path = TERMS[term]
         if path[0] == "grippers":
             each = np.array([gripper[path[1]] for gripper in draw["grippers"]])

@@ -9,7 +9,11 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Mapping
+from inspect import signature
 from typing import Any
+
+# the package itself is still being loaded when it loads this
+from plydrape import _plydrape
 
 from .error import StudyError
 from .labels import shown
@@ -17,20 +21,9 @@ from .labels import shown
 Value = float | int | str | bool
 Tables = Mapping[str, Any]
 
-# The tables that a scene file may have.
-SCENE = (
-    "ply",
-    "mold",
-    "grippers",
-    "target",
-    "motion",
-    "model",
-    "sheet",
-    "contact",
-    "limits",
-    "plan",
-    "cell",
-    "errors",
+# The tables that a scene may have: its arguments in Python.
+SCENE = tuple(
+    name for name in signature(_plydrape.Scene).parameters if name not in ("title", "base")
 )
 # The numbers of a scene that are whole.
 WHOLE = {

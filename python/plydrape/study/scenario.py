@@ -39,7 +39,7 @@ class Motion:
 
     @property
     def checksum(self) -> str:
-        """Of all its numbers."""
+        """The check sum of all its numbers."""
         parts = (np.ascontiguousarray(a, dtype="<f8") for a in (self.times, self.positions))
         return hashlib.sha256(b"".join(part.tobytes() for part in parts)).hexdigest()
 
@@ -128,6 +128,14 @@ def build(tables: Tables, base: str, mold: plydrape.Mold | None = None) -> plydr
     ------
     SceneError
         It is refused.
+
+    Examples
+    --------
+    >>> ply = {"grippers": [2, 1], "cell": [0.1, 0.1], "material": "krogh2018"}
+    >>> tables = {"ply": ply, "grippers": {"height": "75 mm", "spacing": ["98 mm", "98 mm"]}}
+    >>> tables |= {"motion": {"kind": "hold"}, "tool": {"residual": "2 mm"}}
+    >>> build(tables, "").to_dict()["tool"]
+    {'residual': '2 mm'}
 
     """
     known = {key: tables[key] for key in SCENE if key in tables}

@@ -88,7 +88,15 @@ def scene(choice: object, base: Path) -> tuple[dict[str, Any], Path]:
                 help="give its file, or its tables as a dict",
                 key="scene",
             )
-        return dict(toml().loads(choice.text)), Path(getattr(choice, "base", base))
+        try:
+            tables = choice.to_dict()
+        except ValueError as error:
+            raise StudyError(
+                f"the scene cannot vary: {error}",
+                help="give its file, or its tables as a dict",
+                key="scene",
+            ) from error
+        return tables, Path(tables.pop("base", base))
     if isinstance(choice, str | os.PathLike):
         path = base / choice
         if not os.path.isfile(path):  # also where a name is too long for the system
@@ -135,22 +143,18 @@ def expanded(tables: Tables, home: Path, varied: Mapping[str, Any]) -> dict[str,
 
 
 def files(tables: Tables, home: Path, inputs: Iterable[Input]) -> dict[str, str]:
-    """Check sums of the files that a scene names: molds, motions, positions, a material."""
-    names = set(_named(tables, ""))
-    for x in inputs:
-        texts = (number for number in x.numbers if isinstance(number, str))
-        names |= {text for text in texts if os.path.isfile(home / text)}
-    return {name: _checksum(home / name) for name in sorted(names)}
+    """Check sums of the files that a scene names: every text that is the path of one."""
+    texts = set(_texts([tables, *(list(x.numbers) for x in inputs)]))
+    return {name: _checksum(home / name) for name in sorted(texts) if os.path.isfile(home / name)}
 
 
-def _named(value: Any, key: str) -> Iterator[str]:
-    if isinstance(value, Mapping):
-        for inner, below in value.items():
-            yield from _named(below, inner)
-    elif isinstance(value, str) and (
-        key in ("file", "positions") or (key == "material" and value.endswith(".toml"))
-    ):
+def _texts(value: Any) -> Iterator[str]:
+    """All texts among values, in whatever tables and lists they are."""
+    if isinstance(value, str):
         yield value
+    elif isinstance(value, Mapping | list):
+        for inner in value.values() if isinstance(value, Mapping) else value:
+            yield from _texts(inner)
 
 
 def _checksum(path: Path) -> str:

@@ -77,7 +77,7 @@ def summary(rows: pa.Table, inputs: list[str]) -> dict[str, Any]:
     }
 
 
-def wilson(hits: int, of: int) -> tuple[float, float] | None:
+def wilson(hits: int, count: int) -> tuple[float, float] | None:
     """Wilson's 95 % interval of a share; None of nothing.
 
     Examples
@@ -88,9 +88,9 @@ def wilson(hits: int, of: int) -> tuple[float, float] | None:
     """
     from scipy import stats
 
-    if of == 0:
+    if count == 0:
         return None
-    interval = stats.binomtest(hits, of).proportion_ci(method="wilson")
+    interval = stats.binomtest(hits, count).proportion_ci(method="wilson")
     return float(interval.low), float(interval.high)
 
 

@@ -274,8 +274,8 @@ class _Line:
             spec = {"from": spec[0], "to": spec[1]}
         if not isinstance(spec, Mapping):
             raise self.error("has no factors", RELATIVE)
-        law, factors, of_factors = self._law(dict(spec), 1.0)
-        if of_factors or not Input("", law, factors).numeric:
+        law, factors, factor_unit = self._law(dict(spec), 1.0)
+        if factor_unit or not Input("", law, factors).numeric:
             raise self.error("has factors with a unit", RELATIVE)
         numbers = [number * float(factor) for factor in factors]
         if law == "uniform":

@@ -53,10 +53,8 @@ pub(super) fn drawing(drawn: &Drawn) -> Vec<String> {
         lines.push(format!("{gaps} closed, the widest of {} mm", gap(*widest)));
     }
     if *others > 0 {
-        let lines_of = if *others == 1 { "line" } else { "lines" };
-        lines.push(format!(
-            "{others} closed {lines_of} of other blocks inside the boundary left out"
-        ));
+        let noun = if *others == 1 { "line" } else { "lines" };
+        lines.push(format!("{others} closed {noun} of other blocks inside the boundary left out"));
     }
     if !skipped.is_empty() {
         let kinds = skipped.iter().map(|(kind, count)| format!("{count} {}", name(kind)));

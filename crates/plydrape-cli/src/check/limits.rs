@@ -38,10 +38,11 @@ pub(super) fn limits(scene: &Scene) -> Vec<SummaryLine> {
     }
 
     // each group under its name
-    let of = preset.map_or(String::new(), |(preset, _)| format!("of the preset {}", preset.name()));
+    let of_the_preset =
+        preset.map_or(String::new(), |(preset, _)| format!("of the preset {}", preset.name()));
     let groups = [
         ("of the scene", own),
-        (of.as_str(), of_preset),
+        (of_the_preset.as_str(), of_preset),
         ("usual", of_usual),
         ("of pads, tool and workspace", following),
     ];

@@ -211,7 +211,7 @@ fn scatter(material: &Material) -> Option<String> {
     };
     parts.push(("shear", shear_curve.map(shear)));
     let known: Vec<String> =
-        parts.into_iter().filter_map(|(of, value)| Some(format!("{of} {}", value?))).collect();
+        parts.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", value?))).collect();
     (!known.is_empty()).then(|| known.join(", "))
 }
 

@@ -2,6 +2,7 @@
 
 use super::SummaryLine;
 use crate::numbers::{degrees, millimeters, short};
+use plydrape::geometry::distance;
 use plydrape::ply::{Direction, GripperId, Ply, gripper_name};
 use plydrape::scene::Scene;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -50,11 +51,8 @@ fn end(scene: &Scene) -> &[[f64; 3]] {
 
 /// The gripper with the longest straight way from its start to its end, and that way (m); `None` where all stay.
 pub(super) fn longest(scene: &Scene) -> Option<(GripperId, f64)> {
-    let distance = |(from, to): (&[f64; 3], &[f64; 3])| {
-        [0, 1, 2].map(|n| to[n] - from[n]).iter().map(|d| d * d).sum::<f64>().sqrt()
-    };
-    let ways = start(scene).iter().zip(end(scene)).map(distance).enumerate();
-    let (gripper, way) = ways.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let ways = start(scene).iter().zip(end(scene)).map(|(from, to)| distance(*from, *to));
+    let (gripper, way) = ways.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     (way > 0.0).then(|| (scene.layup.ply.id(gripper), way))
 }
 

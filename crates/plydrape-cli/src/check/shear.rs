@@ -4,7 +4,7 @@ use super::SummaryLine;
 use super::limits::packed;
 use crate::argument::refused;
 use crate::failure::Failure;
-use crate::numbers::{degrees, short};
+use crate::numbers::{degrees, rounded, short};
 use plydrape::measure::Verdict;
 use plydrape::outcome::{Judged, judge};
 use plydrape_io::scene::SceneFile;
@@ -89,5 +89,5 @@ fn changes(own: &Judged, scaled: &Judged) -> Vec<String> {
 
 /// Three digits.
 fn digits(value: f64) -> String {
-    short(format!("{value:.2e}").parse().unwrap_or(value))
+    short(rounded(value))
 }

@@ -2,7 +2,7 @@
 
 use super::motion::longest;
 use crate::mesh;
-use crate::numbers::{millimeters, short};
+use crate::numbers::{millimeters, rounded, short};
 use plydrape::bodies::Obstacle;
 use plydrape::clearance;
 use plydrape::layup::{Friction, Model};
@@ -267,9 +267,4 @@ fn deepest_step(scene: &Scene, mold: &Mold) -> Option<(usize, usize, f64)> {
         deepest(mold, &steps[step]).map(|(gripper, depth)| (step, gripper, depth))
     });
     depths.max_by(|a, b| a.2.total_cmp(&b.2))
-}
-
-/// Three digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }

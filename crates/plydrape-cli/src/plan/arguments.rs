@@ -138,19 +138,14 @@ impl Arguments {
         Ok(found.world)
     }
 
-    /// Whether something is asked for that only a scene of one ply has.
-    pub(super) fn of_one_ply(&self) -> Option<&'static str> {
+    /// The option that is given and that only a scene of one ply has; `None` if there is none.
+    pub(super) fn option_of_one_ply(&self) -> Option<&'static str> {
         match (self.compare, self.also, self.place) {
             (true, ..) => Some("--compare"),
             (_, Some(_), _) => Some("--also"),
             (_, _, true) => Some("--place"),
             _ => None,
         }
-    }
-
-    /// The scene, the folder of results and the way to print.
-    pub(super) fn results(&self) -> &Results {
-        &self.results
     }
 
     /// Puts what the options say in place of the scene's own; refuses a scene that cannot be planned.

@@ -58,7 +58,7 @@ pub fn plan(
     quiet: bool,
 ) -> Done {
     // options of a single ply have no meaning for a book
-    if let Some(option) = arguments.of_one_ply() {
+    if let Some(option) = arguments.option_of_one_ply() {
         return Err(Failure::Refused {
             message: format!("{option} is for a single ply, and this is a plybook"),
             help: format!(
@@ -68,17 +68,17 @@ pub fn plan(
     }
 
     // the book, with what the command line changes in the scene of each ply
-    let results = arguments.results();
+    let results = &arguments.results;
     let mut book = read_book(&results.scene)?;
     for ply in &mut book.plies {
-        arguments.apply(&mut ply.scene).map_err(|cause| of_ply(&ply.name, cause))?;
+        arguments.apply(&mut ply.scene).map_err(|cause| failure_of(&ply.name, cause))?;
     }
 
     // notices and warnings come before the long work
     for ply in &book.plies {
-        let of_ply = |notice: String| format!("ply {}: {notice}", ply.name);
+        let with_name = |notice: String| format!("ply {}: {notice}", ply.name);
         let notices = ply.scene.notices.iter().cloned().chain(start::low(&ply.scene));
-        outcome::warn(&notices.map(of_ply).collect::<Vec<_>>());
+        outcome::warn(&notices.map(with_name).collect::<Vec<_>>());
     }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
 
@@ -111,7 +111,7 @@ pub fn plan(
             let claimed = Folder::claim(&dir.join(ply.folder(n)), "plan", &book.files);
             let free = claimed
                 .and_then(|folder| folder.refuse_taken(&names(&ply.scene, true)).map(|()| folder));
-            let folder = free.map_err(|cause| of_ply(&ply.name, cause.into()))?;
+            let folder = free.map_err(|cause| failure_of(&ply.name, cause.into()))?;
             Ok(Mutex::new(Some(folder)))
         });
         claimed.collect::<Result<_, Failure>>()?
@@ -138,7 +138,7 @@ pub fn plan(
                     let claimed = slot.lock().ok().and_then(|mut folder| folder.take());
                     let Some(folder) = claimed else { break };
                     let found = plan_ply(arguments, &book, n, folder, &eyes, time)
-                        .map_err(|cause| of_ply(&book.plies[n].name, cause));
+                        .map_err(|cause| failure_of(&book.plies[n].name, cause));
                     eyes.finished(found.is_err());
                     if let Ok(mut place) = planned[n].lock() {
                         *place = Some(found);
@@ -185,9 +185,10 @@ pub fn plan(
     Ok(outcome::code(interrupted && !(accepted && done), unsolved, accepted))
 }
 
-fn of_ply(name: &str, cause: Failure) -> Failure {
+/// The failure of a ply, with the name of the ply.
+fn failure_of(name: &str, cause: Failure) -> Failure {
     match cause {
-        // names its ply itself, and has a place to show
+        // a fault of the scene names its ply itself, and has a place to show
         cause @ Failure::Scene(_) => cause,
         cause => Failure::Ply { name: name.into(), cause: Box::new(cause) },
     }

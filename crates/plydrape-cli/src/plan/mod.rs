@@ -2,6 +2,7 @@
 
 mod arguments;
 mod book;
+mod compare;
 mod found;
 
 pub use arguments::Arguments;
@@ -67,13 +68,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let earlier = earlier.map(|dir| checkpoint(dir, &scene)).transpose()?;
     if arguments.compare {
         warn(start::low(&scene).as_slice());
-        return crate::compare::run(asked, &scene, &interrupt, quiet);
+        return compare::run(asked, &scene, &interrupt, quiet);
     }
     let infeasible = infeasible_limits(&scene);
     if !infeasible.is_empty() {
-        let end = !arguments.anyway;
         say_infeasible(&table::infeasible_limits(&infeasible), &infeasible, arguments, quiet)?;
-        if end {
+        if !arguments.anyway {
             return Ok(ExitCode::from(1));
         }
     }
@@ -120,7 +120,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     Ok(found.code(interrupted))
 }
 
-/// The part of the time of a search after which what follows it ends too: all is over within twice that time, files included.
+/// Multiple of the time of a search after which what follows it ends too: all is over within twice that time, files included.
 const WHOLE: f64 = 1.8;
 
 /// Shortest and longest time of a search (s).

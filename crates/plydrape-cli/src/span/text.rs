@@ -1,6 +1,6 @@
 //! A solved span as text: what holds it, a table of places along it, and its shape.
 
-use super::{Curve, Solved, picture};
+use super::{Solved, SpanShape, picture};
 use crate::numbers::{millimeters, short};
 use plydrape::catenary::EndCondition;
 use std::fmt::Write;
@@ -115,8 +115,8 @@ fn table(solved: &Solved) -> String {
     });
     let mut rows = vec![head.map(str::to_string)];
     rows.extend(values.iter().map(|row| {
-        [0, 1, 2, 3, 4].map(|column| match solved.curve {
-            Curve::Straight if column == 4 => "–".to_string(),
+        [0, 1, 2, 3, 4].map(|column| match solved.shape {
+            SpanShape::Straight if column == 4 => "–".to_string(),
             _ => without_sign_of_zero(format!("{:.*}", decimals[column], row[column])),
         })
     }));

@@ -96,6 +96,23 @@ fn a_long_line_is_cut_around_the_fault() {
     }
 }
 
+/// A value of more bytes than are shown is cut between characters, however many bytes each of these has and wherever the value begins.
+#[test]
+fn a_long_value_is_cut_between_characters() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("long.toml");
+    for letter in ["é", "€", "𝄞"] {
+        for before in ["", "a", "ab", "abc"] {
+            let value = letter.repeat(150);
+            std::fs::write(&file, format!("[ply]\ngrippers = \"{before}{value}\"\n")).unwrap();
+            let output = check(&file);
+            let message = String::from_utf8(output.stderr).unwrap();
+            assert_eq!(output.status.code(), Some(2), "{before}{letter}: {message}");
+            assert!(message.contains("is a text") && message.len() < 3000, "{message}");
+        }
+    }
+}
+
 /// Runs the command in a folder, and gives its exit code, what it prints and its messages on one line.
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_plydrape"))

@@ -1,8 +1,9 @@
 //! `plydrape net` as a user calls it: exit codes, what is printed, what is written.
 
+use crate::common::{command, text};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 /// A dome.
 const CAP: &str = "z = \"-(x^2 + y^2) / 0.3\"";
@@ -30,13 +31,7 @@ mesh = "5 mm"
 /// `plydrape net` on the scene, in its folder.
 fn net(folder: &Path, scene: &str, flags: &[&str]) -> Output {
     std::fs::write(folder.join("cap.toml"), scene).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_plydrape"));
-    command.current_dir(folder).env("NO_COLOR", "1").stdin(Stdio::null());
-    command.args(["net", "cap.toml"]).args(flags).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+    command().current_dir(folder).args(["net", "cap.toml"]).args(flags).output().unwrap()
 }
 
 /// Exit 0, four files beside the scene, and the numbers of the table are those of the JSON.

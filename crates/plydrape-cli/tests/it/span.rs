@@ -1,6 +1,7 @@
 //! `plydrape span` as a user calls it: numbers, keys and refusals.
 
-use std::process::{Command, Output, Stdio};
+use crate::common::{command, one_line, text};
+use std::process::Output;
 
 /// The strip of the model's description: 100 mm of the paper's ply over 98 mm.
 const STRIP: [(&str, &str); 4] =
@@ -13,18 +14,8 @@ fn span(changes: &[(&str, &str)], flags: &[&str]) -> Output {
         options.retain(|(name, _)| *name != change.0);
         options.push(*change);
     }
-    Command::new(env!("CARGO_BIN_EXE_plydrape"))
-        .arg("span")
-        .args(options.iter().flat_map(|(name, value)| [*name, *value]))
-        .args(flags)
-        .env("NO_COLOR", "1")
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+    let options = options.iter().flat_map(|(name, value)| [*name, *value]);
+    command().arg("span").args(options).args(flags).output().unwrap()
 }
 
 /// The object that `--json` prints.
@@ -213,9 +204,7 @@ fn bad_values_are_refused_with_option_value_and_remedy() {
         let shown = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{option} {value}\n{shown}");
         assert!(output.stdout.is_empty(), "{option} {value}");
-        // lines are broken for a terminal: join the words
-        let words = shown.replace('│', " ");
-        let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+        let words = one_line(&output.stderr);
         for part in [option, value, fault, remedy, "help:"] {
             assert!(words.contains(part), "{option} {value}: {part} in\n{shown}");
         }
@@ -243,10 +232,7 @@ fn what_has_no_solution_exits_with_three() {
 
 #[test]
 fn required_options_are_named() {
-    let output = Command::new(env!("CARGO_BIN_EXE_plydrape"))
-        .args(["span", "--run", "98 mm"])
-        .output()
-        .unwrap();
+    let output = command().args(["span", "--run", "98 mm"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let shown = text(&output.stderr);
     for option in ["--length", "--weight", "--rigidity"] {

@@ -22,7 +22,7 @@ const CRATES: [(&str, &str); 8] = [
     ),
     (
         "plydrape-cli",
-        "failure argument mesh outcome results numbers watch search compare errors model plan check complete export peer new fit limits net \
+        "failure argument mesh outcome results numbers watch search errors model plan check compare complete export new fit limits net \
          replan report schema simulate span study template",
     ),
     (

@@ -1,4 +1,4 @@
-"""The sheet that the figures share: its size, its type and its colors.
+"""The page that the figures share: its size, its type and its colors.
 
 Colors are those of the report. Viridis grows evenly lighter, also for
 color-blind eyes and in gray print; the scale with a sign is ColorBrewer's PuOr, safe for
@@ -69,13 +69,13 @@ SETTINGS: dict[str, Any] = {
 }
 
 
-class Sheet(Figure):
+class Page(Figure):
     """A figure that a notebook shows without `pyplot`."""
 
     def _repr_png_(self) -> bytes:
-        page = BytesIO()
-        self.savefig(page, format="png", dpi=150)
-        return page.getvalue()
+        picture = BytesIO()
+        self.savefig(picture, format="png", dpi=150)
+        return picture.getvalue()
 
 
 @contextmanager
@@ -86,7 +86,7 @@ def style() -> Iterator[None]:
 
 
 def breadth(width: Width) -> float:
-    """The width of a sheet (mm)."""
+    """The width of a page (mm)."""
     if isinstance(width, str):
         if width in ("single", "double"):
             return 89.0 if width == "single" else 183.0
