@@ -31,8 +31,8 @@ impl ShearRate {
         self.stiffness * self.time()
     }
 
-    /// This ply with all relaxation times longer by a factor: a motion along which that ply is draped is to it what a
-    /// motion that is this many times as fast is to this one, but for its inertia.
+    /// The law with all relaxation times longer by a factor. But for inertia, a ply with that law drapes along a motion as a ply
+    /// with this one does along a motion that is as many times as fast.
     #[must_use]
     pub fn slower(&self, factor: f64) -> Self {
         let mut slower = self.clone();
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_single_relaxation_time_is_that_of_every_temperature() {
-        let one = Relaxation { temperature: vec![298.15], time: vec![2.0] };
-        assert_eq!([250.0, 298.15, 400.0].map(|t| one.at(t)), [2.0; 3]);
+        let single = Relaxation { temperature: vec![298.15], time: vec![2.0] };
+        assert_eq!([250.0, 298.15, 400.0].map(|t| single.at(t)), [2.0; 3]);
     }
 }

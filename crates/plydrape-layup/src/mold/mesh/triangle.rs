@@ -6,6 +6,11 @@ use crate::geometry::vector::{along, cross, dot, sub};
 /// tell corners, edges and the inside apart.
 pub(super) type Weights = [f64; 3];
 
+/// A vector across a triangle of three points, as long as twice its area.
+pub(super) fn double_area([p, q, r]: [[f64; 3]; 3]) -> [f64; 3] {
+    cross(sub(q, p), sub(r, p))
+}
+
 /// A point of a triangle that is closest to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Closest {
