@@ -143,8 +143,8 @@ impl Recorded<'_> {
         let ruck = span.ruck(self.ply, self.settings.gravity, catenary);
         let station = |n: usize| {
             let s = line.length() * n as f64 / (STATIONS - 1) as f64;
-            let place = line.at(s);
-            let height = ruck.map_or(0.0, |ruck| ruck.at(s - 0.5 * line.length()));
+            let place = line.point_at(s);
+            let height = ruck.map_or(0.0, |ruck| ruck.height_at(s - 0.5 * line.length()));
             along(place, height, mold.normal(place))
         };
         (0..STATIONS).map(station).collect()
