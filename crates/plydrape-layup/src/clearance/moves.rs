@@ -1,6 +1,7 @@
 //! How what bodies are mounted on moves between two times, and bounds of it.
 
 use super::poses::Poses;
+use crate::geometry::rotation::continued;
 use crate::geometry::vector::{along, between, cross, norm, sub};
 use crate::mold::Pose;
 use crate::motion::{Attitudes, TimedMotion, slerp, turn};
@@ -63,16 +64,14 @@ struct Leg {
     quaternions: [[f64; 4]; 2],
     /// How much it turns (rad).
     turn: f64,
-    /// The axis that it turns about, by this much (rad).
+    /// Rotation vector of that turn (rad).
     spin: [f64; 3],
 }
 
 impl Leg {
     fn new([from, to]: [&Pose; 2]) -> Self {
-        let [a, mut b] = [from.quaternion(), to.quaternion()];
-        if a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
-            b = b.map(|c| -c);
-        }
+        let a = from.quaternion();
+        let b = continued(to.quaternion(), Some(a));
         let turn = turn(&a, &b);
         // the vector part of b a⁻¹: the axis times the sine of half the turn
         let part = sub(
@@ -84,7 +83,8 @@ impl Leg {
         Leg { ends: [*from, *to], quaternions: [a, b], turn, spin }
     }
 
-    fn at(&self, time: f64) -> Pose {
+    /// The pose at a share of the way.
+    fn pose_at(&self, time: f64) -> Pose {
         let [from, to] = &self.ends;
         if time <= 0.0 {
             return *from;
@@ -134,7 +134,7 @@ impl Straight {
 
 impl Moves for Straight {
     fn pose(&self, of: Origin, time: f64) -> Pose {
-        self.leg(of).at(time)
+        self.leg(of).pose_at(time)
     }
 
     fn travel(&self, of: Origin, seen_from: Option<Origin>, [from, to]: [f64; 2]) -> f64 {

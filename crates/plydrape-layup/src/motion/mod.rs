@@ -169,10 +169,10 @@ impl TimedMotion {
         self.path.as_ref().map_or_else(Vec::new, |_| self.law.rows())
     }
 
-    /// The motion that goes through the same places at a time of another motion along the same path (s): the time here.
+    /// When this motion is where another motion along the same path is at a time (s).
     #[must_use]
-    pub fn same_place(&self, of: &TimedMotion, t: f64) -> f64 {
-        self.law.time(of.law.at(t)[0])
+    pub fn same_place(&self, other: &TimedMotion, t: f64) -> f64 {
+        self.law.time(other.law.at(t)[0])
     }
 
     /// The motion of other planned positions (m), one list of all grippers for each of [`Self::times`]: with the same spacing of the

@@ -34,18 +34,18 @@ pub struct Moving {
     pub rates: Vec<[[f64; 3]; 3]>,
     /// Largest norm of each; infinite where there is no limit.
     pub bounds: [f64; 3],
-    /// At how many of the first times the bounds are others, and these.
+    /// How many of the first times have other bounds, and these bounds; `None` if the bounds are the same at all times.
     pub early: Option<(usize, [f64; 3])>,
 }
 
 impl Moving {
     /// Derivatives to the time as shares of their bounds, at one of the times and at a pace.
     fn shares(&self, jet: &Jet, n: usize) -> [f64; 3] {
-        jet.shares(&self.rates[n], &self.bounds(n))
+        jet.shares(&self.rates[n], &self.bounds_at(n))
     }
 
     /// The bounds at one of the times.
-    fn bounds(&self, n: usize) -> [f64; 3] {
+    fn bounds_at(&self, n: usize) -> [f64; 3] {
         self.early.filter(|(count, _)| n < *count).map_or(self.bounds, |(_, bounds)| bounds)
     }
 }
@@ -53,7 +53,7 @@ impl Moving {
 /// Which bound is nearest to its limit, at a time of the quickest motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limiting {
-    /// How long it is (s).
+    /// How long the part of the motion is in which it is the nearest (s).
     pub time: f64,
     /// Which of those that move.
     pub moving: usize,
@@ -81,10 +81,10 @@ impl<'a> Course<'a> {
     #[must_use]
     pub fn new(motion: &'a TimedMotion) -> Option<Self> {
         let path = motion.path.as_ref()?;
-        let mut at = motion.law.breaks();
-        at.extend(path.knots.iter().map(|u| motion.law.time(*u)));
-        at.sort_by(f64::total_cmp);
-        let pace = Pace::over(&at, TUNING.pace_parts.map(|share| share * motion.duration()))?;
+        let mut ends = motion.law.breaks();
+        ends.extend(path.knots.iter().map(|u| motion.law.time(*u)));
+        ends.sort_by(f64::total_cmp);
+        let pace = Pace::over(&ends, TUNING.pace_parts.map(|share| share * motion.duration()))?;
         let inside = TUNING.pace_inside;
         let times = pace.parts().flat_map(|(begin, end)| {
             [inside, 0.5, 1.0 - inside].map(|share| begin + share * (end - begin))

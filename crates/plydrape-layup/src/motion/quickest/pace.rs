@@ -32,7 +32,7 @@ impl Pace {
             return None;
         }
         let mut ends = vec![first];
-        let mut to = |end: f64| {
+        let mut extend_to = |end: f64| {
             let begin = *ends.last().unwrap_or(&first);
             let count = ((end - begin) / longest).ceil().max(1.0);
             ends.extend((1..count as usize).map(|k| begin + (end - begin) * k as f64 / count));
@@ -41,11 +41,11 @@ impl Pace {
         let mut before = first;
         for time in times {
             if time - before >= shortest && last - time >= shortest {
-                to(*time);
+                extend_to(*time);
                 before = *time;
             }
         }
-        to(last);
+        extend_to(last);
         let values = vec![1.0; ends.len() + 1];
         Some(Pace { ends, values })
     }

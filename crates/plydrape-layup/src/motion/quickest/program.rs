@@ -31,7 +31,7 @@ impl<'a> Program<'a> {
             let shares: Vec<[f64; 3]> = self.moving.iter().map(|one| one.shares(&jet, n)).collect();
             for order in [1, 2] {
                 let bounded =
-                    (0..shares.len()).filter(|k| self.moving[*k].bounds(n)[order].is_finite());
+                    (0..shares.len()).filter(|k| self.moving[*k].bounds_at(n)[order].is_finite());
                 let by_share =
                     |a: &usize, b: &usize| shares[*a][order].total_cmp(&shares[*b][order]);
                 let Some(nearest) = bounded.max_by(by_share) else { continue };
@@ -95,7 +95,7 @@ impl<'a> Program<'a> {
             for (k, order) in &self.met[n] {
                 let one = &self.moving[*k];
                 let [first, second, third] = one.rates[n];
-                let bound = one.bounds(n)[*order];
+                let bound = one.bounds_at(n)[*order];
                 let weights = |axis: usize| match order {
                     1 => [0, 1, 2].map(|m| second[axis] * value[m] + 0.5 * first[axis] * slope[m]),
                     _ => [0, 1, 2].map(|m| {
