@@ -1,8 +1,7 @@
 //! Grippers and cells: tilt, height above the mold, distances, shear.
 
-use super::Row;
 use super::tuning::TUNING;
-use super::{Quantity, Sensitivity};
+use super::{Quantity, Row, Sensitivity};
 use crate::geometry::vector::{sub, unit};
 use crate::ply::{Grid, shear, tangent_shares};
 use num_dual::{Dual64, DualNum};

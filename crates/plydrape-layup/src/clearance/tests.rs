@@ -11,8 +11,7 @@ use crate::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface as Height, Torus,
     distance,
 };
-use crate::motion::Motion;
-use crate::motion::{Attitudes, Bounds, TimedMotion};
+use crate::motion::{Attitudes, Bounds, Motion, TimedMotion};
 use crate::ply::{Grid, cloth};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};

@@ -25,12 +25,6 @@ impl ShearRate {
         self.relaxation.at(self.temperature)
     }
 
-    /// The viscosity of slow shear per length G₁ θ (N·s/m) at the temperature of the ply.
-    #[must_use]
-    pub fn viscosity(&self) -> f64 {
-        self.stiffness * self.time()
-    }
-
     /// The law with all relaxation times longer by a factor. But for inertia, a ply with that law drapes along a motion as a ply
     /// with this one does along a motion that is as many times as fast.
     #[must_use]

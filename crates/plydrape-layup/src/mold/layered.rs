@@ -100,12 +100,6 @@ impl Layer {
         &self.rings
     }
 
-    /// Whether it lies at a place in plan (m), its ramp included.
-    #[must_use]
-    pub fn covers(&self, place: [f64; 2]) -> bool {
-        self.at(place).0 > 0.0
-    }
-
     /// Height (m), slope, and second derivatives (1/m) at a place in plan.
     fn at(&self, place: [f64; 2]) -> (f64, [f64; 2], [f64; 3]) {
         let none = (0.0, [0.0; 2], [0.0; 3]);

@@ -129,7 +129,8 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
                 fabric(scene, a, b)
             };
             let angle = |cell: &LineCell| {
-                let paths = cell.bias.map(|bias| shear::mean_path(bias.list(), path));
+                let paths =
+                    cell.bias.map(|bias| shear::mean_path(bias.list().iter().map(|n| path(*n))));
                 let flat = lines.flat_length(cell.bias[0].list()[0], ply.length_factor);
                 shear::angle(cell.trellis, paths[0].max(paths[1]).max(flat))
             };
