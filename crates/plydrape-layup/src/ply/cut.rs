@@ -1,6 +1,7 @@
 //! A ply as it is cut, and the cups that hold it.
 
 use super::{Direction, Grid, GripperId, Lines, Outline, Ply};
+use crate::geometry::ring;
 use crate::geometry::rotation::of_tangents;
 use crate::geometry::vector::{along, mean, sub, unit};
 
@@ -111,14 +112,8 @@ impl Ply {
     /// Fabric coordinates of the lowest and the highest gripper along u and along v (m).
     #[must_use]
     pub fn held_bounds(&self) -> [[f64; 2]; 2] {
-        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for place in (0..self.grippers()).map(|n| self.place(n)) {
-            for n in 0..2 {
-                bounds[0][n] = bounds[0][n].min(place[n]);
-                bounds[1][n] = bounds[1][n].max(place[n]);
-            }
-        }
-        bounds
+        let places: Vec<[f64; 2]> = (0..self.grippers()).map(|n| self.place(n)).collect();
+        ring::bounds(&places)
     }
 
     /// Fabric coordinates of its middle (m): that of the box around the drawing of a ply that is cut, whatever way its yarns
