@@ -28,7 +28,7 @@ impl Row {
 
     /// The number at a place.
     #[must_use]
-    pub fn at(&self, place: usize) -> f64 {
+    pub fn value_at(&self, place: usize) -> f64 {
         let found = self.entries.binary_search_by_key(&(place as u32), |(place, _)| *place);
         found.map_or(0.0, |n| self.entries[n].1)
     }
@@ -124,7 +124,7 @@ mod tests {
         let mut sum = sparse(&a);
         sum.add(0.5, &sparse(&b));
         assert_eq!(sum.dense(5), [1.5, 2.0, 0.0, 1.0, 0.5]);
-        assert_eq!((sum.count(), sum.at(2), sum.at(3)), (4, 0.0, 1.0));
+        assert_eq!((sum.count(), sum.value_at(2), sum.value_at(3)), (4, 0.0, 1.0));
         sum.add_from(1, 2.0, [1.0, 0.0, 1.0]);
         sum.scale(2.0);
         assert_eq!(sum.dense(5), [3.0, 8.0, 0.0, 6.0, 1.0]);

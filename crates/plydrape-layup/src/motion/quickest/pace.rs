@@ -84,7 +84,7 @@ impl Pace {
     }
 
     /// b, b' and b'' at a time (s).
-    pub fn at(&self, t: f64) -> Jet {
+    pub fn jet_at(&self, t: f64) -> Jet {
         let part = self.part(t);
         let [value, slope, curvature] = self
             .weights(part, t)
@@ -95,7 +95,7 @@ impl Pace {
     /// How long a part takes at this pace (s).
     pub fn time_of(&self, part: usize) -> f64 {
         let (begin, length) = (self.ends[part], self.ends[part + 1] - self.ends[part]);
-        let rate = |share: f64| self.at(begin + share * length).value.sqrt();
+        let rate = |share: f64| self.jet_at(begin + share * length).value.sqrt();
         GAUSS.iter().map(|(share, weight)| length * weight / rate(*share)).sum()
     }
 
