@@ -6,7 +6,7 @@
 //!
 //! | stage | what it is |
 //! |---|---|
-//! | [`geometry`] | vectors, rotations, placements |
+//! | [`geometry`] | vectors, rotations, placements, closed lines in a plane |
 //! | [`mold`] | the surface: its distance, closest point and paths along it |
 //! | [`material`], [`ply`] | laws of the woven ply; its outline, grippers, lines and cells |
 //! | [`net`] | the ideal drape: where every point of the fabric should end on the mold |

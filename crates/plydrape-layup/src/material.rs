@@ -130,21 +130,25 @@ impl TensionLaw {
             TensionLaw::Linear { stiffness } => {
                 [0.5 * stiffness * strain * strain, stiffness * strain, *stiffness]
             }
-            TensionLaw::Table { strain: at, force } => {
-                let mut energy = 0.0;
-                for n in 1..at.len() {
-                    let slope = (force[n] - force[n - 1]) / (at[n] - at[n - 1]);
-                    if strain <= at[n] || n + 1 == at.len() {
-                        let beyond = strain - at[n - 1];
-                        energy += beyond * (force[n - 1] + 0.5 * slope * beyond);
-                        return [energy, force[n - 1] + slope * beyond, slope];
-                    }
-                    energy += 0.5 * (at[n] - at[n - 1]) * (force[n] + force[n - 1]);
-                }
-                [0.0; 3]
-            }
+            TensionLaw::Table { strain: strains, force } => straight_lines(strains, force, strain),
         }
     }
+}
+
+/// Integral, value and slope at a place of the straight lines through the points `(x, y)`, x ascending from 0; the first
+/// and the last line go on beyond their points. Without a line all are 0.
+fn straight_lines(x: &[f64], y: &[f64], place: f64) -> [f64; 3] {
+    let mut integral = 0.0;
+    for n in 1..x.len() {
+        let slope = (y[n] - y[n - 1]) / (x[n] - x[n - 1]);
+        if place <= x[n] || n + 1 == x.len() {
+            let beyond = place - x[n - 1];
+            integral += beyond * (y[n - 1] + 0.5 * slope * beyond);
+            return [integral, y[n - 1] + slope * beyond, slope];
+        }
+        integral += 0.5 * (x[n] - x[n - 1]) * (y[n] + y[n - 1]);
+    }
+    [0.0; 3]
 }
 
 /// Mass per length and flexural rigidity of one catenary.
@@ -196,9 +200,7 @@ impl ShearCurve {
             }
         }
     }
-}
 
-impl ShearCurve {
     /// Energy per area ∫ τ dγ (J/m²) from no shear to a shear angle γ (rad) of either sign.
     #[must_use]
     pub fn energy(&self, angle: f64) -> f64 {
@@ -236,25 +238,24 @@ fn simpson(x: &[f64], y: &[f64], from: f64, to: f64) -> f64 {
     (value(from) + 4.0 * value(0.5 * (from + to)) + value(to)) / 6.0
 }
 
-/// Value and slope at `at` of the monotone cubic through the points `(x, y)`, x ascending.
-fn monotone_cubic(x: &[f64], y: &[f64], at: f64) -> (f64, f64) {
+/// Value and slope at a place of the monotone cubic through the points `(x, y)`, x ascending.
+fn monotone_cubic(x: &[f64], y: &[f64], place: f64) -> (f64, f64) {
     let points = x.len().min(y.len());
     if points < 2 {
         return (y.first().copied().unwrap_or(0.0), 0.0);
     }
-    let last = points - 1;
-    if at >= x[last] {
-        let slope = knot_slope(&x[..points], &y[..points], last);
-        return (y[last] + slope * (at - x[last]), slope);
+    let (x, y, last) = (&x[..points], &y[..points], points - 1);
+    if place >= x[last] {
+        let slope = knot_slope(x, y, last);
+        return (y[last] + slope * (place - x[last]), slope);
     }
 
-    // The interval that holds `at`, and the cubic of Hermite there.
-    let k = x[..points].partition_point(|knot| *knot <= at).clamp(1, last) - 1;
-    let (s0, s1) =
-        (knot_slope(&x[..points], &y[..points], k), knot_slope(&x[..points], &y[..points], k + 1));
+    // The interval that holds the place, and the cubic of Hermite there.
+    let k = x.partition_point(|knot| *knot <= place).clamp(1, last) - 1;
+    let (s0, s1) = (knot_slope(x, y, k), knot_slope(x, y, k + 1));
     let h = x[k + 1] - x[k];
     let secant = (y[k + 1] - y[k]) / h;
-    let t = (at - x[k]) / h;
+    let t = (place - x[k]) / h;
     let c = 3.0 * secant - 2.0 * s0 - s1;
     let d = s0 + s1 - 2.0 * secant;
     (y[k] + h * t * (s0 + t * (c + t * d)), s0 + t * (2.0 * c + 3.0 * t * d))

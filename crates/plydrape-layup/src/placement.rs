@@ -17,13 +17,13 @@ use std::f64::consts::TAU;
 
 /// Distances of the motion's middle from the axis of the foot, in units of the reach.
 const FAR: [f64; 6] = [0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
-/// Its heights over the foot, in units of the reach.
+/// Heights of the motion's middle over the foot, in units of the reach.
 const HIGH: [f64; 8] = [-0.2, -0.05, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85];
 /// Turns of the scene about the vertical, to a full one.
 const TURNS: u32 = 8;
-/// So many times its limits an arm is far enough from them.
+/// Distance from singularities and ends of joints, as a multiple of the least one that is accepted, from which more is no gain.
 const FREE: f64 = 2.0;
-/// Places are rounded to a power of ten of a meter below this part of the reach.
+/// Places are rounded to whole steps: the step is the largest power of ten (m) up to the reach divided by this number.
 const ROUND: f64 = 1e3;
 
 /// Where a scene stands for its robot.
@@ -31,7 +31,7 @@ const ROUND: f64 = 1e3;
 pub struct Placement {
     /// Where the origin of the scene is in the world of the robot.
     pub world: Pose,
-    /// Its turn about the vertical (rad).
+    /// Turn of the scene about the vertical (rad).
     pub yaw: f64,
     /// From how many configurations the arm follows the motion of the layup there.
     pub keeping: usize,

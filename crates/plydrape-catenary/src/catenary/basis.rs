@@ -51,10 +51,10 @@ pub struct Values {
     pub second: [f64; 3],
 }
 
-/// U, V, G at the points of a panel, one form's way.
+/// U, V, G at the points of a panel, as one of the forms gives them.
 pub trait Panel {
     /// Values at a point of the panel.
-    fn at(&self, point: usize) -> Values;
+    fn values(&self, point: usize) -> Values;
 }
 
 /// Points of the taut form: t, e^(−kt) and e^(−k(1−t)).
@@ -78,7 +78,7 @@ pub struct LimpPanel<const P: usize> {
 
 impl<const P: usize> Panel for TautPanel<P> {
     #[inline(always)]
-    fn at(&self, p: usize) -> Values {
+    fn values(&self, p: usize) -> Values {
         let (t, s, m) = (self.t[p], 1.0 - self.t[p], self.mean);
         let (near, far) = (self.layers[0][p], self.layers[1][p]);
         Values {
@@ -91,7 +91,7 @@ impl<const P: usize> Panel for TautPanel<P> {
 
 impl<const P: usize> Panel for StiffPanel<P> {
     #[inline(always)]
-    fn at(&self, p: usize) -> Values {
+    fn values(&self, p: usize) -> Values {
         // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
         let c: [f64; 9] = std::array::from_fn(|n| self.c[n][p]);
         let (mean, t) = (&self.mean, self.t[p]);
@@ -115,7 +115,7 @@ impl<const P: usize> Panel for StiffPanel<P> {
 
 impl<const P: usize> Panel for LimpPanel<P> {
     #[inline(always)]
-    fn at(&self, p: usize) -> Values {
+    fn values(&self, p: usize) -> Values {
         Values { value: [0.0, 0.0, self.t[p] - 0.5], ..Values::default() }
     }
 }
@@ -197,12 +197,12 @@ impl Form {
         match *self {
             Form::Taut { mean, .. } => {
                 let layers = self.layers(t).map(|layer| [layer]);
-                TautPanel { t: [t], layers, mean }.at(0)
+                TautPanel { t: [t], layers, mean }.values(0)
             }
             Form::Stiff { kappa, terms, c: mean } => {
-                StiffPanel { t: [t], c: entire_at(&[kappa * t * t], terms), mean }.at(0)
+                StiffPanel { t: [t], c: entire_at(&[kappa * t * t], terms), mean }.values(0)
             }
-            Form::Limp => LimpPanel { t: [t] }.at(0),
+            Form::Limp => LimpPanel { t: [t] }.values(0),
         }
     }
 
@@ -213,7 +213,7 @@ impl Form {
             Form::Stiff { kappa, terms, c: mean } => {
                 let c = entire_at(&t.map(|t| kappa * t * t), terms);
                 let panel = StiffPanel { t: *t, c, mean };
-                std::array::from_fn(|n| panel.at(n).value)
+                std::array::from_fn(|n| panel.values(n).value)
             }
             _ => t.map(|t| self.slope(t).value),
         }

@@ -43,7 +43,7 @@ impl<const N: usize> Default for Jet<N> {
 }
 
 impl<const N: usize> Jet<N> {
-    /// The same value as a function of the first `M` ≤ `N` variables.
+    /// This value as a function of the first `M` ≤ `N` variables.
     pub(crate) fn first<const M: usize>(&self) -> Jet<M> {
         let mut out = Jet { value: self.value, ..Jet::default() };
         for i in 0..M.min(N) {

@@ -119,7 +119,7 @@ impl Profile {
         self.general_length()
     }
 
-    /// Any number of variables.
+    /// Arc length L (m) with derivatives to any number of variables, and its excess.
     fn general_length<const N: usize>(&self) -> (Jet<N>, Excess) {
         let response = self.response();
         let sums = self.sums();
@@ -157,9 +157,7 @@ impl Profile {
         self.integrate(&mut sums);
         sums
     }
-}
 
-impl Profile {
     /// Arc length from the first end to the horizontal distance `x` (m) from it (m).
     #[must_use]
     pub fn length_to(&self, x: f64) -> f64 {

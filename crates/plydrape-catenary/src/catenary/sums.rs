@@ -17,9 +17,9 @@ const LANES: usize = 4;
 fn over_points<const M: usize, const P: usize>(terms: impl Fn(usize) -> [f64; M]) -> [f64; M] {
     let mut columns = [[0.0; P]; M];
     for p in 0..P {
-        let at = terms(p);
+        let row = terms(p);
         for m in 0..M {
-            columns[m][p] = at[m];
+            columns[m][p] = row[m];
         }
     }
     let mut out = [0.0; M];
@@ -63,8 +63,8 @@ impl ToForce {
 
     /// ∂z'/∂H.
     #[inline(always)]
-    fn slope(&self, at: &Values, drift: f64) -> f64 {
-        let [u, v, g] = at.value;
+    fn slope(&self, basis: &Values, drift: f64) -> f64 {
+        let [u, v, g] = basis.value;
         self.chi_h * drift + self.rho_h * g + self.mix[0] * u + self.mix[1] * v
     }
 }
@@ -83,9 +83,9 @@ impl Sum for ExcessSum {
         let [value, slope] = over_points::<2, P>(
             #[inline(always)]
             |p| {
-                let at = panel.at(p);
-                let w = c.combine(at.value);
-                let w_h = c.slope(&at, c.combine(at.first));
+                let basis = panel.values(p);
+                let w = c.combine(basis.value);
+                let w_h = c.slope(&basis, c.combine(basis.first));
                 let slope = c.theta + w;
                 let r = (1.0 + slope * slope).sqrt();
                 // one division for both terms
@@ -120,7 +120,7 @@ impl Sum for LengthSum {
         let [length] = over_points::<1, P>(
             #[inline(always)]
             |p| {
-                let [u, v, g] = panel.at(p).value;
+                let [u, v, g] = panel.values(p).value;
                 let slope =
                     self.theta + self.rho * g + self.amplitude[0] * u + self.amplitude[1] * v;
                 [weights[p] * (1.0 + slope * slope).sqrt()]
@@ -174,12 +174,12 @@ impl Sum for UnknownsSum {
             #[inline(always)]
             |p| {
                 // w is the slope less its mean θ; its derivatives to H are w_H and w_HH
-                let at = panel.at(p);
-                let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
-                let w = c.combine(at.value);
-                let drift = c.combine(at.first);
-                let w_h = c.slope(&at, drift);
-                let w_hh = k[0] * c.combine(at.second)
+                let basis = panel.values(p);
+                let ([u, v, g], [ux, vx, gx]) = (basis.value, basis.first);
+                let w = c.combine(basis.value);
+                let drift = c.combine(basis.first);
+                let w_h = c.slope(&basis, drift);
+                let w_hh = k[0] * c.combine(basis.second)
                     + k[1] * drift
                     + k[2] * ux
                     + k[3] * vx
@@ -241,16 +241,16 @@ impl Sum for AllSum {
         let sigma = theta.hypot(1.0);
         let combine = |[u, v, g]: [f64; 3]| rho * g + alpha * u + beta * v;
         for p in 0..P {
-            let at = panel.at(p);
-            let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
-            let w = combine(at.value);
+            let basis = panel.values(p);
+            let ([u, v, g], [ux, vx, gx]) = (basis.value, basis.first);
+            let w = combine(basis.value);
             let slope = theta + w;
             let r = slope.hypot(1.0);
             let weight = scale * weights[p];
             self.excess += weight * w * w / (sigma * (sigma * r + 1.0 + theta * slope));
             let (tilt, stretch) = (weight * slope / r, weight / (r * r * r));
-            let f = [1.0, u, v, g, combine(at.first)];
-            let others = [ux, vx, gx, combine(at.second)];
+            let f = [1.0, u, v, g, combine(basis.first)];
+            let others = [ux, vx, gx, combine(basis.second)];
             for (mean, f) in self.mean.iter_mut().zip(f) {
                 *mean += tilt * f;
             }

@@ -20,7 +20,7 @@ pub struct Attitude {
 }
 
 impl Attitude {
-    /// The same gripper at a height over a mold (m): as it comes down it turns to the mold's normal, which it has where it stands.
+    /// The attitude of this gripper at a height over a mold (m): as it comes down it turns to the mold's normal, which it has where it stands.
     #[must_use]
     pub fn landing(
         self,

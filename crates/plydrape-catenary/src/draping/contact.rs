@@ -236,9 +236,9 @@ pub fn next_contact(
     let heading = span.heading();
     let (end, arc) = (segment.point()[side], segment.arc()[side]);
     // from the contact end towards the gripper, up to a fabric arc length of the span
-    let piece = |at: f64| match side {
-        0 => mold.lay(end, heading, at - span.length),
-        _ => mold.lay(end, heading, at),
+    let piece = |length: f64| match side {
+        0 => mold.lay(end, heading, length - span.length),
+        _ => mold.lay(end, heading, length),
     };
     let far = if side == 0 { run.from } else { run.to };
     let deep = run.depth < -settings.tolerance;

@@ -143,8 +143,8 @@ impl Recorded<'_> {
         let ruck = span.ruck(self.ply, self.settings.gravity, catenary);
         let station = |n: usize| {
             let s = line.length() * n as f64 / (STATIONS - 1) as f64;
-            let place = line.at(s);
-            let height = ruck.map_or(0.0, |ruck| ruck.at(s - 0.5 * line.length()));
+            let place = line.point_at(s);
+            let height = ruck.map_or(0.0, |ruck| ruck.height_at(s - 0.5 * line.length()));
             along(place, height, mold.normal(place))
         };
         (0..STATIONS).map(station).collect()
@@ -172,9 +172,9 @@ impl Recorded<'_> {
         out
     }
 
-    /// The points of a span split at a fraction `at` of its run and hung up there at `meet`.
-    fn through(&self, span: &FreeSpan, at: f64, meet: Point) -> Vec<Point> {
-        let lengths = [span.arc(at), span.length - span.arc(at)];
+    /// The points of a span split at a fraction `cut` of its run and hung up there at `meet` (m).
+    fn through(&self, span: &FreeSpan, cut: f64, meet: Point) -> Vec<Point> {
+        let lengths = [span.arc(cut), span.length - span.arc(cut)];
         let halves = [0, 1].map(|n| {
             let ends = if n == 0 { [span.ends[0], meet] } else { [meet, span.ends[1]] };
             let mut half = FreeSpan {
@@ -195,10 +195,10 @@ impl Recorded<'_> {
         (0..STATIONS)
             .map(|n| {
                 let t = n as f64 / (STATIONS - 1) as f64;
-                if t <= at {
-                    halves[0].point(t / at)
+                if t <= cut {
+                    halves[0].point(t / cut)
                 } else {
-                    halves[1].point((t - at) / (1.0 - at))
+                    halves[1].point((t - cut) / (1.0 - cut))
                 }
             })
             .collect()

@@ -9,9 +9,8 @@ use super::load::forces;
 use super::misfit::Misfit;
 use super::solved_step::SolvedStep;
 use super::spans::FreeSpan;
-use crate::geometry::Point;
-use crate::geometry::distance;
 use crate::geometry::vector::between;
+use crate::geometry::{Point, distance};
 use crate::layup::Model;
 use crate::mold::Mold;
 use crate::ply::shear::{mean_path, signed_angle};
@@ -237,7 +236,7 @@ fn landing_shear_error(step: &SolvedStep, cell: usize) -> Option<f64> {
         let stand = [a, b].iter().all(|p| mold.signed_distance(*p) <= tolerance);
         if stand { mold.path_length(a, b) } else { distance(a, b) }
     };
-    let [rising, falling] = cell.bias.map(|bias| mean_path(bias.list(), path));
+    let [rising, falling] = cell.bias.map(|bias| mean_path(bias.list().iter().map(|n| path(*n))));
     let end = signed_angle(layup.ply.trellis(cell, &snapshot.contacts), rising, falling);
     Some(landed.map(|landed| (end - landed.shear).abs()).fold(0.0, larger))
 }

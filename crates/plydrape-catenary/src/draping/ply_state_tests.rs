@@ -16,17 +16,8 @@ fn plane() -> Mold {
 
 /// A ply that is lowered onto the plane z = 0 in steps, its grippers at a spacing (m) that grows to another.
 fn lowered(grid: Grid, heights: &[f64], [first, last]: [f64; 2]) -> Layup {
-    let material = Material {
-        name: "krogh2018".into(),
-        source: "Krogh et al. 2018, Table 1".into(),
-        section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
-        shear_curve: None,
-        tension: None,
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
-    };
+    let section = Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 };
+    let material = Material { section, ..Material::woven("krogh2018", 0.3143, 9e-6, 1e6, 5.0) };
     let ply = Ply::of_array(grid, [0.1; 2], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let share = |step: usize| step as f64 / (heights.len() - 1).max(1) as f64;

@@ -80,7 +80,7 @@ pub enum ContactStatus {
 }
 
 impl ContactStatus {
-    /// As tables have it.
+    /// Name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

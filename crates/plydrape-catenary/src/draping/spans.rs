@@ -109,7 +109,8 @@ impl FreeSpan {
         // in the order of the closed form's variables
         let change = [force, first, second, run, rise, weight, rigidity, length];
         let height = profile.stations().height(t);
-        let above: f64 = height.gradient.iter().zip(change).map(|(by, how)| by * how).sum();
+        let above: f64 =
+            height.gradient.iter().zip(change).map(|(slope, change)| slope * change).sum();
         [line[0], line[1], a[2] + above]
     }
 

@@ -8,6 +8,7 @@ use super::spans::{Equilibrium, FreeSpan, Point};
 use super::tuning::TUNING;
 use super::{CellShear, ContactStatus, Snapshot};
 use crate::equilibrium::{Solved, Solver, Status};
+use crate::geometry::vector::between;
 use crate::layup::{Layup, Stepping};
 use crate::ply::{ContactSegment, Kind, Lines, shear};
 use crate::stopwatch::Stopwatch;
@@ -40,7 +41,8 @@ pub struct Draping<'a> {
 }
 
 impl<'a> Draping<'a> {
-    /// A layup at the start of its motion, without contact.
+    /// A layup at the start of its motion, without contact. Where the motion has no step, the grippers have no positions until they
+    /// are moved.
     #[must_use]
     pub fn new(layup: &'a Layup) -> Self {
         let count = layup.ply.lines().catenaries();
@@ -48,7 +50,7 @@ impl<'a> Draping<'a> {
             layup,
             lines: layup.ply.lines(),
             solver: Solver::new(&layup.ply, &layup.settings),
-            positions: layup.motion.positions[0].clone(),
+            positions: layup.motion.positions.first().cloned().unwrap_or_default(),
             contacts: vec![None; count],
             bridges: vec![None; count],
             deepest: None,
@@ -132,12 +134,8 @@ impl<'a> Draping<'a> {
     /// until it no longer changes.
     fn cut_to(&mut self, goal: &[Point]) -> Equilibrium {
         let start = self.positions.clone();
-        let positions_at = |fraction: f64| -> Vec<Point> {
-            start
-                .iter()
-                .zip(goal)
-                .map(|(a, b)| [0, 1, 2].map(|n| a[n] + fraction * (b[n] - a[n])))
-                .collect()
+        let positions_at = |share: f64| -> Vec<Point> {
+            start.iter().zip(goal).map(|(a, b)| between(*a, *b, share)).collect()
         };
         let (mut done, mut part) = (0.0, 1.0);
         loop {
@@ -226,8 +224,8 @@ impl<'a> Draping<'a> {
         };
         let mut shears = cells.clone().map(shear);
         let shear = match [shears.next(), shears.next()] {
-            [Some(one), Some(other)] => (0.5 * (one.sin() + other.sin())).asin(),
-            [one, _] => one?,
+            [Some(first), Some(second)] => (0.5 * (first.sin() + second.sin())).asin(),
+            [first, _] => first?,
         };
         let cell = &self.lines.cells()[cells.clone().next()?];
         let sides = cell.trellis.map(|side| side * self.layup.ply.length_factor);

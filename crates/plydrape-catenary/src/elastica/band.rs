@@ -59,9 +59,9 @@ impl Band {
                 return false;
             }
             for row in pivot + 1..below {
-                let at = self.place(row, pivot);
-                let factor = self.entries[at] / diagonal;
-                self.entries[at] = factor;
+                let entry = self.place(row, pivot);
+                let factor = self.entries[entry] / diagonal;
+                self.entries[entry] = factor;
                 if factor != 0.0 {
                     for column in pivot + 1..end {
                         let (from, to) = (self.place(pivot, column), self.place(row, column));

@@ -11,7 +11,7 @@ pub(super) struct Flexible {
 }
 
 impl Flexible {
-    /// Of a strip of unit length over a run and a rise with slack.
+    /// The catenary of a strip of unit length, with slack, over a run and a rise.
     pub fn new(run: f64, rise: f64) -> Flexible {
         let chord = run.hypot(rise);
         // sinh ξ/ξ − 1, from the slack so that no digits cancel

@@ -28,14 +28,14 @@ pub(super) struct Rule {
     pub basis: [Basis; POINTS],
 }
 
-/// The nodes of a panel from 0 to 1.
+/// Place of the n-th node of a panel, from 0 to 1.
 fn node(n: usize) -> f64 {
     0.5 - 0.5 * (PI * n as f64 / DEGREE as f64).cos()
 }
 
 impl Basis {
-    /// At a place from 0 to 1.
-    pub fn at(t: f64) -> Basis {
+    /// The values at a place from 0 to 1.
+    pub fn new(t: f64) -> Basis {
         let mut basis = Basis { value: [0.0; NODES], slope: [0.0; NODES] };
         for i in 0..NODES {
             // Lagrange's product and its derivative by the product rule
@@ -75,7 +75,7 @@ pub(super) static RULE: LazyLock<Rule> = LazyLock::new(|| {
         place[n] = 0.5 + 0.5 * x;
         weight[n] = 1.0 / ((1.0 - x * x) * slope * slope);
     }
-    Rule { place, weight, basis: place.map(Basis::at) }
+    Rule { place, weight, basis: place.map(Basis::new) }
 });
 
 /// Panels of a strip of unit length.

@@ -14,6 +14,7 @@ pub struct Shape {
     force: [f64; 2],
     /// Weight per length (N/m).
     weight: f64,
+    /// Length of the strip (m).
     length: f64,
     bending: Bending,
     /// Place where each panel begins, and that of the second end (m).
@@ -21,7 +22,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Of a solution on a strip of unit length and weight; `scale` is the length (m) and w L² (N·m).
+    /// The shape of a solution on a strip of unit length and weight; `scale` is the length (m) and w L² (N·m).
     pub(super) fn new(
         panels: Panels,
         angle: Vec<f64>,
@@ -57,7 +58,7 @@ impl Shape {
     #[must_use]
     pub fn angle(&self, s: f64) -> f64 {
         let (panel, t) = self.panels.find(s / self.length);
-        self.sum(panel, &Basis::at(t).value)
+        self.sum(panel, &Basis::new(t).value)
     }
 
     /// Curvature at an arc length (1/m).
@@ -65,7 +66,7 @@ impl Shape {
     pub fn curvature(&self, s: f64) -> f64 {
         let (panel, t) = self.panels.find(s / self.length);
         let (_, width) = self.panels.panel(panel);
-        self.sum(panel, &Basis::at(t).slope) / (width * self.length)
+        self.sum(panel, &Basis::new(t).slope) / (width * self.length)
     }
 
     /// Place [x, z] at an arc length, from the first end (m).
@@ -180,7 +181,7 @@ impl Shape {
         let (_, width) = self.panels.panel(panel);
         let [mut x, mut z] = self.corners[panel];
         for (place, weight) in RULE.place.iter().zip(&RULE.weight) {
-            let (sin, cos) = self.sum(panel, &Basis::at(t * place).value).sin_cos();
+            let (sin, cos) = self.sum(panel, &Basis::new(t * place).value).sin_cos();
             let step = weight * t * width * self.length;
             x += step * cos;
             z += step * sin;

@@ -93,14 +93,14 @@ impl HeavyStrip {
         // From an all but flexible strip with the catenary's own slopes to the strip.
         let softer = (TUNING.start * cube / rigidity).min(1.0);
         let own = [flexible.angle(0.0), flexible.angle(1.0)];
-        let wanted = slopes.map(|slope| slope.map(f64::atan));
+        let targets = slopes.map(|slope| slope.map(f64::atan));
         let goal = |share: f64| Goal {
             panels: &panels,
             bending: &self.bending,
             scale,
             stiffer: softer.powf(1.0 - share),
             blend: (rigidity, 1.0),
-            held: [0, 1].map(|end| wanted[end].map(|angle| own[end] + share * (angle - own[end]))),
+            held: [0, 1].map(|end| targets[end].map(|angle| own[end] + share * (angle - own[end]))),
             ends: Some([run, rise]),
         };
         let end = match continued(start.clone(), goal) {

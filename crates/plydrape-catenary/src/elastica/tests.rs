@@ -93,9 +93,9 @@ fn the_reference_strips_agree_to_a_thousandth() {
         };
         let shape = strip.solve().expect("a hanging strip");
         let (id, exact) = (&case["id"], &case["exact"]);
-        let near = |what: &str, found: f64, wanted: f64, scale: f64| {
-            let off = (found - wanted).abs() / scale;
-            assert!(off < 1e-3, "{id}: {what} {found} {wanted}");
+        let near = |what: &str, found: f64, expected: f64, scale: f64| {
+            let off = (found - expected).abs() / scale;
+            assert!(off < 1e-3, "{id}: {what} {found} {expected}");
         };
         let force = exact["H_N"].as_f64().expect("a force");
         near("H", shape.horizontal_force(), force, force.abs());

@@ -67,8 +67,8 @@ impl Coloring {
         }
         // between `reach` before the corner and `reach` behind the next gripper
         let ahead = (first + self.reach + stride - corner % stride) % stride;
-        let at = (corner + ahead).checked_sub(self.reach).filter(|at| *at < count)?;
-        Some((at, ahead == 0 || ahead + 1 == stride))
+        let near = (corner + ahead).checked_sub(self.reach).filter(|near| *near < count)?;
+        Some((near, ahead == 0 || ahead + 1 == stride))
     }
 }
 

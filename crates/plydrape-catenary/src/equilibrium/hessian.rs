@@ -199,9 +199,9 @@ fn followed(problem: &Problem<f64>, state: &State, end: End<f64>) -> [(usize, f6
     [0, 1].map(|m| match plane.source[m] {
         SlopeSource::Prescribed(_) => none,
         SlopeSource::Shared(slope) => (slope, plane.share[m]),
-        SlopeSource::Outcome(edge, at) => match problem.elements[edge].ends[1 - at] {
+        SlopeSource::Outcome(edge, end) => match problem.elements[edge].ends[1 - end] {
             End::Shared(slope) => {
-                (slope, plane.share[m] * state.element(edge).slope[at].gradient[1 - at])
+                (slope, plane.share[m] * state.element(edge).slope[end].gradient[1 - end])
             }
             _ => none,
         },

@@ -22,9 +22,9 @@ pub struct MomentBalance {
 }
 
 /// The elements before and after a gripper, each with its end there and the sign of its moment.
-fn sides<T>(problem: &Problem<T>, at: &SharedSlope, slope: usize) -> [(usize, usize, f64); 2] {
+fn sides<T>(problem: &Problem<T>, shared: &SharedSlope, slope: usize) -> [(usize, usize, f64); 2] {
     [(0, 1.0), (1, -1.0)].map(|(n, sign)| {
-        let element = at.elements[n];
+        let element = shared.elements[n];
         let is_first =
             matches!(problem.elements[element].ends[0], End::Shared(other) if other == slope);
         (element, usize::from(!is_first), sign)
@@ -37,11 +37,11 @@ fn jumps<T: Number>(
     problem: &Problem<T>,
     curvature: impl Fn(usize, usize) -> T,
 ) -> impl Iterator<Item = T> {
-    problem.shared_slopes().iter().enumerate().map(move |(slope, at)| {
+    problem.shared_slopes().iter().enumerate().map(move |(slope, shared)| {
         let moment = |(element, end, _): (usize, usize, f64)| {
             problem.elements[element].rigidity * curvature(element, end)
         };
-        let [before, after] = sides(problem, at, slope).map(moment);
+        let [before, after] = sides(problem, shared, slope).map(moment);
         before - after
     })
 }
@@ -52,8 +52,8 @@ impl Rule for MomentBalance {
     }
 
     fn prepare(&self, problem: &Problem<f64>, state: &mut State) {
-        for (slope, at) in problem.shared_slopes().iter().enumerate() {
-            for (element, end, _) in sides(problem, at, slope) {
+        for (slope, shared) in problem.shared_slopes().iter().enumerate() {
+            for (element, end, _) in sides(problem, shared, slope) {
                 state.needs_mut(element).curvature[end] = true;
             }
         }
@@ -74,9 +74,9 @@ impl Rule for MomentBalance {
 
     fn linearize(&mut self, problem: &Problem<f64>, state: &State) {
         self.rows.clear();
-        for (slope, at) in problem.shared_slopes().iter().enumerate() {
+        for (slope, shared) in problem.shared_slopes().iter().enumerate() {
             let mut row = [0.0; 3];
-            for (n, end, sign) in sides(problem, at, slope) {
+            for (n, end, sign) in sides(problem, shared, slope) {
                 let (element, gradient) =
                     (&problem.elements[n], state.element(n).curvature[end].gradient);
                 let factor = sign * element.rigidity;

@@ -1,4 +1,4 @@
-//! Newton's method on the shared slopes, for either rule: section 9 of `docs/theory`.
+//! Newton's method on the shared slopes, for either rule: sections 9 and 10 of `docs/theory/equilibrium.md`.
 //!
 //! Evaluate every element, take the residual R, mark the bounds that hold a slope, make the matrix R_s, and step;
 //! halve the step until it leads to a better state. A state has converged when what is left of R, as a change of

@@ -24,7 +24,7 @@ pub struct Response<T> {
 }
 
 impl<T: Number> Response<T> {
-    /// Of a straight element: no force.
+    /// The response of a straight element, which has no force.
     pub fn straight(slope: T) -> Response<T> {
         let zero = T::from(0.0);
         Response { force: (zero, [zero; 2]), slope: [(slope, [zero; 2]); 2], curvature: [zero; 2] }

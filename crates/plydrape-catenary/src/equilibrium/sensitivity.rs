@@ -87,7 +87,7 @@ struct Linearization<'a> {
 }
 
 impl<'a> Linearization<'a> {
-    /// Of a solver's last state.
+    /// The linearization at a solver's last state.
     fn new(solver: &'a Solver) -> Linearization<'a> {
         let (problem, state) = (solver.problem(), solver.state());
         let elements = 0..problem.elements.len();
@@ -124,12 +124,12 @@ impl<'a> Linearization<'a> {
         problem.rebuild(&solver.circumstances(moving, contacts, factors, free));
 
         // what the direction does to the rule at fixed slopes
-        let at = solver.slopes();
-        pass.run(problem, jets, at, &vec![0.0; at.len()]);
+        let solved = solver.slopes();
+        pass.run(problem, jets, solved, &vec![0.0; solved.len()]);
         let change = rule.get().residual_change(problem, &pass.responses);
         // what the slopes answer, and with it everything else
         let (slopes, is_sound) = rule.get().respond(&change, active, solver.tuning());
-        pass.run(problem, jets, at, &slopes);
+        pass.run(problem, jets, solved, &slopes);
         let gripper_slope = |gripper: usize, direction: usize| {
             let heading = heading(solver.lines(), moving, gripper, direction)?;
             let free = |n: usize| free.get(n).copied();
@@ -195,17 +195,17 @@ struct Pass {
 }
 
 impl Pass {
-    /// Propagates the direction in `problem` through every element, the shared slopes `at` changing by `change`.
+    /// Propagates the direction in `problem` through every element, the shared `slopes` changing by `change`.
     fn run(
         &mut self,
         problem: &Problem<Dual64>,
         jets: &[Evaluated<7>],
-        at: &[f64],
+        slopes: &[f64],
         change: &[f64],
     ) {
         self.responses.clear();
         self.held.clear();
-        let shared = |n: usize| Dual64::new(at[n], change[n]);
+        let shared = |n: usize| Dual64::new(slopes[n], change[n]);
         for (element, jets) in problem.elements.iter().zip(jets) {
             if element.state == SpanState::Straight {
                 let slope = element.chord_slope();

@@ -200,8 +200,8 @@ impl Solver {
 
     /// Solves the stated problem from the warm start.
     fn attempt(&mut self, step_length: StepLength) -> Solved {
+        let bound = self.bound();
         let Solver { problem, state, rule, tuning, .. } = self;
-        let bound = self.settings.max_tilt.tan();
         self.warm_start.start(problem, bound, state);
         let outcome = self.newton.solve(rule.get(), problem, state, bound, step_length, tuning);
         self.warm_start.store(problem, state);

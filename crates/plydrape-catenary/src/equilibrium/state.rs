@@ -288,7 +288,7 @@ impl State {
         evaluate::<8, 7>(&span, Some(own.found.force.value), needs, &self.tuning)
     }
 
-    /// The same state with exact derivatives where the last step was taken by series.
+    /// This state with exact derivatives where the last step was taken by series.
     pub fn refined(&self, jets: &[Evaluated<7>]) -> State {
         let mut out = self.clone();
         for (element, jets) in out.elements.iter_mut().zip(jets) {

@@ -16,7 +16,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// In words.
+    /// Name in reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -84,7 +84,7 @@ pub struct EarlyEnds {
 }
 
 impl EarlyEnds {
-    /// Both together.
+    /// The sums of both counts.
     #[must_use]
     pub fn plus(self, other: EarlyEnds) -> EarlyEnds {
         EarlyEnds {

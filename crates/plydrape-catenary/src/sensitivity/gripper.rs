@@ -1,8 +1,7 @@
 //! Grippers and cells: tilt, height above the mold, distances, shear.
 
-use super::Row;
 use super::tuning::TUNING;
-use super::{Quantity, Sensitivity};
+use super::{Quantity, Row, Sensitivity};
 use crate::geometry::vector::{sub, unit};
 use crate::ply::{Grid, shear, tangent_shares};
 use num_dual::{Dual64, DualNum};
@@ -100,7 +99,11 @@ impl Sensitivity<'_> {
         let by_line = |d: usize| {
             let slope = self.slopes[gripper][d].as_ref()?;
             let [x, y] = heading(d)?;
-            Some([x, y, Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.at(c)))])
+            Some([
+                x,
+                y,
+                Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.value_at(c))),
+            ])
         };
         let [u, v] = [0, 1].map(|d| by_line(d).or_else(|| by_neighbors(d)));
         // across a single line it is level

@@ -72,8 +72,7 @@ impl<'a> Sensitivity<'a> {
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let negligible = TUNING.negligible;
-        Self::without(negligible, layup, solver, shape, positions, contacts)
+        Self::without(TUNING.negligible, layup, solver, shape, positions, contacts)
     }
 
     /// All derivatives, without leaving out small ones. Memory and time grow with the square of the number of grippers.
@@ -100,12 +99,6 @@ impl<'a> Sensitivity<'a> {
         let StateDerivatives { rows, paths, slopes, is_sound } =
             StateDerivatives::new(&layup.ply, solver, positions, contacts, negligible);
         Sensitivity { layup, shape, positions, contacts, rows, paths, slopes, is_sound }
-    }
-
-    /// Number of derivatives: three a gripper.
-    #[must_use]
-    pub fn width(&self) -> usize {
-        3 * self.positions.len()
     }
 
     /// Derivatives of one row of an element.

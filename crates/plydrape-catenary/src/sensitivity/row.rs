@@ -7,12 +7,6 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row without its zeros.
-    #[must_use]
-    pub fn from_dense(dense: &[f64]) -> Self {
-        dense.iter().copied().enumerate().filter(|(_, x)| *x != 0.0).collect()
-    }
-
     /// All numbers up to a width.
     #[must_use]
     pub fn dense(&self, width: usize) -> Vec<f64> {
@@ -34,7 +28,7 @@ impl Row {
 
     /// The number at a place.
     #[must_use]
-    pub fn at(&self, place: usize) -> f64 {
+    pub fn value_at(&self, place: usize) -> f64 {
         let found = self.entries.binary_search_by_key(&(place as u32), |(place, _)| *place);
         found.map_or(0.0, |n| self.entries[n].1)
     }
@@ -124,16 +118,19 @@ mod tests {
     #[test]
     fn sparse_rows_add_and_multiply_as_dense_ones() {
         let [a, b] = [[0.0, 2.0, 0.0, -1.0, 0.5], [3.0, 0.0, 0.0, 4.0, 0.0]];
-        let mut sum = Row::from_dense(&a);
-        sum.add(0.5, &Row::from_dense(&b));
+        let sparse = |dense: &[f64]| -> Row {
+            dense.iter().copied().enumerate().filter(|(_, x)| *x != 0.0).collect()
+        };
+        let mut sum = sparse(&a);
+        sum.add(0.5, &sparse(&b));
         assert_eq!(sum.dense(5), [1.5, 2.0, 0.0, 1.0, 0.5]);
-        assert_eq!((sum.count(), sum.at(2), sum.at(3)), (4, 0.0, 1.0));
+        assert_eq!((sum.count(), sum.value_at(2), sum.value_at(3)), (4, 0.0, 1.0));
         sum.add_from(1, 2.0, [1.0, 0.0, 1.0]);
         sum.scale(2.0);
         assert_eq!(sum.dense(5), [3.0, 8.0, 0.0, 6.0, 1.0]);
         assert_eq!(sum.dot(&[1.0, 1.0, 9.0, -1.0, 2.0]), 7.0);
         sum.trim(0.5);
         assert_eq!(sum.dense(5), [0.0, 8.0, 0.0, 6.0, 0.0]);
-        assert_eq!(Row::from_dense(&sum.dense(5)), sum);
+        assert_eq!(sparse(&sum.dense(5)), sum);
     }
 }

@@ -4,9 +4,8 @@
 //! of its fabric the fraction t follows from the arc length, s(t)/s(1) = const, so that
 //! dt = −(ds(t) − s(t)/s(1) ds(1)) / (ℓ√(1+z'²)).
 
-use super::Row;
 use super::tuning::TUNING;
-use super::{Quantity, Sensitivity};
+use super::{Quantity, Row, Sensitivity};
 use crate::catenary::{Graded, Profile};
 use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};

@@ -1,8 +1,7 @@
 //! The derivatives of a state: sparse rows, filled group by group.
 
-use super::Row;
 use super::tuning::TUNING;
-use super::{Quantity, ROWS};
+use super::{Quantity, ROWS, Row};
 use crate::equilibrium::{Coloring, Direction, Solver, StateTangent};
 use crate::geometry::Point;
 use crate::ply::{ContactSegment, GripperId, Ply};

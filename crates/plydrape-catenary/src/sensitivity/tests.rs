@@ -89,7 +89,7 @@ fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
         let (ahead, behind) = (moved(h), moved(-h));
         for (n, found) in found.iter().enumerate() {
             let central = (ahead[n] - behind[n]) / (2.0 * h);
-            let off = (found.gradient.at(column) - central).abs();
+            let off = (found.gradient.value_at(column) - central).abs();
             assert!(off < 1e-4 * central.abs().max(1.0), "cup {n}, {column}: {central}, off {off}");
         }
     }

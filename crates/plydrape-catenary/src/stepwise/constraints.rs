@@ -4,8 +4,7 @@ use super::program::Program;
 use super::step::Step;
 use super::tuning::TUNING;
 use crate::geometry::vector::sub;
-use crate::sensitivity::Row;
-use crate::sensitivity::{Quantity, Sensitivity};
+use crate::sensitivity::{Quantity, Row, Sensitivity};
 
 impl Step<'_> {
     /// Shear, tilt, force, distances: linear. A limit that is exceeded already must not be exceeded further.
@@ -43,11 +42,11 @@ impl Step<'_> {
                 program.at_most(&self.clearance(sensitivity, gripper).gradient, 1.0, 0.0);
             }
         }
-        if let Some(box_) = limits.workspace {
+        if let Some(ranges) = limits.workspace {
             for (gripper, p) in self.positions.iter().enumerate() {
                 for axis in 0..3 {
                     let unit: Row = [(3 * gripper + axis, 1.0)].into_iter().collect();
-                    let [low, high] = box_[axis];
+                    let [low, high] = ranges[axis];
                     program.at_most(&unit, 1.0, scale * (high.max(p[axis]) - p[axis]));
                     program.at_most(&unit, -1.0, scale * (p[axis] - low.min(p[axis])));
                 }

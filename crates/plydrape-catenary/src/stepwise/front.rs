@@ -12,7 +12,7 @@
 
 use super::Task;
 use super::tuning::TUNING;
-use crate::geometry::vector::{norm, sub};
+use crate::geometry::vector::{mean, norm, sub};
 
 /// Where the landing front is, and what follows for each gripper.
 #[derive(Debug, Clone)]
@@ -37,8 +37,7 @@ impl Front {
     /// The front before the first contact, for a ply whose grippers shall end at `targets` (m).
     pub fn new(task: &Task, targets: &[[f64; 3]]) -> Self {
         let up = [0.0, 0.0, 1.0];
-        let count = targets.len() as f64;
-        let mean = [0, 1, 2].map(|n| targets.iter().map(|p| p[n]).sum::<f64>() / count);
+        let mean = mean(targets);
         let middle = task.layup.mold.as_ref().map_or(mean, |mold| mold.closest_point(mean).point);
         let normal: Vec<[f64; 3]> =
             targets.iter().map(|p| task.layup.mold.as_ref().map_or(up, |m| m.normal(*p))).collect();

@@ -12,8 +12,7 @@ use super::program::Program;
 use super::tuning::TUNING;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::geometry::vector::{dot, sub};
-use crate::sensitivity::Row;
-use crate::sensitivity::{Quantity, Sensitivity};
+use crate::sensitivity::{Quantity, Row, Sensitivity};
 
 /// The state from which a step starts.
 pub struct Step<'a> {

@@ -14,17 +14,8 @@ use crate::sensitivity::Sensitivity;
 /// The paper's ply with `count` × `count` grippers, 2 % slack, above a flat dome.
 pub fn layup(count: usize) -> Layup {
     let grid = Grid { nu: count, nv: count };
-    let material = Material {
-        name: "krogh2018".into(),
-        source: "Krogh et al. 2018, Table 1".into(),
-        section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
-        shear_curve: None,
-        tension: None,
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
-    };
+    let section = Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 };
+    let material = Material { section, ..Material::woven("krogh2018", 0.3143, 9e-6, 1e6, 5.0) };
     let ply = Ply::of_array(grid, [0.1; 2], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let pose = Pose::new([0.0, 0.0, -10.0], [0.0; 3]);

@@ -11,7 +11,7 @@ use plydrape::layup::{Layup, Settings};
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
 use plydrape::motion::Motion;
-use plydrape::net::{Net, Seeds, Wanted};
+use plydrape::net::{Net, Seeds, TargetBoundary};
 use plydrape::ply::Ply;
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ pub struct IdealDrape {
     /// How its seed and heading were chosen, if they were searched for.
     pub seeds: Option<Seeds>,
     /// The target boundary, if the scene has one.
-    pub wanted: Option<Wanted>,
+    pub wanted: Option<TargetBoundary>,
     /// Largest shear allowed (rad).
     pub shear_limit: f64,
     /// Keys that have a new name, and what of a mesh is hardly meant, each in a sentence.

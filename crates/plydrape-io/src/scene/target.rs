@@ -12,7 +12,7 @@ use plydrape::LayupError;
 use plydrape::layup::{ContactSettings, Target};
 use plydrape::mold::mesh::DetailKind;
 use plydrape::mold::{Mesh, Mold};
-use plydrape::net::{Free, Missing, Net, Reason, Seeds, Wanted};
+use plydrape::net::{Free, Missing, Net, Reason, Seeds, TargetBoundary};
 use plydrape::ply::{Ply, gripper_name};
 use std::path::Path;
 use std::sync::Arc;
@@ -70,7 +70,7 @@ pub(super) struct Laid {
     /// How its seed and heading were chosen, if they were searched for.
     pub seeds: Option<Seeds>,
     /// The target boundary.
-    pub wanted: Option<Wanted>,
+    pub wanted: Option<TargetBoundary>,
 }
 
 /// Lays the ply on the mold, as [`target`] reads its heading; nodes without a place are no fault here.
@@ -108,7 +108,7 @@ fn wanted(
     mesh: f64,
     scene: &Document,
     base: &Path,
-) -> Result<Wanted, Error> {
+) -> Result<TargetBoundary, Error> {
     let document = csv_file(&file.value, &file.span, scene, base)?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
     let columns = [X, Y, Z];
@@ -118,7 +118,7 @@ fn wanted(
         spans.push(row.span.clone());
     }
     csv.check_plain()?;
-    Wanted::new(mold, &points, mesh).map_err(|fault| match fault {
+    TargetBoundary::new(mold, &points, mesh).map_err(|fault| match fault {
         LayupError::BoundaryOffMold { point, .. } => document.error(
             spans[point].clone(),
             fault.to_string(),

@@ -231,7 +231,7 @@ fn a_plan_goes_over_a_fixture_that_straight_paths_run_into() {
         let t = planned.motion.duration() * f64::from(k) / 2000.0;
         let places = planned.motion.at(t);
         let poses = Poses::free(&places, &planned.attitudes.at(t), &places);
-        least = least.min(clearance::at(&scene.layup, 5e-3, &poses).unwrap().distance);
+        least = least.min(clearance::at_poses(&scene.layup, 5e-3, &poses).unwrap().distance);
     }
     // what is reported may be wrong by a hundredth
     assert!(least * 1e3 >= found.value * 0.99 && least >= 4.95e-3, "{least} {found:?}");

@@ -4,6 +4,7 @@ use super::inverse::Found;
 use super::tuning::{FAR, HALVINGS, ROUNDING};
 use super::{Angles, Arm, JOINTS, Joint};
 use crate::geometry::Pose;
+use crate::geometry::rotation::continued;
 use crate::geometry::vector::between;
 use crate::motion::{Peak, slerp};
 use rayon::prelude::*;
@@ -164,7 +165,8 @@ impl Arm {
         if halvings == 0 || turns.fold(0.0, f64::max) <= FAR {
             return found;
         }
-        let [a, b] = <[[f64; 4]; 2]>::try_from(Pose::quaternions([from, to])).unwrap_or_default();
+        let a = from.quaternion();
+        let b = continued(to.quaternion(), Some(a));
         let middle = between(from.position, to.position, 0.5);
         let middle = Pose::of_quaternion(middle, slerp(&a, &b, 0.5));
         let half = self.go([from, &middle], angles, halvings - 1);

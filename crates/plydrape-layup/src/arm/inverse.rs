@@ -84,20 +84,20 @@ impl Arm {
         let mut found: Vec<Found> = Vec::new();
         let mut nearest: Option<Found> = None;
         for start in self.starts(pose) {
-            let mut one = self.nearest(pose, &start);
-            one.angles = one.angles.map(|angle| angle - TAU * (angle / TAU).round());
-            if nearest.is_none_or(|nearest| one.left < nearest.left) {
-                nearest = Some(one);
+            let mut trial = self.nearest(pose, &start);
+            trial.angles = trial.angles.map(|angle| angle - TAU * (angle / TAU).round());
+            if nearest.is_none_or(|nearest| trial.left < nearest.left) {
+                nearest = Some(trial);
             }
             let is_new = found.iter().all(|other| {
-                let apart = other.angles.iter().zip(one.angles).map(|(a, b)| {
+                let apart = other.angles.iter().zip(trial.angles).map(|(a, b)| {
                     let between = (a - b).abs();
                     between.min(TAU - between)
                 });
                 apart.fold(0.0, f64::max) > SAME
             });
-            if one.reaches() && is_new {
-                found.push(one);
+            if trial.reaches() && is_new {
+                found.push(trial);
             }
         }
         if found.is_empty() { nearest.into_iter().collect() } else { found }
@@ -105,11 +105,11 @@ impl Arm {
 
     /// Angles from which the search for configurations begins: the foot turned to the place and away from it, and the other joints by a grid.
     fn starts(&self, pose: &Pose) -> Vec<Angles> {
-        let Joints { axis, zero } = self.foot();
+        let (sense, zero) = self.first_joint();
         // the foot's own zero need not look along x
         let toward = pose.position[1].atan2(pose.position[0]) - zero;
         let mut starts: Vec<Vec<f64>> =
-            [0.0, PI].iter().map(|half| vec![axis * (toward + half)]).collect();
+            [0.0, PI].iter().map(|half| vec![sense * (toward + half)]).collect();
         for grid in STARTS {
             starts = starts
                 .iter()
@@ -120,15 +120,9 @@ impl Arm {
     }
 
     /// Which way the first joint turns about the upright (1 or −1), and where the arm looks at its zero (rad).
-    fn foot(&self) -> Joints {
+    fn first_joint(&self) -> (f64, f64) {
         let up = self.joints[0].pose.turn(self.joints[0].axis)[2];
         let flange = self.flange_at(&[0.0; JOINTS]).position;
-        Joints { axis: if up < 0.0 { -1.0 } else { 1.0 }, zero: flange[1].atan2(flange[0]) }
+        (if up < 0.0 { -1.0 } else { 1.0 }, flange[1].atan2(flange[0]))
     }
-}
-
-/// See [`Arm::foot`].
-struct Joints {
-    axis: f64,
-    zero: f64,
 }

@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, Vector6};
 
 impl Joint {
     /// Where what it carries is in the frame of the joint before, at an angle (rad).
-    fn at(&self, angle: f64) -> Pose {
+    fn pose_at(&self, angle: f64) -> Pose {
         let turn = self.axis.map(|c| angle * c);
         self.pose
             .compose(&Pose { position: [0.0; 3], axes: Pose::ORIGIN.axes.map(|a| turned(turn, a)) })
@@ -25,7 +25,7 @@ impl Arm {
     pub fn links(&self, angles: &Angles) -> [Pose; JOINTS + 1] {
         let mut links = [Pose::ORIGIN; JOINTS + 1];
         for (n, (joint, angle)) in self.joints.iter().zip(angles).enumerate() {
-            links[n + 1] = links[n].compose(&joint.at(*angle));
+            links[n + 1] = links[n].compose(&joint.pose_at(*angle));
         }
         links
     }

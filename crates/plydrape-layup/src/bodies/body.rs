@@ -144,8 +144,8 @@ impl Obstacle {
     pub fn bounds(&self) -> [[f64; 3]; 2] {
         let own = self.shape.bounds();
         let corner = |n: usize| self.pose.place([0, 1, 2].map(|c| own[n >> c & 1][c]));
-        let end = |start: f64, of: fn(f64, f64) -> f64| {
-            [0, 1, 2].map(|c| (0..8).map(|n| corner(n)[c]).fold(start, of))
+        let end = |start: f64, extreme: fn(f64, f64) -> f64| {
+            [0, 1, 2].map(|c| (0..8).map(|n| corner(n)[c]).fold(start, extreme))
         };
         [end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max)]
     }
@@ -170,7 +170,7 @@ impl Bodies {
         Bodies { bodies: bodies.into(), obstacles: obstacles.into(), made: Made::default() }
     }
 
-    /// Those on the arm alone, and all obstacles.
+    /// Bodies on the arm alone, and all obstacles.
     #[must_use]
     pub fn of_arm(&self) -> Bodies {
         let links = self.bodies.iter().filter(|body| matches!(body.on, Mount::Link(_)));

@@ -6,7 +6,8 @@
 //! of a cube of triangles it finds those of two edges.
 
 use super::body::Shape;
-use crate::mold::Pose;
+use crate::geometry::vector::between;
+use crate::mold::{Pose, distance};
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::query::{self, ClosestPoints, details};
 use parry3d_f64::shape::{Cylinder, Segment, SharedShape, TriMesh, TriMeshFlags};
@@ -102,11 +103,8 @@ impl Solid {
         }
         // nothing more is known than that they touch, or that their balls are so far apart
         let [middle, its_middle] = [own.place(self.ball.0), its.place(other.ball.0)];
-        let gap = crate::mold::distance(middle, its_middle) - self.ball.1 - other.ball.1;
-        Apart {
-            distance: gap.max(0.0),
-            place: crate::geometry::vector::between(middle, its_middle, 0.5),
-        }
+        let gap = distance(middle, its_middle) - self.ball.1 - other.ball.1;
+        Apart { distance: gap.max(0.0), place: between(middle, its_middle, 0.5) }
     }
 
     /// Whether a point (m) is inside a closed mesh.

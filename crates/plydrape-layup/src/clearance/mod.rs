@@ -17,7 +17,7 @@ mod poses;
 mod tuning;
 
 pub use nearest::{
-    Near, Nearest, Part, at, between_steps, from_obstacles, label, standing_in_mold,
+    Near, Nearest, Part, at_poses, between_steps, from_obstacles, label, standing_in_mold,
 };
 pub use poses::Poses;
 

@@ -1,6 +1,7 @@
 //! How what bodies are mounted on moves between two times, and bounds of it.
 
 use super::poses::Poses;
+use crate::geometry::rotation::continued;
 use crate::geometry::vector::{along, between, cross, norm, sub};
 use crate::mold::Pose;
 use crate::motion::{Attitudes, TimedMotion, slerp, turn};
@@ -21,19 +22,19 @@ pub(super) enum Origin {
 /// A motion of everything that bodies are mounted on.
 pub(crate) trait Moves {
     /// Where something is at a time.
-    fn pose(&self, of: Origin, time: f64) -> Pose;
+    fn pose(&self, origin: Origin, time: f64) -> Pose;
 
     /// How far something goes at most between two times (m), as seen from another thing that is not turned, or in space.
-    fn travel(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64;
+    fn travel(&self, origin: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64;
 
     /// By how much something turns at most between two times (rad).
-    fn turn(&self, of: Origin, times: [f64; 2]) -> f64;
+    fn turn(&self, origin: Origin, times: [f64; 2]) -> f64;
 
     /// The most that the distance of two bodies can change between two times (m), each given by its origin and the distance of its
     /// farthest point from there (m); or of one body and what stands still.
     fn change(&self, one: Reach, other: Option<Reach>, times: [f64; 2]) -> f64 {
-        let turned = |(of, reach): Reach| reach * self.turn(of, times);
-        let travel = self.travel(one.0, other.map(|(of, _)| of), times);
+        let turned = |(origin, reach): Reach| reach * self.turn(origin, times);
+        let travel = self.travel(one.0, other.map(|(origin, _)| origin), times);
         travel + turned(one) + other.map_or(0.0, turned)
     }
 
@@ -63,16 +64,14 @@ struct Leg {
     quaternions: [[f64; 4]; 2],
     /// How much it turns (rad).
     turn: f64,
-    /// The axis that it turns about, by this much (rad).
+    /// Rotation vector of that turn (rad).
     spin: [f64; 3],
 }
 
 impl Leg {
     fn new([from, to]: [&Pose; 2]) -> Self {
-        let [a, mut b] = [from.quaternion(), to.quaternion()];
-        if a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
-            b = b.map(|c| -c);
-        }
+        let a = from.quaternion();
+        let b = continued(to.quaternion(), Some(a));
         let turn = turn(&a, &b);
         // the vector part of b a⁻¹: the axis times the sine of half the turn
         let part = sub(
@@ -84,7 +83,8 @@ impl Leg {
         Leg { ends: [*from, *to], quaternions: [a, b], turn, spin }
     }
 
-    fn at(&self, time: f64) -> Pose {
+    /// The pose at a share of the way.
+    fn pose_at(&self, time: f64) -> Pose {
         let [from, to] = &self.ends;
         if time <= 0.0 {
             return *from;
@@ -121,8 +121,8 @@ impl Straight {
         }
     }
 
-    fn leg(&self, of: Origin) -> &Leg {
-        match of {
+    fn leg(&self, origin: Origin) -> &Leg {
+        match origin {
             Origin::Pad(n) => &self.pads[n],
             Origin::Stem(n) => &self.stems[n],
             // a body of the flange is judged only where there is one
@@ -133,24 +133,24 @@ impl Straight {
 }
 
 impl Moves for Straight {
-    fn pose(&self, of: Origin, time: f64) -> Pose {
-        self.leg(of).at(time)
+    fn pose(&self, origin: Origin, time: f64) -> Pose {
+        self.leg(origin).pose_at(time)
     }
 
-    fn travel(&self, of: Origin, seen_from: Option<Origin>, [from, to]: [f64; 2]) -> f64 {
+    fn travel(&self, origin: Origin, seen_from: Option<Origin>, [from, to]: [f64; 2]) -> f64 {
         let other = seen_from.map_or([0.0; 3], |other| self.leg(other).displacement());
-        norm(sub(self.leg(of).displacement(), other)) * (to - from)
+        norm(sub(self.leg(origin).displacement(), other)) * (to - from)
     }
 
-    fn turn(&self, of: Origin, [from, to]: [f64; 2]) -> f64 {
-        self.leg(of).turn * (to - from)
+    fn turn(&self, origin: Origin, [from, to]: [f64; 2]) -> f64 {
+        self.leg(origin).turn * (to - from)
     }
 
     /// Also as seen from a turning body: with the distance q of the origins, its rate v and the turns ω, the origin of b moves by
     /// `v − ω_a × q` as seen from a, and b turns by ω_b − ω_a. Of bodies that one tool turns, that is what axes and joints do.
     fn change(&self, one: Reach, other: Option<Reach>, [from, to]: [f64; 2]) -> f64 {
-        let ((of, reach), takes) = (one, to - from);
-        let a = self.leg(of);
+        let ((origin, reach), takes) = (one, to - from);
+        let a = self.leg(origin);
         let Some((other, its_reach)) = other else {
             return takes * (norm(a.displacement()) + reach * a.turn);
         };
@@ -195,19 +195,19 @@ impl Legs {
 }
 
 impl Moves for Legs {
-    fn pose(&self, of: Origin, time: f64) -> Pose {
+    fn pose(&self, origin: Origin, time: f64) -> Pose {
         let (leg, time) = self.leg(time);
-        leg.pose(of, time)
+        leg.pose(origin, time)
     }
 
-    fn travel(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+    fn travel(&self, origin: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
         let (leg, times) = self.within(times);
-        leg.travel(of, seen_from, times)
+        leg.travel(origin, seen_from, times)
     }
 
-    fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
+    fn turn(&self, origin: Origin, times: [f64; 2]) -> f64 {
         let (leg, times) = self.within(times);
-        leg.turn(of, times)
+        leg.turn(origin, times)
     }
 
     fn change(&self, one: Reach, other: Option<Reach>, times: [f64; 2]) -> f64 {
@@ -233,8 +233,8 @@ pub(crate) struct Planned<'a> {
 }
 
 impl Planned<'_> {
-    fn gripper(of: Origin) -> usize {
-        match of {
+    fn gripper(origin: Origin) -> usize {
+        match origin {
             Origin::Pad(n) | Origin::Stem(n) => n,
             Origin::Flange | Origin::Link(_) => 0,
         }
@@ -242,20 +242,20 @@ impl Planned<'_> {
 }
 
 impl Moves for Planned<'_> {
-    fn pose(&self, of: Origin, time: f64) -> Pose {
-        let position = self.motion.gripper_at(Self::gripper(of), time);
-        match of {
+    fn pose(&self, origin: Origin, time: f64) -> Pose {
+        let position = self.motion.gripper_at(Self::gripper(origin), time);
+        match origin {
             Origin::Pad(n) => Pose::of_quaternion(position, self.attitudes.gripper_at(n, time)),
             Origin::Stem(_) | Origin::Flange | Origin::Link(_) => Pose::upright(position),
         }
     }
 
-    fn travel(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
-        self.motion.travel(Self::gripper(of), seen_from.map(Self::gripper), times)
+    fn travel(&self, origin: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+        self.motion.travel(Self::gripper(origin), seen_from.map(Self::gripper), times)
     }
 
-    fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
-        match of {
+    fn turn(&self, origin: Origin, times: [f64; 2]) -> f64 {
+        match origin {
             Origin::Pad(n) => self.attitudes.turn(n, times),
             Origin::Stem(_) | Origin::Flange | Origin::Link(_) => 0.0,
         }

@@ -10,8 +10,7 @@ use super::over_mold::OverMold;
 use super::poses::Poses;
 use super::tuning::TUNING;
 use crate::arm::Angles;
-use crate::bodies::{Apart, Obstacle, Solid, Surface, between_segments};
-use crate::bodies::{Mount, Solids};
+use crate::bodies::{Apart, Mount, Obstacle, Solid, Solids, Surface, between_segments};
 use crate::geometry::Point;
 use crate::geometry::vector::norm;
 use crate::layup::Layup;
@@ -21,12 +20,12 @@ use crate::ply::{Ply, gripper_name};
 use crate::tool::Posture;
 use rayon::prelude::*;
 
-/// A body of one gripper, or of the flange.
+/// A body of one gripper, of the flange or of the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
     /// Index of the body in [`crate::bodies::Bodies::bodies`].
     pub body: usize,
-    /// Index of its gripper; `None` on the flange.
+    /// Index of its gripper; `None` on the flange and on the arm.
     pub gripper: Option<usize>,
 }
 
@@ -84,9 +83,9 @@ fn part_label(Part { body, gripper }: Part, layup: &Layup, ply: &Ply) -> String 
     }
 }
 
-/// The nearest pair at one time, with its time 0, resolved by a share of a `limit` (m); `None` for a layup without bodies, or without anything that they could meet.
+/// The nearest pair at some poses, with 0 for its time, resolved by a share of a `limit` (m); `None` for a layup without bodies, or without anything that they could meet.
 #[must_use]
-pub fn at(layup: &Layup, limit: f64, poses: &Poses) -> Option<Nearest> {
+pub fn at_poses(layup: &Layup, limit: f64, poses: &Poses) -> Option<Nearest> {
     along(layup, limit, &Straight::new(poses, poses), &[0.0], f64::INFINITY)
 }
 
@@ -150,7 +149,7 @@ impl Nearest {
         )
     }
 
-    /// The same between two times of the motion (s), if it is nearer than `below` (m).
+    /// The nearest pair between two times of a planned motion (s), as [`Self::of_motion`], if it is nearer than `below` (m).
     #[must_use]
     pub fn of_motion_within(
         layup: &Layup,
@@ -224,7 +223,7 @@ fn straight(
     let legs: Vec<Straight> =
         poses.par_windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
     if legs.is_empty() {
-        return at(layup, limit, poses.first()?);
+        return at_poses(layup, limit, poses.first()?);
     }
     // legs are counted, and the count of the nearest is a time
     let counts: Vec<f64> = (0..times.len()).map(|n| n as f64).collect();

@@ -14,9 +14,7 @@
 //! Waves and plies that lie on a mold count with their greatest height everywhere.
 
 use super::tuning::TUNING;
-use crate::bodies::Solids;
-use crate::bodies::{Apart, Solid};
-use crate::bodies::{Patch, Surface};
+use crate::bodies::{Apart, Patch, Solid, Solids, Surface};
 use crate::mold::{Face, Mold, Pose, Relief, Steepness};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

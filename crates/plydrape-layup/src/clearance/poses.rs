@@ -19,7 +19,7 @@ pub struct Poses {
 }
 
 impl Poses {
-    /// Of grippers that each move by themselves: where they hold the ply (m), how they are turned (x, y, z, w), and where the robot
+    /// Poses of grippers that each move by themselves: where they hold the ply (m), how they are turned (x, y, z, w), and where the robot
     /// holds them (m). Stems are upright.
     #[must_use]
     pub fn free(positions: &[[f64; 3]], turned: &[[f64; 4]], commanded: &[[f64; 3]]) -> Self {
@@ -32,7 +32,7 @@ impl Poses {
         }
     }
 
-    /// Of the grippers of a layup, with the stems and the flange of its tool if one carries them.
+    /// Poses of the grippers of a layup, with the stems and the flange of its tool if one carries them.
     #[must_use]
     pub fn new(
         layup: &Layup,
@@ -48,7 +48,7 @@ impl Poses {
         Poses { stems, flange: Some(frame.compose(&tool.flange)), ..free }
     }
 
-    /// Of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbors, or with the frame where they have no
+    /// Poses of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbors, or with the frame where they have no
     /// joints: before any drape.
     #[must_use]
     pub fn by_neighbors(layup: &Layup, neighbors: &[Neighbors], positions: &[[f64; 3]]) -> Self {
@@ -59,7 +59,7 @@ impl Poses {
         Poses::new(layup, positions, &turned, positions)
     }
 
-    /// The same carried as one body: each place p becomes `center + R (p − from)`. Stems turn with a flange, and stay upright without.
+    /// These poses carried as one body: each place p becomes `center + R (p − from)`. Stems turn with a flange, and stay upright without.
     #[must_use]
     pub fn carried(&self, from: [f64; 3], center: [f64; 3], turn: &[[f64; 3]; 3]) -> Self {
         let turned = |v: [f64; 3]| turn.map(|row| dot(row, v));

@@ -11,8 +11,7 @@ use crate::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface as Height, Torus,
     distance,
 };
-use crate::motion::Motion;
-use crate::motion::{Attitudes, Bounds, TimedMotion};
+use crate::motion::{Attitudes, Bounds, Motion, TimedMotion};
 use crate::ply::{Grid, cloth};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
@@ -63,7 +62,7 @@ fn apart(a: &Shape, own: Pose, b: &Shape, its: Pose) -> f64 {
     Solid::new(a).apart(&own, &Solid::new(b), &its).distance
 }
 
-fn at(position: [f64; 3], rotation: [f64; 3]) -> Pose {
+fn posed(position: [f64; 3], rotation: [f64; 3]) -> Pose {
     Pose::new(position, rotation)
 }
 
@@ -77,22 +76,22 @@ fn over(mold: &Mold, shape: &Shape, pose: Pose, resolution: f64) -> f64 {
 #[test]
 fn turned_boxes_are_as_far_apart_as_their_edges() {
     let a = cube(0.02);
-    let still = at([0.0; 3], [0.0; 3]);
+    let still = posed([0.0; 3], [0.0; 3]);
     for b in [cube(0.02), cube_of_triangles(0.02)] {
         let near = |x: f64, turn: f64, wanted: f64| {
-            let found = apart(&a, still, &b, at([x, 0.003, 0.001], [0.0, 0.0, turn]));
+            let found = apart(&a, still, &b, posed([x, 0.003, 0.001], [0.0, 0.0, turn]));
             assert!((found - wanted).abs() < 1e-12, "{x} {turn}: {found} {wanted}");
         };
         near(0.05, 0.0, 0.03);
         near(0.05, FRAC_PI_4, 0.04 - 0.01 * SQRT_2);
     }
     // edges at right angles, both along the line between the middles
-    let b = at([0.05, 0.0, 0.0], [FRAC_PI_4, 0.0, 0.0]);
+    let b = posed([0.05, 0.0, 0.0], [FRAC_PI_4, 0.0, 0.0]);
     let b = Pose { axes: [b.axes[1], b.axes[0].map(|x| -x), b.axes[2]], ..b };
-    let own = at([0.0; 3], [0.0, 0.0, FRAC_PI_4]);
+    let own = posed([0.0; 3], [0.0, 0.0, FRAC_PI_4]);
     let found = apart(&a, own, &cube(0.02), b);
     assert!(found > 0.05 - 0.02 * SQRT_2 - 1e-12 && found < 0.04, "{found}");
-    let deep = apart(&a, still, &cube(0.02), at([0.0, 0.0, 0.015], [0.0; 3]));
+    let deep = apart(&a, still, &cube(0.02), posed([0.0, 0.0, 0.015], [0.0; 3]));
     assert!((deep + 0.005).abs() < 1e-9, "{deep}");
 }
 
@@ -100,13 +99,13 @@ fn turned_boxes_are_as_far_apart_as_their_edges() {
 #[test]
 fn cylinders_are_as_far_apart_as_their_axes_less_their_radii() {
     let a = cylinder(0.01, 0.0, 0.1);
-    let still = at([0.0; 3], [0.0; 3]);
-    let beside = apart(&a, still, &a, at([0.03, 0.04, 0.02], [0.0; 3]));
+    let still = posed([0.0; 3], [0.0; 3]);
+    let beside = apart(&a, still, &a, posed([0.03, 0.04, 0.02], [0.0; 3]));
     assert!((beside - 0.03).abs() < 1e-9, "{beside}");
-    let crossed = apart(&a, still, &a, at([-0.05, 0.04, 0.05], [0.0, 2.0 * FRAC_PI_4, 0.0]));
+    let crossed = apart(&a, still, &a, posed([-0.05, 0.04, 0.05], [0.0, 2.0 * FRAC_PI_4, 0.0]));
     // the search ends where it gains less than 5e-8 of the distance
     assert!((crossed - 0.02).abs() < 1e-8, "{crossed}");
-    let above = apart(&a, still, &a, at([0.0, 0.0, 0.13], [0.0; 3]));
+    let above = apart(&a, still, &a, posed([0.0, 0.0, 0.13], [0.0; 3]));
     assert!((above - 0.03).abs() < 1e-9, "{above}");
 }
 
@@ -114,7 +113,7 @@ fn cylinders_are_as_far_apart_as_their_axes_less_their_radii() {
 #[test]
 fn a_body_inside_a_closed_mesh_is_not_clear_of_it() {
     let (small, large) = (cube(0.02), cube_of_triangles(0.2));
-    let still = at([0.0; 3], [0.0; 3]);
+    let still = posed([0.0; 3], [0.0; 3]);
     for [a, b] in [[&small, &large], [&large, &small]] {
         let found = apart(a, still, b, still);
         assert!((found + 0.09).abs() < 1e-9, "{found}");
@@ -147,7 +146,7 @@ fn a_box_is_as_far_from_a_plane_as_its_nearest_corner() {
     let sides = [0.03, 0.05, 0.08];
     let shape = Shape::Box { size: sides, at: [0.01, 0.0, 0.02] };
     for height in [0.2, 0.03, 0.0] {
-        let pose = at([0.1, 0.02, height], [0.4, -1.1, 2.2]);
+        let pose = posed([0.1, 0.02, height], [0.4, -1.1, 2.2]);
         let corner = |n: usize| {
             let side = |c: usize| if n >> c & 1 == 1 { 0.5 } else { -0.5 } * sides[c];
             mold.signed_distance(pose.place([0.01 + side(0), side(1), 0.02 + side(2)]))
@@ -197,7 +196,7 @@ fn bodies_over_hollow_molds_are_as_far_as_their_nearest_points() {
         Mold::Sphere(Sphere { pose: at_bottom(0.25), radius: 0.25, face: Face::Inside }),
         Mold::Torus(Torus { pose: still, ring_radius: 0.3, tube_radius: 0.1, face: Face::Outside }),
         Mold::Torus(Torus {
-            pose: at([0.2, 0.0, 0.1], [0.0; 3]),
+            pose: posed([0.2, 0.0, 0.1], [0.0; 3]),
             ring_radius: 0.2,
             tube_radius: 0.1,
             face: Face::Inside,
@@ -210,7 +209,7 @@ fn bodies_over_hollow_molds_are_as_far_as_their_nearest_points() {
             for (n, height) in [0.01, 0.05, 0.12, 0.2].into_iter().enumerate() {
                 for tilt in [0.0, 0.3] {
                     let x = 0.03 * n as f64;
-                    let pose = at([x, 0.02, height], [tilt, 0.5 * tilt, 0.0]);
+                    let pose = posed([x, 0.02, height], [tilt, 0.5 * tilt, 0.0]);
                     let found = over(mold, shape, pose, 1e-5);
                     let near =
                         points(shape).into_iter().map(|p| mold.signed_distance(pose.place(p)));
@@ -325,7 +324,7 @@ proptest! {
             let time = f64::from(k) / 2000.0;
             let pads: Vec<Pose> = (0..2).map(|n| straight.pose(Origin::Pad(n), time)).collect();
             let now = Poses { stems: pads.clone(), pads, flange: None, links: Vec::new() };
-            least = least.min(super::at(&layup, LIMIT, &now).unwrap().distance);
+            least = least.min(super::at_poses(&layup, LIMIT, &now).unwrap().distance);
         }
         let resolution = 0.011 * found.distance.abs().max(LIMIT);
         if found.distance > 0.0 {
@@ -370,7 +369,7 @@ proptest! {
 /// Bodies that one tool turns and carries do not come nearer to each other, however far it goes: what is left is the square of the turn, by which straight ways leave the circles.
 #[test]
 fn what_turns_alike_does_not_come_nearer() {
-    let frame = |turn: f64, x: f64| at([x, 0.2, 0.1], [0.0, 0.0, turn]);
+    let frame = |turn: f64, x: f64| posed([x, 0.2, 0.1], [0.0, 0.0, turn]);
     let both = |frame: Pose| {
         let place = |y: f64| Pose { position: frame.place([0.1, y, 0.0]), ..frame };
         free_of(&[place(-0.05), place(0.05)])
@@ -443,7 +442,7 @@ fn a_wall_between_two_steps_is_met() {
         Poses::free(&places, &level, &places)
     };
     let (from, to) = (poses(0.0), poses(1.0));
-    let ends = [&from, &to].map(|poses| super::at(&layup, LIMIT, poses).unwrap().distance);
+    let ends = [&from, &to].map(|poses| super::at_poses(&layup, LIMIT, poses).unwrap().distance);
     assert!(ends.iter().all(|distance| *distance > 0.07), "{ends:?}");
     let found = super::between_steps(&layup, LIMIT, &from, &to).unwrap();
     assert!(found.distance <= 0.0, "{found:?}");
@@ -465,7 +464,7 @@ fn what_belongs_together_is_not_judged() {
         let mut layup = layup(grid, bodies, Vec::new());
         let plane = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
         layup.mold = with_mold.then_some(Mold::Plane(plane));
-        super::at(&layup, LIMIT, &poses)
+        super::at_poses(&layup, LIMIT, &poses)
     };
     assert!((near(vec![pad(), stem()], false).unwrap().distance - 0.07).abs() < 1e-9);
     assert!((near(vec![pad()], true).unwrap().distance - 0.07).abs() < 1e-9);
@@ -489,10 +488,10 @@ fn a_flange_is_judged_against_what_stands() {
     let places = [[0.0, 0.0, 0.1], [0.1, 0.0, 0.1]];
     let mut poses = Poses::free(&places, &[[0.0, 0.0, 0.0, 1.0]; 2], &places);
     poses.flange = Some(Pose::upright([0.05, 0.0, 0.25]));
-    let found = super::at(&layup, LIMIT, &poses).unwrap();
+    let found = super::at_poses(&layup, LIMIT, &poses).unwrap();
     assert!((found.distance - 0.09).abs() < 1e-9, "{found:?}");
     poses.flange = Some(Pose::upright([0.37, 0.0, 0.25]));
-    let found = super::at(&layup, LIMIT, &poses).unwrap();
+    let found = super::at_poses(&layup, LIMIT, &poses).unwrap();
     assert!((found.distance - 0.03).abs() < 1e-9, "{found:?}");
     assert_eq!((found.part, found.near), (Part { body: 0, gripper: None }, Near::Obstacle(0)));
 }

@@ -1,6 +1,7 @@
-//! Geometry that every stage of the method uses: vectors, rotations and placements.
+//! Geometry that every stage of the method uses: vectors, rotations, placements, and closed lines in a plane.
 
 mod pose;
+pub mod ring;
 pub mod rotation;
 pub mod vector;
 

@@ -1,7 +1,7 @@
-//! Position and rotation of a mold.
+//! Position and rotation of a body.
 
-use super::rotation::quaternion;
-use super::vector::{along, sub};
+use super::rotation::{continued, normal, quaternion, x_axis};
+use super::vector::{along, dot, sub};
 
 /// A rigid placement: local coordinates are turned by `axes`, then moved to `position`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,21 +48,16 @@ impl Pose {
 
     /// At a place (m), turned by a unit quaternion (x, y, z, w).
     #[must_use]
-    pub fn of_quaternion(position: [f64; 3], [x, y, z, w]: [f64; 4]) -> Self {
-        Pose {
-            position,
-            axes: [
-                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
-                [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
-                [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
-            ],
-        }
+    pub fn of_quaternion(position: [f64; 3], turn: [f64; 4]) -> Self {
+        let [x, y, z, w] = turn;
+        let y_axis = [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)];
+        Pose { position, axes: [x_axis(turn), y_axis, normal(turn)] }
     }
 
     /// At a place (m), not turned.
     #[must_use]
     pub fn upright(position: [f64; 3]) -> Self {
-        Pose { position, axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
+        Pose { position, ..Pose::ORIGIN }
     }
 
     /// Turn as a unit quaternion (x, y, z, w).
@@ -77,9 +72,7 @@ impl Pose {
     pub fn quaternions<'a>(poses: impl IntoIterator<Item = &'a Pose>) -> Vec<[f64; 4]> {
         let mut before = [0.0, 0.0, 0.0, 1.0];
         let signed = |pose: &Pose| {
-            let next = pose.quaternion();
-            let cosine: f64 = before.iter().zip(next).map(|(a, b)| a * b).sum();
-            before = if cosine < 0.0 { next.map(|q| -q) } else { next };
+            before = continued(pose.quaternion(), Some(before));
             before
         };
         poses.into_iter().map(signed).collect()
@@ -108,7 +101,7 @@ impl Pose {
     /// A direction in space in local coordinates.
     #[must_use]
     pub fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
-        self.axes.map(|axis| super::vector::dot(axis, d))
+        self.axes.map(|axis| dot(axis, d))
     }
 }
 

@@ -6,6 +6,22 @@ pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     norm(sub(a, b))
 }
 
+/// Distance of a point from the straight line between two ends (m).
+#[must_use]
+pub fn distance_from_segment(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+    let (ab, ap) = (sub(b, a), sub(p, a));
+    let square = dot(ab, ab);
+    let share = if square > 0.0 { (dot(ap, ab) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(p, along(a, share, ab))
+}
+
+/// The mean of places (m); zero without any.
+#[must_use]
+pub fn mean(places: &[[f64; 3]]) -> [f64; 3] {
+    let count = places.len().max(1) as f64;
+    [0, 1, 2].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / count)
+}
+
 /// a − b.
 #[must_use]
 pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

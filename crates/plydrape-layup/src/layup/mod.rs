@@ -10,7 +10,6 @@
 
 mod carried;
 mod pick_up;
-
 mod release;
 mod settings;
 

@@ -18,7 +18,7 @@ pub struct Release {
 }
 
 impl Release {
-    /// In an order, after a dwell (s).
+    /// A release in an order, after a dwell (s), at times that a drape is to find.
     #[must_use]
     pub fn new(order: ReleaseOrder, dwell: f64) -> Self {
         Release { order, dwell, times: None }

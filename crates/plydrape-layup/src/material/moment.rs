@@ -4,6 +4,8 @@
 //! plies falls to a sixth of its first value and less (Broberg et al. 2023, Composites Part B 274:111268). The law is
 //! elastic, odd about zero and without hysteresis, after eq. (19d) of `docs/theory/sheet.md`.
 
+use super::straight_lines;
+
 /// Bending moment per width over the curvature, M(−κ) = −M(κ).
 ///
 /// Measured points, joined by straight lines; beyond the last point its last slope goes on.
@@ -50,20 +52,9 @@ impl MomentCurve {
     /// sign.
     #[must_use]
     pub fn bend(&self, curvature: f64) -> [f64; 3] {
-        let (at, moment) = (&self.curvature, &self.moment);
-        let kappa = curvature.abs();
-        let mut energy = 0.0;
-        for n in 1..at.len() {
-            let slope = (moment[n] - moment[n - 1]) / (at[n] - at[n - 1]);
-            if kappa <= at[n] || n + 1 == at.len() {
-                let beyond = kappa - at[n - 1];
-                energy += beyond * (moment[n - 1] + 0.5 * slope * beyond);
-                let moment = moment[n - 1] + slope * beyond;
-                return [energy, if curvature < 0.0 { -moment } else { moment }, slope];
-            }
-            energy += 0.5 * (at[n] - at[n - 1]) * (moment[n] + moment[n - 1]);
-        }
-        [0.0; 3]
+        let [energy, moment, slope] =
+            straight_lines(&self.curvature, &self.moment, curvature.abs());
+        [energy, if curvature < 0.0 { -moment } else { moment }, slope]
     }
 
     /// The law of a strip that is wider by a factor, or of a ply that resists more by it.

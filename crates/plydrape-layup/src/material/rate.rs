@@ -22,17 +22,11 @@ impl ShearRate {
     /// The relaxation time θ at the temperature of the ply (s).
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.relaxation.at(self.temperature)
+        self.relaxation.time_at(self.temperature)
     }
 
-    /// The viscosity of slow shear per length G₁ θ (N·s/m) at the temperature of the ply.
-    #[must_use]
-    pub fn viscosity(&self) -> f64 {
-        self.stiffness * self.time()
-    }
-
-    /// This ply with all relaxation times longer by a factor: a motion along which that ply is draped is to it what a
-    /// motion that is this many times as fast is to this one, but for its inertia.
+    /// The law with all relaxation times longer by a factor. But for inertia, a ply with that law drapes along a motion as a ply
+    /// with this one does along a motion that is as many times as fast.
     #[must_use]
     pub fn slower(&self, factor: f64) -> Self {
         let mut slower = self.clone();
@@ -59,7 +53,7 @@ pub struct Relaxation {
 impl Relaxation {
     /// The relaxation time (s) at a temperature (K).
     #[must_use]
-    pub fn at(&self, temperature: f64) -> f64 {
+    pub fn time_at(&self, temperature: f64) -> f64 {
         let Self { temperature: known, time } = self;
         let last = known.len().min(time.len()).saturating_sub(1);
         if last == 0 {
@@ -101,14 +95,14 @@ mod tests {
         assert!((energy - 76.1e3).abs() < 0.1e3, "{energy}");
         for temperature in [290.0, 298.15, 310.0, 333.15, 340.0] {
             let time = 8.8 * (energy / gas * (f64::recip(temperature) - cold.recip())).exp();
-            assert!((resin().at(temperature) / time - 1.0).abs() < 1e-12, "{temperature}");
+            assert!((resin().time_at(temperature) / time - 1.0).abs() < 1e-12, "{temperature}");
         }
     }
 
     #[test]
     fn the_temperature_of_a_relaxation_time_is_its_inverse() {
         for temperature in [298.15, 305.0, 320.0, 333.15] {
-            let found = resin().temperature_of(resin().at(temperature)).expect("known");
+            let found = resin().temperature_of(resin().time_at(temperature)).expect("known");
             assert!((found - temperature).abs() < 1e-9, "{temperature} {found}");
         }
         assert_eq!(resin().temperature_of(9.0), None);
@@ -117,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_single_relaxation_time_is_that_of_every_temperature() {
-        let one = Relaxation { temperature: vec![298.15], time: vec![2.0] };
-        assert_eq!([250.0, 298.15, 400.0].map(|t| one.at(t)), [2.0; 3]);
+        let single = Relaxation { temperature: vec![298.15], time: vec![2.0] };
+        assert_eq!([250.0, 298.15, 400.0].map(|t| single.time_at(t)), [2.0; 3]);
     }
 }

@@ -13,7 +13,7 @@ use crate::geometry::vector::{distance, dot, norm, sub, unit};
 /// A height over the local xy plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Graph {
-    /// Where it stands.
+    /// Position and rotation of the local frame.
     pub pose: Pose,
     /// What gives the height.
     pub surface: Surface,

@@ -25,21 +25,6 @@ pub struct HeightGrid {
     nodes: Vec<[f64; 4]>,
 }
 
-/// A [`HeightGrid`] as it is written.
-struct Heights {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    z: Vec<f64>,
-}
-
-impl TryFrom<Heights> for HeightGrid {
-    type Error = Error;
-
-    fn try_from(Heights { x, y, z }: Heights) -> Result<Self, Error> {
-        HeightGrid::new(x, y, z)
-    }
-}
-
 /// Fewest nodes of a spline.
 const FEWEST: usize = 4;
 

@@ -9,6 +9,7 @@
 
 use super::raised::{Raise, Relief};
 use crate::Error;
+use crate::geometry::ring::{self, lines};
 
 /// Steepest slope of the ramp at the edge of a ply, 1 in 20: our assumption, the taper that is usual for dropped plies. A single dry
 /// ply bridges farther by its own stiffness, which the sheet computes.
@@ -98,12 +99,6 @@ impl Layer {
     #[must_use]
     pub fn rings(&self) -> &[Vec<[f64; 2]>] {
         &self.rings
-    }
-
-    /// Whether it lies at a place in plan (m), its ramp included.
-    #[must_use]
-    pub fn covers(&self, place: [f64; 2]) -> bool {
-        self.at(place).0 > 0.0
     }
 
     /// Height (m), slope, and second derivatives (1/m) at a place in plan.
@@ -242,25 +237,12 @@ fn is_deep(rings: &[Vec<[f64; 2]>], place: [f64; 2], depth: f64) -> bool {
 
 /// Lowest and highest coordinates of rings (m).
 fn bounds(rings: &[Vec<[f64; 2]>]) -> [[f64; 2]; 2] {
-    rings.iter().flatten().fold(
-        [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]],
-        |[low, high], point| {
-            [[0, 1].map(|n| low[n].min(point[n])), [0, 1].map(|n| high[n].max(point[n]))]
-        },
-    )
-}
-
-/// The lines of a ring, end to end (m).
-fn lines(ring: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
-    (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]])
+    ring::bounds(rings.iter().flatten())
 }
 
 /// Whether a place is within an odd number of rings.
-fn is_inside(rings: &[Vec<[f64; 2]>], [x, y]: [f64; 2]) -> bool {
-    let crosses = |[a, b]: &[[f64; 2]; 2]| {
-        (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1])
-    };
-    rings.iter().flat_map(|ring| lines(ring)).filter(crosses).count() % 2 == 1
+fn is_inside(rings: &[Vec<[f64; 2]>], place: [f64; 2]) -> bool {
+    rings.iter().filter(|ring| ring::is_inside(ring, place)).count() % 2 == 1
 }
 
 /// Distance of a place from a line (m), the vector from its nearest point of the line (m), and whether that is an end.

@@ -118,7 +118,7 @@ impl SurfaceCurve {
 
     /// Point at an arc length (m), on the chord between two of its points.
     #[must_use]
-    pub fn at(&self, arc: f64) -> [f64; 3] {
+    pub fn point_at(&self, arc: f64) -> [f64; 3] {
         let last = self.points.len() - 1;
         let n = self.arc.partition_point(|s| *s < arc).clamp(1, last.max(1)).min(last);
         if n == 0 {

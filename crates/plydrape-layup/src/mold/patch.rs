@@ -69,8 +69,7 @@ fn sampled(
         *number.entry([a, b]).or_insert_with(|| {
             let inside = on(plan(a)).filter(|p| p.iter().all(|c| c.is_finite()))?;
             let [end, without] = [a, b].map(plan);
-            let p =
-                if a == b { inside } else { boundary(inside, end, without, &|x, y| on([x, y])) };
+            let p = if a == b { inside } else { boundary(inside, end, without, on) };
             out.vertices.push(p);
             Some(out.vertices.len() as u32 - 1)
         })
@@ -98,18 +97,17 @@ fn sampled(
 }
 
 /// The last point of the mold (m) on the way from a place with one to a place without.
-#[must_use]
 fn boundary(
     mut last: [f64; 3],
     mut with: [f64; 2],
     mut without: [f64; 2],
-    on: &dyn Fn(f64, f64) -> Option<[f64; 3]>,
+    on: &dyn Fn([f64; 2]) -> Option<[f64; 3]>,
 ) -> [f64; 3] {
     for _ in 0..20 {
-        let [x, y] = [0, 1].map(|c| 0.5 * (with[c] + without[c]));
-        match on(x, y) {
-            Some(point) => (last, with) = (point, [x, y]),
-            None => without = [x, y],
+        let middle = [0, 1].map(|c| 0.5 * (with[c] + without[c]));
+        match on(middle) {
+            Some(point) => (last, with) = (point, middle),
+            None => without = middle,
         }
     }
     last

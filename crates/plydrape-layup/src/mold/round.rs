@@ -2,7 +2,7 @@
 
 use super::{ClosestPoint, Curvatures, Separation};
 use crate::geometry::Pose;
-use crate::geometry::vector::dot;
+use crate::geometry::vector::{cross, dot, unit};
 
 /// Which side of a round mold the ply lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +80,7 @@ fn arc(h: f64, z: f64, radius: f64, face: Face) -> Arc {
                 beyond: false,
             }
         }
-        // a trough ends at its rim, half-way up
+        // a trough ends at its boundary, half-way up
         Face::Inside if z > 0.0 => {
             let side = 1.0_f64.copysign(h);
             Arc {
@@ -151,8 +151,7 @@ impl Cylinder {
     /// Principal curvatures at a point of the mold (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
-        let around =
-            crate::geometry::vector::cross(self.closest_point(p).normal, self.pose.axes[0]);
+        let around = cross(self.closest_point(p).normal, self.pose.axes[0]);
         Curvatures::new([sign(self.face) / self.radius, 0.0], [around, self.pose.axes[0]])
     }
 }
@@ -182,9 +181,8 @@ impl Sphere {
         let normal = self.closest_point(p).normal;
         // any tangent is principal: the one closest to the local x axis
         let axis = self.pose.axes[usize::from(dot(normal, self.pose.axes[0]).abs() > 0.9)];
-        let across = crate::geometry::vector::unit(crate::geometry::vector::cross(normal, axis))
-            .unwrap_or(axis);
-        Curvatures::new([curvature; 2], [crate::geometry::vector::cross(across, normal), across])
+        let across = unit(cross(normal, axis)).unwrap_or(axis);
+        Curvatures::new([curvature; 2], [cross(across, normal), across])
     }
 }
 
@@ -210,15 +208,15 @@ impl Torus {
     /// Principal curvatures at a point of the mold (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
-        let [x, y, _] = self.pose.local(self.closest_point(p).point);
+        let ClosestPoint { point, normal, .. } = self.closest_point(p);
+        let [x, y, _] = self.pose.local(point);
         let (rho, [cos, sin]) = radial(x, y);
-        let normal = self.closest_point(p).normal;
         let around = self.pose.turn([-sin, cos, 0.0]);
         // along the ring: the normal's part that points away from the axis, over the distance to it
         let outward = dot(self.pose.turn([cos, sin, 0.0]), normal);
         Curvatures::new(
             [sign(self.face) / self.tube_radius, outward / rho],
-            [crate::geometry::vector::cross(around, normal), around],
+            [cross(around, normal), around],
         )
     }
 }

@@ -69,14 +69,7 @@ impl Attitudes {
     /// the last its own.
     #[must_use]
     pub fn at(&self, t: f64) -> Vec<[f64; 4]> {
-        let after = self.times.partition_point(|time| *time <= t);
-        if after == 0 || after == self.times.len() {
-            return self.steps[after.saturating_sub(1)].clone();
-        }
-        let (from, to) = (self.times[after - 1], self.times[after]);
-        let share = (t - from) / (to - from);
-        let pairs = self.steps[after - 1].iter().zip(&self.steps[after]);
-        pairs.map(|(a, b)| slerp(a, b, share)).collect()
+        (0..self.grippers()).map(|gripper| self.gripper_at(gripper, t)).collect()
     }
 
     /// The quaternion of one gripper at a time (s), as in [`Self::at`].
@@ -110,6 +103,7 @@ impl Attitudes {
 
 /// Angle (rad) of the shortest turn from one orientation to another, both unit quaternions of one sign.
 pub fn turn(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    // half angles by the tangent: exact where the cosine is flat
     let [sum, difference] = [1.0, -1.0].map(|sign| {
         let c = [0, 1, 2, 3].map(|k| a[k] + sign * b[k]);
         dot(&c, &c).sqrt()
@@ -119,12 +113,8 @@ pub fn turn(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 
 /// A share of the way from one unit quaternion to another less than half a turn apart.
 pub fn slerp(a: &[f64; 4], b: &[f64; 4], share: f64) -> [f64; 4] {
-    // Half angles by the tangent: exact where the cosine is flat.
-    let [sum, difference] = [1.0, -1.0].map(|sign| {
-        let c = [0, 1, 2, 3].map(|k| a[k] + sign * b[k]);
-        dot(&c, &c).sqrt()
-    });
-    let angle = 2.0 * difference.atan2(sum);
+    // the angle between two quaternions is half of the turn
+    let angle = 0.5 * turn(a, b);
     let (p, q) = if angle < TUNING.small_angle {
         (1.0 - share, share)
     } else {

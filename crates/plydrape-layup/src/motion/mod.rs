@@ -169,10 +169,10 @@ impl TimedMotion {
         self.path.as_ref().map_or_else(Vec::new, |_| self.law.rows())
     }
 
-    /// The motion that goes through the same places at a time of another motion along the same path (s): the time here.
+    /// When this motion is where another motion along the same path is at a time (s).
     #[must_use]
-    pub fn same_place(&self, of: &TimedMotion, t: f64) -> f64 {
-        self.law.time(of.law.at(t)[0])
+    pub fn same_place(&self, other: &TimedMotion, t: f64) -> f64 {
+        self.law.time(other.law.state_at(t)[0])
     }
 
     /// The motion of other planned positions (m), one list of all grippers for each of [`Self::times`]: with the same spacing of the
@@ -262,7 +262,7 @@ impl TimedMotion {
     #[must_use]
     pub fn at(&self, t: f64) -> Vec<[f64; 3]> {
         let Some(path) = &self.path else { return self.positions[0].clone() };
-        let s = self.law.at(t)[0];
+        let s = self.law.state_at(t)[0];
         let span = path.span(s);
         (0..path.grippers).map(|g| path.jet(span, g, s)[0]).collect()
     }
@@ -271,7 +271,7 @@ impl TimedMotion {
     #[must_use]
     pub fn gripper_at(&self, gripper: usize, t: f64) -> [f64; 3] {
         let Some(path) = &self.path else { return self.positions[0][gripper] };
-        let s = self.law.at(t)[0];
+        let s = self.law.state_at(t)[0];
         path.jet(path.span(s), gripper, s)[0]
     }
 
@@ -282,7 +282,7 @@ impl TimedMotion {
     #[must_use]
     pub fn travel(&self, gripper: usize, seen_from: Option<usize>, [t0, t1]: [f64; 2]) -> f64 {
         let Some(path) = &self.path else { return 0.0 };
-        let [from, to] = [t0, t1].map(|t| self.law.at(t)[0]);
+        let [from, to] = [t0, t1].map(|t| self.law.state_at(t)[0]);
         let mut travel = 0.0;
         for span in path.span(from)..=path.span(to) {
             let begin = from.max(path.knots[span]);
@@ -320,7 +320,7 @@ impl TimedMotion {
     /// The velocity, acceleration or jerk of one gripper at a time.
     fn rate_of(&self, gripper: usize, t: f64, order: usize) -> Vector {
         let Some(path) = &self.path else { return [0.0; 3] };
-        let state = self.law.at(t);
+        let state = self.law.state_at(t);
         rates(&path.jet(path.span(state[0]), gripper, state[0]), &state)[order]
     }
 

@@ -95,8 +95,8 @@ pub(super) fn peaks_within(
     let mut search = Search { path, tolerance, found: [Peak::default(); 3] };
     let pieces = times.windows(2).filter(|pair| pair[1] > pair[0]).map(|pair| {
         // Which span and which jerk: those in the middle.
-        let middle = law.at(0.5 * (pair[0] + pair[1]));
-        let [s, v, a, _] = law.at(pair[0]);
+        let middle = law.state_at(0.5 * (pair[0] + pair[1]));
+        let [s, v, a, _] = law.state_at(pair[0]);
         let piece =
             Piece { span: path.span(middle[0]), begin: pair[0], state: [s, v, a, middle[3]] };
         (piece, pair[1] - pair[0])
@@ -208,7 +208,7 @@ mod tests {
             let peaks = peaks(&path, &law, tolerance);
             let peaks = [peaks.speed, peaks.acceleration, peaks.jerk].map(|peak| peak.value);
             for k in 0..=20_000 {
-                let state = law.at(law.duration * f64::from(k) / 20_000.0);
+                let state = law.state_at(law.duration * f64::from(k) / 20_000.0);
                 for g in 0..2 {
                     let values =
                         rates(&path.jet(path.span(state[0]), g, state[0]), &state).map(norm);

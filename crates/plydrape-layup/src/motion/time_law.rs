@@ -147,7 +147,7 @@ impl TimeLaw {
     }
 
     /// The state at a time (s), which is taken into 0 … T; where the jerk jumps, that after the jump.
-    pub fn at(&self, t: f64) -> State {
+    pub fn state_at(&self, t: f64) -> State {
         let t = t.max(0.0);
         let phase = self.phases.partition_point(|(begin, _)| *begin <= t).saturating_sub(1);
         let (begin, state) = self.phases[phase];
@@ -176,7 +176,7 @@ impl TimeLaw {
             if middle <= low || middle >= high {
                 break;
             }
-            if self.at(middle)[0] < s {
+            if self.state_at(middle)[0] < s {
                 low = middle;
             } else {
                 high = middle;
@@ -233,7 +233,7 @@ mod tests {
         for (length, bounds) in CASES {
             let law = TimeLaw::new(length, &bounds);
             for k in 0..1000 {
-                let [_, v, a, j] = law.at(law.duration * (f64::from(k) + 0.5) / 1000.0);
+                let [_, v, a, j] = law.state_at(law.duration * (f64::from(k) + 0.5) / 1000.0);
                 let shares = [v / bounds.speed, a / bounds.acceleration, j / bounds.jerk];
                 let most = shares.iter().fold(0.0, |most: f64, share| most.max(share.abs()));
                 assert!((most - 1.0).abs() < 1e-14, "{length} {bounds:?} {shares:?}");
@@ -246,9 +246,9 @@ mod tests {
     fn it_begins_and_ends_at_rest_and_is_halfway_at_half_time() {
         for (length, bounds) in CASES {
             let law = TimeLaw::new(length, &bounds);
-            assert_eq!(law.at(0.0)[..3], [0.0; 3]);
-            assert_eq!(law.at(law.duration)[..3], [length, 0.0, 0.0]);
-            let before = law.at(0.5 * law.duration * (1.0 - 1e-16))[0];
+            assert_eq!(law.state_at(0.0)[..3], [0.0; 3]);
+            assert_eq!(law.state_at(law.duration)[..3], [length, 0.0, 0.0]);
+            let before = law.state_at(0.5 * law.duration * (1.0 - 1e-16))[0];
             assert!((before - 0.5 * length).abs() < 1e-15 * length, "{before} {length}");
         }
     }
@@ -339,7 +339,7 @@ mod tests {
         let law = TimeLaw::new(0.4, &BOUNDS).stretched(1.3);
         for k in 1..100 {
             let t = law.duration * f64::from(k) / 100.0;
-            let [s, v, ..] = law.at(t);
+            let [s, v, ..] = law.state_at(t);
             // A rounding of s is one of t, over ṡ.
             assert!((law.time(s) - t).abs() < 1e-15 + 1e-15 / v, "{t}");
         }
@@ -354,7 +354,7 @@ mod tests {
             let mut breaks = law.breaks();
             breaks.push(0.5 * law.duration);
             for t in breaks {
-                let [before, after] = [-1e-9, 1e-9].map(|h| law.at(t + h));
+                let [before, after] = [-1e-9, 1e-9].map(|h| law.state_at(t + h));
                 // In 2 ns a state moves by its rate; the jerk is at most 10 m/s³.
                 assert!(
                     (0..3).all(|k| (before[k] - after[k]).abs() < 3e-8),

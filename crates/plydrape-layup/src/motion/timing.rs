@@ -45,7 +45,7 @@ fn starting(path: &Path, speed: f64, bounds: &Bounds) -> Option<TimeLaw> {
     laws.min_by(|a, b| a.duration.total_cmp(&b.duration))
 }
 
-/// Shares of bounds.
+/// Each bound times its share.
 fn share(bounds: &Bounds, [speed, acceleration, jerk]: [f64; 3]) -> Bounds {
     Bounds {
         speed: speed * bounds.speed,

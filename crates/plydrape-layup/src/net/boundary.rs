@@ -9,7 +9,7 @@ use super::placement::Placement;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use super::{Coverage, Net};
-use crate::geometry::vector::{along, distance, dot, sub};
+use crate::geometry::vector::distance_from_segment;
 use crate::mold::Mold;
 use crate::ply::Outline;
 
@@ -99,12 +99,7 @@ impl Net {
     /// The outline of the ply, of one that is not cut the rectangle that the net covers; `None` for a strip without width.
     #[must_use]
     pub fn ply_outline(&self) -> Option<Outline> {
-        let placement = &self.placement;
-        let whole = || {
-            Outline::rectangle(placement.origin, placement.fabric(placement.nodes.map(|n| n - 1)))
-                .ok()
-        };
-        self.outline.clone().or_else(whole)
+        self.outline.clone().or_else(|| self.placement.outline())
     }
 
     /// The ply's boundary on the mold, and what of the ply has no place there; `None` for a strip without width.
@@ -246,7 +241,7 @@ impl Walk<'_> {
         let most = if same { TUNING.boundary_halvings } else { TUNING.boundary_end_halvings };
         let is_straight = match (&a.1, &middle.1, &b.1) {
             (Lie::On(a), Lie::On(m), Lie::On(b)) => {
-                from_line(m.point, a.point, b.point) <= self.sag
+                distance_from_segment(m.point, a.point, b.point) <= self.sag
             }
             _ => same,
         };
@@ -281,8 +276,8 @@ impl Walk<'_> {
     /// Adds what of a rectangle of fabric has no place: halved each way where only some of it has one.
     fn area(&mut self, outline: &Outline, low: [f64; 2], high: [f64; 2], depth: usize) {
         let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
-        let at = [low, [high[0], low[1]], high, [low[0], high[1]], middle];
-        let kinds = at.map(|uv| match self.lie(uv) {
+        let places = [low, [high[0], low[1]], high, [low[0], high[1]], middle];
+        let kinds = places.map(|uv| match self.lie(uv) {
             Lie::Off(_) if outline.contains(uv) => self.lie_of_ply(uv).kind(),
             lie => lie.kind(),
         });
@@ -299,7 +294,7 @@ impl Walk<'_> {
             return;
         }
         let fabric = outline.area_in(low, high);
-        let missing = if alike { 1.0 } else { self.missing_share(&at[..4], &kinds) } * fabric;
+        let missing = if alike { 1.0 } else { self.missing_share(&places[..4], &kinds) } * fabric;
         let folded = kinds.iter().filter(|kind| **kind == 2).count() as f64;
         let off = kinds.iter().filter(|kind| **kind == 1).count() as f64;
         self.found.off_mold.area += missing * off / (off + folded);
@@ -349,11 +344,4 @@ fn push(lines: &mut Vec<Vec<([f64; 2], SurfacePoint)>>, (uv, lie): &Sample) {
         _ if ended => lines.push(Vec::new()),
         _ => {}
     }
-}
-
-/// Distance of a point from the straight line between two others (m).
-fn from_line(p: [f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
-    let (way, to) = (sub(b, a), sub(p, a));
-    let t = (dot(way, to) / dot(way, way).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    distance(p, along(a, t, way))
 }

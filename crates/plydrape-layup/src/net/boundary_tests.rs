@@ -189,7 +189,7 @@ fn trim_of_a_flat_rectangle_is_the_distance_of_its_sides() {
     let mut corners =
         [[-0.21, -0.15], [0.196, -0.15], [0.196, 0.16], [-0.21, 0.16]].map(|[x, y]| [x, y, 0.0]);
     for _ in 0..2 {
-        let wanted = Wanted::new(&mold, &corners, 0.01).unwrap();
+        let wanted = TargetBoundary::new(&mold, &corners, 0.01).unwrap();
         let trim = boundary.trim(&mold, &wanted).unwrap();
         let (beyond, short) = (trim.beyond.unwrap(), trim.short.unwrap());
         assert!((beyond.error - 0.004).abs() < 1e-12 && (beyond.at.fabric[0] - 0.4).abs() < 1e-12);
@@ -224,7 +224,7 @@ fn trim_around_a_cylinder_is_measured_along_it() {
     let (from, to) = (-0.255, 0.243);
     points.extend((0..=20).map(|n| point(from + (to - from) * f64::from(n) / 20.0, 0.056)));
     points.extend((0..=20).rev().map(|n| point(from + (to - from) * f64::from(n) / 20.0, -0.056)));
-    let trim = boundary.trim(&mold, &Wanted::new(&mold, &points, 0.01).unwrap()).unwrap();
+    let trim = boundary.trim(&mold, &TargetBoundary::new(&mold, &points, 0.01).unwrap()).unwrap();
     let (beyond, short) = (trim.beyond.unwrap(), trim.short.unwrap());
     assert!((beyond.error - 0.007).abs() < 1e-5, "{beyond:?}");
     assert!((beyond.at.fabric[0] - 0.5).abs() < 1e-9);
@@ -243,7 +243,7 @@ fn trim_around_a_cylinder_is_measured_along_it() {
         point(0.0, 0.11),
         point(-0.31, 0.11),
     ];
-    let trim = boundary.trim(&mold, &Wanted::new(&mold, &wide, 1.0).unwrap()).unwrap();
+    let trim = boundary.trim(&mold, &TargetBoundary::new(&mold, &wide, 1.0).unwrap()).unwrap();
     assert!(trim.beyond.is_none());
     assert!((trim.short.unwrap().error + 0.06).abs() < 5e-8, "{:?}", trim.short);
 }
@@ -252,14 +252,14 @@ fn trim_around_a_cylinder_is_measured_along_it() {
 #[test]
 fn a_wanted_boundary_lies_on_the_mold() {
     let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.1, 0.1, 0.02]];
-    let refused = Wanted::new(&plane(), &corners, 0.01).unwrap_err();
+    let refused = TargetBoundary::new(&plane(), &corners, 0.01).unwrap_err();
     assert_eq!(refused, Error::BoundaryOffMold { point: 2, distance: 0.02 });
     assert_eq!(
-        Wanted::new(&plane(), &corners[..2], 0.01).unwrap_err(),
+        TargetBoundary::new(&plane(), &corners[..2], 0.01).unwrap_err(),
         Error::BoundaryTooFew { points: 2 }
     );
     assert!(
-        Wanted::new(&plane(), &corners, 0.03)
+        TargetBoundary::new(&plane(), &corners, 0.03)
             .is_ok_and(|wanted| (wanted.distance - 0.02).abs() < 1e-15)
     );
     assert!(norm(corners[0]) == 0.0);

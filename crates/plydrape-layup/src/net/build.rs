@@ -47,7 +47,8 @@ impl Build<'_> {
         (i < nu && j < nv).then_some(j * nu + i)
     }
 
-    pub fn at(&self, node: Node) -> Option<SurfacePoint> {
+    /// Where a node is; `None` if it has no place, or is not one of the net.
+    pub fn point_at(&self, node: Node) -> Option<SurfacePoint> {
         self.points[self.index(node)?]
     }
 
@@ -94,8 +95,8 @@ impl Build<'_> {
 
     /// A node from its two neighbors nearer to the seed and the node between them; `None` without these.
     fn corner(&self, [i, j]: Node, [a, b]: Node) -> Option<Result<SurfacePoint, SurfacePoint>> {
-        let (along_u, along_v) = (self.at([i - a, j])?, self.at([i, j - b])?);
-        let inner = self.at([i - a, j - b])?;
+        let (along_u, along_v) = (self.point_at([i - a, j])?, self.point_at([i, j - b])?);
+        let inner = self.point_at([i - a, j - b])?;
         let [du, dv] = self.placement.mesh;
         let conditions = [Condition::Length(&along_u, du), Condition::Length(&along_v, dv)];
         // the fourth corner of a parallelogram
@@ -103,10 +104,10 @@ impl Build<'_> {
         // the twist of the cell, extrapolated from the cells before
         let twist = |i: isize, j: isize| -> Option<[f64; 3]> {
             let [p, q, r, s] = [
-                self.at([i, j])?.point,
-                self.at([i - a, j])?.point,
-                self.at([i, j - b])?.point,
-                self.at([i - a, j - b])?.point,
+                self.point_at([i, j])?.point,
+                self.point_at([i - a, j])?.point,
+                self.point_at([i, j - b])?.point,
+                self.point_at([i - a, j - b])?.point,
             ];
             Some([0, 1, 2].map(|n| p[n] - q[n] - r[n] + s[n]))
         };

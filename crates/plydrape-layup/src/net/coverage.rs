@@ -18,7 +18,7 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// Of a net over an outline, or over all that it covers.
+    /// The nodes and cells of a net that are within an outline, or all of them without one.
     #[must_use]
     pub fn new(placement: &Placement, outline: Option<&Outline>) -> Self {
         let nodes = placement.nodes;

@@ -47,7 +47,7 @@ impl Build<'_> {
 
     /// Four lines from the seed that go straight on over the mold.
     pub fn geodesics(&mut self, seed: Node, [u, v]: [[f64; 3]; 2]) {
-        let Some(start) = self.at(seed) else { return };
+        let Some(start) = self.point_at(seed) else { return };
         let (mut u, mut v) = (u, v);
         // a first bar gives the direction of both generators
         if self.rule() == EdgeRule::Chord
@@ -85,7 +85,7 @@ impl Build<'_> {
 
     /// The seed's first edge and four strips of cells that keep the pre-shear, from its two ends.
     pub fn least_shear(&mut self, seed: Node, u: [f64; 3]) {
-        let Some(start) = self.at(seed) else { return };
+        let Some(start) = self.point_at(seed) else { return };
         // the seed's cell lies ahead, or behind at the net's boundary
         let ahead = [0, 1].map(|n| {
             if self.placement.seed[n] + 1 < self.placement.nodes[n] { 1_isize } else { -1 }
@@ -109,11 +109,11 @@ impl Build<'_> {
         let mut before: Option<[f64; 3]> = None;
         loop {
             let next = edge.map(|n| [n[0] + step[0], n[1] + step[1]]);
-            let [Some(a), Some(b)] = edge.map(|n| self.at(n)) else { return };
+            let [Some(a), Some(b)] = edge.map(|n| self.point_at(n)) else { return };
             if next.iter().any(|n| self.index(*n).is_none()) {
                 return;
             }
-            if next.iter().any(|n| self.at(*n).is_none()) {
+            if next.iter().any(|n| self.point_at(*n).is_none()) {
                 match self.least_shear_cell([(edge[0], a), (edge[1], b)], step, before) {
                     Ok([c, d]) => {
                         self.put(next[0], c);
@@ -125,7 +125,7 @@ impl Build<'_> {
                     }
                 }
             }
-            before = self.at(next[0]).map(|c| straightest(&c, &a).map(|x| -x));
+            before = self.point_at(next[0]).map(|c| straightest(&c, &a).map(|x| -x));
             edge = next;
         }
     }

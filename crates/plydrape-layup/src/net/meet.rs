@@ -2,7 +2,7 @@
 //!
 //! Trials always lie on the mold. Each condition has a gap and its gradient, a tangent of the mold at the
 //! trial; a step δ in the tangent plane closes both gaps to second order, the bend of the lengths'
-//! level lines (1/L) included, and the closest of the trial moved by δ is the next trial.
+//! level lines (1/L) included. The point of the mold that is closest to the trial moved by δ is the next trial.
 
 use super::edge::{EdgeRule, straightest};
 use super::surface_point::{ExtendedSurface, SurfacePoint};

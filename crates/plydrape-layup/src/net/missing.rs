@@ -12,7 +12,7 @@ pub enum Reason {
     /// The two edges of the node have no common end on the mold, or only with a cell shut or turned over; beyond the
     /// boundary that counts as [`Reason::OffMold`].
     Folded,
-    /// It hangs on a node that folded.
+    /// It depends on a node that folded.
     Unreached,
 }
 

@@ -40,7 +40,7 @@ pub use report::Report;
 pub use seeds::{Choice, Free, Seeds};
 pub use sharp_edges::SharpEdges;
 pub use shear::CellShear;
-pub use trim::{Trim, TrimPlace, Wanted};
+pub use trim::{TargetBoundary, Trim, TrimPlace};
 
 use crate::Error;
 use crate::mold::Mold;

@@ -5,6 +5,7 @@ use super::tuning::TUNING;
 use crate::Error;
 use crate::geometry::vector::{along, cross, dot, unit};
 use crate::mold::Mold;
+use crate::ply::Outline;
 
 /// How the two generators run, the lines of nodes through the seed from which all others follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,8 +44,8 @@ pub struct Placement {
     pub edges: EdgeRule,
 }
 
-#[cfg(feature = "serde")]
 /// Whether coordinates need not be written.
+#[cfg(feature = "serde")]
 fn is_zero(origin: &[f64; 2]) -> bool {
     *origin == [0.0; 2]
 }
@@ -54,6 +55,11 @@ impl Placement {
     #[must_use]
     pub fn fabric(&self, node: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|n| self.origin[n] + node[n] as f64 * self.mesh[n])
+    }
+
+    /// The rectangle of all that the net covers; `None` for a strip without width.
+    pub(super) fn outline(&self) -> Option<Outline> {
+        Outline::rectangle(self.origin, self.fabric(self.nodes.map(|n| n - 1))).ok()
     }
 
     /// The node at a fabric point (m); `None` where there is none.

@@ -5,8 +5,8 @@ use crate::mold::Mold;
 
 impl Net {
     /// The rings in plan (m) within which the ply lies, holes among them: its boundary on the `mold` it was draped on, as the
-    /// bare mold below it has its places. Where the ply reaches beyond the mold its boundary is closed by a straight line. None of a
-    /// strip without width.
+    /// bare mold below it has its places. Where the ply reaches beyond the mold its boundary is closed by a straight line. `None`
+    /// for a strip without width.
     #[must_use]
     pub fn region(&self, mold: &Mold, bare: &Mold) -> Option<Vec<Vec<[f64; 2]>>> {
         let boundary = self.boundary(mold)?;

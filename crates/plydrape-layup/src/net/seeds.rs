@@ -76,11 +76,7 @@ impl Seeds {
         free: Free,
     ) -> Result<Self, Error> {
         placement.check(mold)?;
-        let whole = || {
-            Outline::rectangle(placement.origin, placement.fabric(placement.nodes.map(|n| n - 1)))
-                .ok()
-        };
-        let outline = outline.cloned().or_else(whole);
+        let outline = outline.cloned().or_else(|| placement.outline());
         // the heading first, then the seed for that heading, on a coarse net
         let coarse = Search::new(mold, placement, outline.as_ref(), coarse_step(&placement));
         let mut choices: Vec<Choice> = Vec::new();
@@ -256,7 +252,7 @@ impl<'a> Search<'a> {
         }
         let normal = surface.under(held.place).normal;
         let [u, _] = held.directions(normal).ok()?;
-        let wanted = Frame::new(held.place, u, normal)?;
+        let target = Frame::new(held.place, u, normal)?;
         let mesh = held.mesh[0].min(held.mesh[1]);
 
         // where the seed lies in the net from the held point
@@ -271,13 +267,13 @@ impl<'a> Search<'a> {
             let placement = Placement { seed, place: place.point, heading: y.atan2(x), ..held };
             let Some(net) = drape(placement) else { break };
             let Some(found) = net.frame(&surface, held.fabric(held.seed)) else { break };
-            let off = distance(found.place, wanted.place);
-            let [u, w] = [found.axes[0], wanted.axes[0]];
+            let off = distance(found.place, target.place);
+            let [u, w] = [found.axes[0], target.axes[0]];
             let turn = norm(cross(u, w)).atan2(dot(u, w));
             // the seed moves with the frame of the held point
-            let arm = found.turned(sub(start.place, found.place), &wanted);
-            let moved = surface.under(along(wanted.place, 1.0, arm));
-            let course = found.turned(start.axes[0], &wanted);
+            let arm = found.turned(sub(start.place, found.place), &target);
+            let moved = surface.under(along(target.place, 1.0, arm));
+            let course = found.turned(start.axes[0], &target);
             let better = best.as_ref().is_none_or(|(_, (p, q))| off / mesh + turn < p / mesh + q);
             if better {
                 best = Some((net, (off, turn)));
@@ -377,17 +373,18 @@ impl<'a> Search<'a> {
                 off <= TUNING.about_in_place * mesh && turn <= TUNING.about_in_place
             })
         };
-        let of: Vec<usize> = among.iter().copied().filter(|n| in_place(&choices[*n])).collect();
-        let missing = of.iter().map(|n| choices[*n].missing).min()?;
+        let placed: Vec<usize> = among.iter().copied().filter(|n| in_place(&choices[*n])).collect();
+        let missing = placed.iter().map(|n| choices[*n].missing).min()?;
         let cost = |n: usize| shear(&choices[n]).unwrap_or(0.0);
-        let of: Vec<usize> = of.into_iter().filter(|n| choices[*n].missing == missing).collect();
-        let least = of.iter().map(|n| cost(*n)).fold(f64::INFINITY, f64::min);
+        let fewest: Vec<usize> =
+            placed.into_iter().filter(|n| choices[*n].missing == missing).collect();
+        let least = fewest.iter().map(|n| cost(*n)).fold(f64::INFINITY, f64::min);
         let [u, v] = self.held.fabric(self.held.seed);
         let rank = |n: usize| {
             let [p, q] = choices[n].at.fabric;
             ((p - u).hypot(q - v), choices[n].held_heading.abs())
         };
-        of.into_iter().filter(|n| cost(*n) <= least + TUNING.alike).min_by(|a, b| {
+        fewest.into_iter().filter(|n| cost(*n) <= least + TUNING.alike).min_by(|a, b| {
             let (p, q) = (rank(*a), rank(*b));
             // rounding decides nothing
             let far = (p.0 - q.0).abs() > TUNING.boundary_rounding * mesh;

@@ -6,8 +6,9 @@
 use super::Net;
 use super::boundary::PlyPoint;
 use super::tuning::TUNING;
-use crate::geometry::vector::{along, between, cross, distance, dot, sub};
+use crate::geometry::vector::{between, distance};
 use crate::mold::Mold;
+use crate::mold::mesh::{Closest, closest};
 use std::collections::HashMap;
 
 /// Sharp edges of the mold under the ply.
@@ -19,8 +20,6 @@ pub struct SharpEdges {
     /// The largest angle by which the mold turns across one of them (rad), and where; `None` without any.
     pub sharpest: Option<(f64, PlyPoint)>,
 }
-
-type Triangle = [[f64; 3]; 3];
 
 impl Net {
     /// The sharp edges of a mold that the ply runs over; `None` for a mold that has no edges to tell.
@@ -95,17 +94,9 @@ impl Cells {
                 for (triangle, [p, q, r]) in
                     [([a, b, d], [[0, 0], [1, 0], [0, 1]]), ([c, d, b], [[1, 1], [0, 1], [1, 0]])]
                 {
-                    let [s, t] = weights(triangle, place);
-                    let chord = |n: usize| {
-                        along(
-                            sub(triangle[1], triangle[0]).map(|x| s * x),
-                            t,
-                            sub(triangle[2], triangle[0]),
-                        )[n]
-                    };
-                    let near = [0, 1, 2].map(|n| triangle[0][n] + chord(n));
-                    let away = distance(near, place);
-                    if away <= most && best.is_none_or(|(closest, _)| away < closest) {
+                    let Closest { weights: [_, s, t], square, .. } = closest(triangle, place);
+                    let away = square.sqrt();
+                    if away <= most && best.is_none_or(|(least, _)| away < least) {
                         let fabric_place = |n: usize| {
                             let [p, q, r] = [p, q, r].map(|corner: [usize; 2]| corner[n] as f64);
                             cell[n] as f64 + p + s * (q - p) + t * (r - p)
@@ -133,34 +124,4 @@ fn corners(net: &Net, [i, j]: [usize; 2]) -> Option<[[f64; 3]; 4]> {
         net.node([i + 1, j + 1])?,
         net.node([i, j + 1])?,
     ])
-}
-
-/// Weights of the second and the third corner at the point of a triangle closest to a place.
-fn weights([a, b, c]: Triangle, place: [f64; 3]) -> [f64; 2] {
-    let (p, q, r) = (sub(b, a), sub(c, a), sub(place, a));
-    let normal = cross(p, q);
-    let area = dot(normal, normal).max(f64::MIN_POSITIVE);
-    let (s, t) = (dot(cross(r, q), normal) / area, dot(cross(p, r), normal) / area);
-    if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
-        return [s, t];
-    }
-    // the closest of the three sides
-    let on = |from: [f64; 3], way: [f64; 3]| {
-        let share = dot(sub(place, from), way) / dot(way, way).max(f64::MIN_POSITIVE);
-        let share = share.clamp(0.0, 1.0);
-        (distance(along(from, share, way), place), share)
-    };
-    let sides = [
-        (on(a, p), [[0.0, 0.0], [1.0, 0.0]]),
-        (on(a, q), [[0.0, 0.0], [0.0, 1.0]]),
-        (on(b, sub(c, b)), [[1.0, 0.0], [0.0, 1.0]]),
-    ];
-    let mut best = sides[0];
-    for side in &sides[1..] {
-        if side.0.0 < best.0.0 {
-            best = *side;
-        }
-    }
-    let ((_, share), [from, to]) = best;
-    [0, 1].map(|n| from[n] + share * (to[n] - from[n]))
 }

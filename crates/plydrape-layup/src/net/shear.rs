@@ -18,7 +18,7 @@ pub struct CellShear {
 }
 
 impl CellShear {
-    /// Of the cell with nodes [i, j], [i+1, j], [i+1, j+1] and [i, j+1].
+    /// Shear of the cell with nodes [i, j], [i+1, j], [i+1, j+1] and [i, j+1].
     pub(super) fn new(ring: [&SurfacePoint; 4], rule: EdgeRule) -> Self {
         // the angle of the second and fourth corner is the supplement of that between u and v
         let signed: [f64; 4] = std::array::from_fn(|n| {

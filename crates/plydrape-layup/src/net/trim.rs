@@ -14,7 +14,7 @@ use crate::mold::Mold;
 
 /// A target boundary: a closed line on the mold.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wanted {
+pub struct TargetBoundary {
     points: Vec<SurfacePoint>,
     /// Largest distance of its given points from the mold (m).
     pub distance: f64,
@@ -52,7 +52,7 @@ pub struct Trim {
     pub farthest_wanted: ([f64; 3], f64),
 }
 
-impl Wanted {
+impl TargetBoundary {
     /// A target boundary through points on a mold (m), in turn around the ply in either sense; between them it runs straight
     /// over the mold. `mesh` is a mesh width of the net (m), the scale of all tolerances.
     ///
@@ -87,7 +87,7 @@ impl Wanted {
             let b = given[(n + 1) % given.len()];
             follow(&surface, *a, b, mesh, 0, &mut points);
         }
-        Ok(Wanted { points, distance: farthest })
+        Ok(TargetBoundary { points, distance: farthest })
     }
 
     /// Lines, end to end.
@@ -121,7 +121,7 @@ fn follow(
 impl Boundary {
     /// Compares the outer boundary of the ply with a target; `None` if nothing of it is on the mold.
     #[must_use]
-    pub fn trim(&self, mold: &Mold, wanted: &Wanted) -> Option<Trim> {
+    pub fn trim(&self, mold: &Mold, wanted: &TargetBoundary) -> Option<Trim> {
         let surface = ExtendedSurface::new(mold);
         let curve = wanted.lines();
         let outer: Vec<&BoundaryLine> = self.lines.iter().filter(|line| line.ring == 0).collect();

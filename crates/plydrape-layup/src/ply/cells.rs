@@ -55,11 +55,11 @@ pub(super) fn bias_cells(
     v.iter().for_each(|pair| crossing.entry(bucket(middle(pair))).or_default().push(pair));
     let mut cells = Vec::new();
     for along in u {
-        let (at, [i, j]) = (middle(along), bucket(middle(along)));
+        let (center, [i, j]) = (middle(along), bucket(middle(along)));
         let near = (0..9).filter_map(|k| crossing.get(&[i + k % 3 - 1, j + k / 3 - 1])).flatten();
         let meets = |pair: &&&Pair| {
             let other = middle(pair);
-            (0..2).all(|n| (other[n] - at[n]).abs() <= 2.0 * same)
+            (0..2).all(|n| (other[n] - center[n]).abs() <= 2.0 * same)
         };
         for across in near.filter(meets) {
             let ([left, right], [low, high]) = (along.ends, across.ends);

@@ -1,8 +1,9 @@
 //! A ply as it is cut, and the cups that hold it.
 
 use super::{Direction, Grid, GripperId, Lines, Outline, Ply};
+use crate::geometry::ring;
 use crate::geometry::rotation::of_tangents;
-use crate::geometry::vector::{along, sub, unit};
+use crate::geometry::vector::{along, mean, sub, unit};
 
 /// A ply that is cut to an outline and held where cups are.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,14 +112,8 @@ impl Ply {
     /// Fabric coordinates of the lowest and the highest gripper along u and along v (m).
     #[must_use]
     pub fn held_bounds(&self) -> [[f64; 2]; 2] {
-        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for place in (0..self.grippers()).map(|n| self.place(n)) {
-            for n in 0..2 {
-                bounds[0][n] = bounds[0][n].min(place[n]);
-                bounds[1][n] = bounds[1][n].max(place[n]);
-            }
-        }
-        bounds
+        let places: Vec<[f64; 2]> = (0..self.grippers()).map(|n| self.place(n)).collect();
+        ring::bounds(&places)
     }
 
     /// Fabric coordinates of its middle (m): that of the box around the drawing of a ply that is cut, whatever way its yarns
@@ -152,7 +147,6 @@ impl Ply {
     /// with no third one between them (Gabriel and Sokal 1969).
     #[must_use]
     pub fn neighbors(&self) -> Vec<Neighbors> {
-        let count = self.grippers();
         let pairs: Vec<[usize; 2]> = match self.held() {
             None => {
                 let lines = Lines::array(self.grid, self.cell);
@@ -171,17 +165,17 @@ impl Ply {
                 [_, true] => Some(Direction::V),
                 _ => None,
             };
-            Neighbors { grippers: [a, b], fiber, border: self.is_border([p, q], count) }
+            Neighbors { grippers: [a, b], fiber, border: self.is_border([p, q]) }
         };
         pairs.into_iter().map(neighbors_of).collect()
     }
 
     /// Whether the strip across the line between two grippers has grippers on one of its sides at most.
-    fn is_border(&self, [p, q]: [[f64; 2]; 2], count: usize) -> bool {
+    fn is_border(&self, [p, q]: [[f64; 2]; 2]) -> bool {
         let way = [q[0] - p[0], q[1] - p[1]];
         let square = way[0] * way[0] + way[1] * way[1];
         let mut sides = [false; 2];
-        for place in (0..count).map(|n| self.place(n)) {
+        for place in (0..self.grippers()).map(|n| self.place(n)) {
             let off = [place[0] - p[0], place[1] - p[1]];
             let along = (off[0] * way[0] + off[1] * way[1]) / square;
             let across = (way[0] * off[1] - way[1] * off[0]) / square;
@@ -248,7 +242,7 @@ pub fn tangent_shares(
 #[must_use]
 pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
     let count = positions.len() as f64;
-    let middle = [0, 1, 2].map(|n| positions.iter().map(|p| p[n]).sum::<f64>() / count);
+    let middle = mean(positions);
     let places: Vec<[f64; 2]> = (0..positions.len()).map(|n| ply.place(n)).collect();
     let origin = [0, 1].map(|n| places.iter().map(|place| place[n]).sum::<f64>() / count);
     let off: Vec<[f64; 2]> =
@@ -262,9 +256,9 @@ pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
 /// Shares of ways in space in the vectors along u and v that fit them over ways in the fabric (m) best, by least squares and but for
 /// a factor; none for a direction in which there are none.
 fn shares(ways: &[[f64; 2]]) -> [Vec<f64>; 2] {
-    let sum = |of: fn(&[f64; 2]) -> f64| ways.iter().map(of).sum::<f64>();
+    let sum = |term: fn(&[f64; 2]) -> f64| ways.iter().map(term).sum::<f64>();
     let (uu, uv, vv) = (sum(|[u, _]| u * u), sum(|[u, v]| u * v), sum(|[_, v]| v * v));
-    let each = |of: &dyn Fn([f64; 2]) -> f64| ways.iter().map(|way| of(*way)).collect();
+    let each = |share: &dyn Fn([f64; 2]) -> f64| ways.iter().map(|way| share(*way)).collect();
     if uu * vv - uv * uv > 1e-9 * (uu + vv) * (uu + vv) {
         return [each(&|[u, v]| vv * u - uv * v), each(&|[u, v]| uu * v - uv * u)];
     }
@@ -363,8 +357,9 @@ mod tests {
         let ply = ply(array(4, 3, |_| true));
         for pair in ply.neighbors() {
             let [a, b] = pair.grippers.map(|n| ply.id(n));
-            let rim = |axis: usize, last: usize| a[axis] == b[axis] && [0, last].contains(&a[axis]);
-            assert_eq!(pair.border, rim(0, 3) || rim(1, 2), "{a:?} {b:?}");
+            let is_outer =
+                |axis: usize, last: usize| a[axis] == b[axis] && [0, last].contains(&a[axis]);
+            assert_eq!(pair.border, is_outer(0, 3) || is_outer(1, 2), "{a:?} {b:?}");
         }
     }
 }

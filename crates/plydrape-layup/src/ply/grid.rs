@@ -67,6 +67,7 @@ impl Grid {
     pub fn id(self, index: usize) -> GripperId {
         [index % self.nu, index / self.nu]
     }
+
     /// Number of cells.
     #[must_use]
     pub fn cells(self) -> usize {

@@ -199,18 +199,18 @@ impl Lines {
         own
     }
 
-    /// Joins grippers by fiber lines and cells; `at` gives a gripper's name and its place in pitches.
+    /// Joins grippers by fiber lines and cells; `name_and_place` gives a gripper's name and its place in pitches.
     fn join(
         &mut self,
         edges: [Vec<Pair>; 2],
         quads: Vec<Quad>,
-        at: impl Fn(usize) -> (GripperId, [f64; 2]),
+        name_and_place: impl Fn(usize) -> (GripperId, [f64; 2]),
     ) {
         let fibers = edges[0].len() + edges[1].len();
         let (pitch, mut beside) = (self.pitch, vec![[[None; 2]; 2]; self.grippers]);
         let mut lines = Vec::with_capacity(fibers + 2 * quads.len());
         let line = |kind, Pair { ends, offset: [a, b] }: Pair| {
-            let [(from, start), (to, _)] = ends.map(&at);
+            let [(from, start), (to, _)] = ends.map(&name_and_place);
             let (catenary, offset) = (Catenary { kind, from, to }, [a / pitch[0], b / pitch[1]]);
             FabricLine { catenary, ends, start, offset, tributary: 1.0 }
         };
@@ -235,14 +235,14 @@ impl Lines {
                         cells_of.push([None; 2]);
                         lines.len() - 1
                     });
-                    let of: &mut [Option<usize>; 2] = &mut cells_of[n - fibers];
-                    of[usize::from(of[0].is_some())] = Some(number);
+                    let beside: &mut [Option<usize>; 2] = &mut cells_of[n - fibers];
+                    beside[usize::from(beside[0].is_some())] = Some(number);
                     bias[d].lines[bias[d].count] = n;
                     bias[d].count += 1;
                 }
             }
             let Quad { name, corners, trellis, fibers, .. } = quad;
-            cells.push(LineCell { id: at(name).0, corners, trellis, fibers, bias });
+            cells.push(LineCell { id: name_and_place(name).0, corners, trellis, fibers, bias });
         }
         self.chains = chains(&lines, &beside, &edges);
         (self.lines, self.fibers, self.beside) = (lines, fibers, beside);
@@ -472,10 +472,10 @@ fn chains(
                 continue;
             }
             let mut chain = vec![start];
-            let mut at = start;
-            while let Some(line) = beside[at][d][1] {
-                at = lines[line].ends[1];
-                chain.push(at);
+            let mut last = start;
+            while let Some(line) = beside[last][d][1] {
+                last = lines[line].ends[1];
+                chain.push(last);
             }
             out.push((d, chain));
         }

@@ -166,16 +166,7 @@ impl Ply {
 /// A ply of no matter what between the grippers of an array, 100 mm apart.
 #[cfg(test)]
 pub(crate) fn cloth(grid: Grid) -> Ply {
-    let material = Material {
-        name: "cloth".into(),
-        source: String::new(),
-        section: Section::Line { mass: 0.3, flexural_rigidity: 1e-5 },
-        tension: None,
-        shear_curve: None,
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
-    };
+    let section = Section::Line { mass: 0.3, flexural_rigidity: 1e-5 };
+    let material = Material { section, ..Material::woven("cloth", 0.3, 1e-5, 1e6, 0.0) };
     Ply::of_array(grid, [0.1; 2], material)
 }

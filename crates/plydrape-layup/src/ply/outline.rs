@@ -3,6 +3,7 @@
 //! A curved boundary is a polygon that follows it; what reads it says how closely. Places are fabric coordinates (m).
 
 use crate::Error;
+use crate::geometry::ring::{area, bounds, is_inside, lines};
 
 /// A closed polygon; its first point is not repeated at its end (m).
 pub type Ring = Vec<[f64; 2]>;
@@ -184,36 +185,6 @@ impl<'de> serde::Deserialize<'de> for Outline {
         let Rings { boundary, holes } = Rings::deserialize(from)?;
         Outline::new(boundary, holes).map_err(serde::de::Error::custom)
     }
-}
-
-/// The lines of a ring, end to end (m).
-fn lines(ring: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
-    (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]])
-}
-
-/// Area of a ring (m²), negative of a clockwise one.
-fn area(ring: &[[f64; 2]]) -> f64 {
-    let Some(&origin) = ring.first() else { return 0.0 };
-    // from its own corner, so that a ring far from the origin keeps its digits
-    0.5 * lines(ring).map(|[a, b]| cross(sub(a, origin), sub(b, origin))).sum::<f64>()
-}
-
-fn bounds(ring: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for point in ring {
-        for n in 0..2 {
-            bounds[0][n] = bounds[0][n].min(point[n]);
-            bounds[1][n] = bounds[1][n].max(point[n]);
-        }
-    }
-    bounds
-}
-
-fn is_inside(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let crosses = |[a, b]: &[[f64; 2]; 2]| {
-        (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1])
-    };
-    lines(ring).filter(crosses).count() % 2 == 1
 }
 
 /// Distance of a point from a line between two ends (m).

@@ -60,16 +60,9 @@ impl Ruck {
         HEIGHT * self.amplitude
     }
 
-    #[cfg(test)]
-    /// Half the length over which it is off the floor (m).
-    #[must_use]
-    pub fn half_width(&self) -> f64 {
-        HALF_WIDTH / self.wave_number
-    }
-
     /// Height (m) at a distance from its middle (m).
     #[must_use]
-    pub fn at(&self, x: f64) -> f64 {
+    pub fn height_at(&self, x: f64) -> f64 {
         let y = self.wave_number * x;
         if y.abs() >= HALF_WIDTH {
             return 0.0;
@@ -101,9 +94,9 @@ mod tests {
     fn a_ruck_is_a_heavy_beam_that_leaves_the_floor_smoothly() {
         for slack in [1e-6, 1e-5, 1e-4] {
             let ruck = Ruck::from_slack(slack, RIGIDITY, WEIGHT).unwrap();
-            let a = ruck.half_width();
+            let a = HALF_WIDTH / ruck.wave_number;
             let h = a / 200.0;
-            let w = |n: i32| ruck.at(h * f64::from(n));
+            let w = |n: i32| ruck.height_at(h * f64::from(n));
             let second = |n: i32| (w(n + 1) - 2.0 * w(n) + w(n - 1)) / (h * h);
             let fourth = |n: i32| (second(n + 1) - 2.0 * second(n) + second(n - 1)) / (h * h);
             // P from one place holds at all others

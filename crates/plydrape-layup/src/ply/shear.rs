@@ -97,11 +97,11 @@ pub fn force(angle: f64, stretched: f64, shear_force_per_length: f64) -> f64 {
     shear_force_per_length * stretched / angle.cos()
 }
 
-/// The path (m) by which the bias lines of a cell in one direction shear it: that of a diagonal, or the mean of two sides by their
-/// squares.
-pub fn mean_path(lines: &[usize], path: impl Fn(usize) -> f64) -> f64 {
-    match lines {
-        [one, other] => (0.5 * (path(*one).powi(2) + path(*other).powi(2))).sqrt(),
-        _ => lines.first().map_or(0.0, |one| path(*one)),
+/// The path (m) by which the bias lines of a cell in one direction shear it, from the path of each: that of a diagonal, or the mean of
+/// two sides by their squares.
+pub fn mean_path<T: DualNum<Primitive = f64> + Copy>(mut paths: impl Iterator<Item = T>) -> T {
+    match [paths.next(), paths.next()] {
+        [Some(first), Some(second)] => ((first * first + second * second) / 2.0).sqrt(),
+        [first, _] => first.unwrap_or(T::from(0.0)),
     }
 }

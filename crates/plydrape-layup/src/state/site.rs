@@ -38,7 +38,7 @@ pub enum Site {
     AllEdges,
     /// All grippers together.
     AllGrippers,
-    /// `Nowhere` if the value is that of having none.
+    /// No part, because the layup has none that could have the value.
     Nowhere,
 }
 

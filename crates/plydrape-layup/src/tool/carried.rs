@@ -5,6 +5,7 @@ use super::tuning::TIPS;
 use super::{Axis, Posture, Tool};
 use crate::Error;
 use crate::arm::ArmRecord;
+use crate::geometry::Pose;
 use crate::geometry::vector::{distance, dot, norm, sub};
 use rayon::prelude::*;
 
@@ -147,8 +148,7 @@ impl Tool {
                     *range = [range[0].min(1e3 * stroke), range[1].max(1e3 * stroke)];
                 }
             }
-            let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let turn = turn_between(&unit, &posture.frame.axes);
+            let turn = turn_between(&Pose::ORIGIN.axes, &posture.frame.axes);
             record.turn_deg = record.turn_deg.max(norm(turn).to_degrees());
         }
         Carried { postures, positions, record }

@@ -25,7 +25,7 @@ pub use posture::Posture;
 pub use rates::{ToolPeaks, turn_between};
 
 use crate::arm::Arm;
-use crate::geometry::vector::sub;
+use crate::geometry::vector::{mean, sub};
 use crate::mold::Pose;
 
 /// A frame that carries all grippers.
@@ -86,8 +86,7 @@ impl Tool {
     /// A tool that holds grippers at their places at the start (m), with ball joints and turns as fast as usual.
     #[must_use]
     pub fn new(start: &[[f64; 3]], axes: Vec<Axis>) -> Self {
-        let count = start.len().max(1) as f64;
-        let origin = [0, 1, 2].map(|c| start.iter().map(|p| p[c]).sum::<f64>() / count);
+        let origin = mean(start);
         let mounts = start.iter().map(|p| sub(*p, origin)).collect();
         let [turn_rate, turn_acceleration] = tuning::TURN.map(f64::to_radians);
         let (residual, flange, world) = (None, Pose::ORIGIN, Pose::ORIGIN);

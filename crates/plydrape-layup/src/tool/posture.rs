@@ -25,7 +25,7 @@
 
 use super::tuning::{BISECTIONS, CONVERGED, FREE, OPEN, SPENT, SPENT_OF_PITCH, STEPS, STROKE_COST};
 use super::{Axis, Tool};
-use crate::geometry::vector::{along, cross, distance, dot, norm, sub, turned};
+use crate::geometry::vector::{along, cross, distance, dot, mean, norm, sub, turned};
 use crate::mold::Pose;
 use nalgebra::{SMatrix, SVector};
 
@@ -46,7 +46,8 @@ impl Tool {
     #[must_use]
     pub fn places(&self, posture: &Posture) -> Vec<[f64; 3]> {
         let place = |(mount, strokes): (&[f64; 3], &Vec<f64>)| {
-            let moved = |at, (axis, stroke): (&Axis, &f64)| along(at, *stroke, axis.direction);
+            let moved =
+                |place, (axis, stroke): (&Axis, &f64)| along(place, *stroke, axis.direction);
             posture.frame.place(self.axes.iter().zip(strokes).fold(*mount, moved))
         };
         self.mounts.iter().zip(&posture.strokes).map(place).collect()
@@ -57,7 +58,7 @@ impl Tool {
     pub fn posture(&self, places: &[[f64; 3]]) -> Posture {
         // as if no axis moved, then with the axes: strokes of most motions are small beside the array
         let frame = rigid(&self.mounts, places)
-            .unwrap_or_else(|| self.balanced(Pose::new(middle(places), [0.0; 3]), &[], places));
+            .unwrap_or_else(|| self.balanced(Pose::upright(mean(places)), &[], places));
         let frame = match self.axes.is_empty() {
             true => frame,
             false => self.balanced(frame, &self.axes, places),
@@ -129,17 +130,17 @@ impl Springs<'_> {
     fn move_from(&self, offs: &[[f64; 3]]) -> Vector6 {
         let mut all = Vector6::zeros();
         for _ in 0..STEPS {
-            let at = self.moved(offs, &all);
-            let (matrix, slope) = self.linear(&at);
+            let offs_now = self.moved(offs, &all);
+            let (matrix, slope) = self.linear(&offs_now);
             let Some(step) = solved(&matrix, &slope) else { break };
             // slope along the step, at a share of it
             let changes: Vec<[f64; 3]> =
                 self.mounts.iter().map(|mount| self.change(*mount, &step)).collect();
             let rises = |share: f64| {
-                let off = |(at, change): (&[f64; 3], &[f64; 3])| {
-                    dot(*change, self.force(along(*at, share, *change)))
+                let slope_of = |(off, change): (&[f64; 3], &[f64; 3])| {
+                    dot(*change, self.force(along(*off, share, *change)))
                 };
-                at.iter().zip(&changes).map(off).sum::<f64>() > 0.0
+                offs_now.iter().zip(&changes).map(slope_of).sum::<f64>() > 0.0
             };
             let mut share = 1.0;
             if rises(1.0) {
@@ -217,16 +218,10 @@ impl Axis {
     }
 }
 
-/// The middle of places (m).
-fn middle(places: &[[f64; 3]]) -> [f64; 3] {
-    let count = places.len().max(1) as f64;
-    [0, 1, 2].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / count)
-}
-
 /// The pose that brings mounts nearest to places (m), by the sum of squares; none where they leave a turn open (Horn 1987, eq. 26: the quaternion
 /// is the eigenvector to the largest eigenvalue).
 fn rigid(mounts: &[[f64; 3]], places: &[[f64; 3]]) -> Option<Pose> {
-    let [from, to] = [mounts, places].map(middle);
+    let [from, to] = [mounts, places].map(mean);
     // covariance of mounts and places about their middles, and Horn's symmetric matrix of it
     let mut s = [[0.0; 3]; 3];
     for (m, p) in mounts.iter().zip(places) {
@@ -322,7 +317,7 @@ mod tests {
             let all = vec![axis([1.0, 0.0, 0.0], 0.2), axis([0.0, 1.0, 0.0], 0.2), axis([0.0, 0.0, 1.0], 0.2)];
             for axes in [vec![], vec![z], all] {
                 let tool = Tool::new(&start, axes);
-                let upright = Pose::new(middle(&asked), [0.0; 3]);
+                let upright = Pose::upright(mean(&asked));
                 let frame = tool.balanced(upright, &[], &asked);
                 let frame = tool.balanced(frame, &tool.axes, &asked);
                 let found = tool.posture(&asked).frame;

@@ -3,10 +3,11 @@
 use super::{Posture, Tool};
 use crate::Error;
 use crate::arm::{Angles, Arm, ArmCourse, ArmPeaks, ArmRecord};
-use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::geometry::vector::{along, cross, dot, norm, sub, unit};
 use crate::mold::Pose;
 use crate::motion::{Motion, Peak, TimedMotion};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// The largest rates of a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -153,7 +154,11 @@ pub fn turn_between(from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f64; 3] {
     }
     let length = norm(sine);
     if length == 0.0 {
-        return [0.0; 3];
+        // no turn, or half a turn, which has no sine either: each axis and where it goes have the axis of the turn between them
+        let sums = [0, 1, 2].map(|k| along(from[k], 1.0, to[k]));
+        let longest = sums.into_iter().max_by(|a, b| norm(*a).total_cmp(&norm(*b)));
+        let axis = longest.and_then(unit).filter(|_| trace < 0.0);
+        return axis.map_or([0.0; 3], |axis| axis.map(|c| PI * c));
     }
     let angle = (0.5 * length).atan2(0.5 * (trace - 1.0));
     sine.map(|c| c * angle / length)

@@ -6,6 +6,7 @@ use crate::geometry::vector::{cross, distance, norm, turned};
 use crate::mold::Pose;
 use crate::motion::{Bounds, TimedMotion};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
@@ -21,6 +22,19 @@ fn start(nu: usize, nv: usize) -> Vec<[f64; 3]> {
 
 fn farthest(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().zip(b).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
+}
+
+/// Half a turn about any axis of the frame is as far as a turn goes, although its sine is zero; the axes as they are have no turn.
+#[test]
+fn half_a_turn_is_found() {
+    let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let still = [x, y, Z];
+    assert_eq!(turn_between(&still, &still), [0.0; 3]);
+    for kept in 0..3 {
+        let to = [0, 1, 2].map(|n| if n == kept { still[n] } else { still[n].map(|c: f64| -c) });
+        let due = still[kept].map(|c| PI * c);
+        assert!(distance(turn_between(&still, &to), due) < 1e-15, "{kept}");
+    }
 }
 
 /// At the start the tool is as it was set up: no stroke, no turn.

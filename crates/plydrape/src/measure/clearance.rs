@@ -44,7 +44,7 @@ impl Measure for Clearance {
         }
         let (least, now) = (least(limits), seen.poses());
         let Some(past) = past else {
-            return Some(found(&clearance::at(layup, least, &now)?, state.time));
+            return Some(found(&clearance::at_poses(layup, least, &now)?, state.time));
         };
         let nearest = clearance::between_steps(layup, least, &past.poses(layup), &now)?;
         Some(found(&nearest, past.time + nearest.time * (state.time - past.time)))

@@ -108,7 +108,7 @@ fn a_motion_may_be_as_fast_as_the_resin_of_its_ply_follows() {
         assert_eq!(found.speed, Some(speed), "{pulls:?}");
         let rate = scene.layup.ply.material.shear_rate.expect("resin");
         let kelvin = found.temperature.expect("a temperature") + 273.15;
-        let time = rate.relaxation.at(kelvin);
+        let time = rate.relaxation.time_at(kelvin);
         assert!((time / (speed * rate.time()) - 1.0).abs() < 1e-9, "{time}");
     }
     // nothing is known of a ply in a time that is nobody's

@@ -129,7 +129,8 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
                 fabric(scene, a, b)
             };
             let angle = |cell: &LineCell| {
-                let paths = cell.bias.map(|bias| shear::mean_path(bias.list(), path));
+                let paths =
+                    cell.bias.map(|bias| shear::mean_path(bias.list().iter().map(|n| path(*n))));
                 let flat = lines.flat_length(cell.bias[0].list()[0], ply.length_factor);
                 shear::angle(cell.trellis, paths[0].max(paths[1]).max(flat))
             };
@@ -221,7 +222,7 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
     let poses = Poses::new(&scene.layup, &target.grippers, &turned?, &target.grippers);
     let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
-    let nearest = clearance::at(&scene.layup, least, &poses)?;
+    let nearest = clearance::at_poses(&scene.layup, least, &poses)?;
     let at = format!("{} at the target", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
     let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, None);
@@ -236,7 +237,7 @@ fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
     }
     let poses = Poses::by_neighbors(layup, &layup.ply.neighbors(), start);
     let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
-    let nearest = clearance::at(layup, least, &poses)?;
+    let nearest = clearance::at_poses(layup, least, &poses)?;
     let at = format!("{} at the start", nearest.label(layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
     let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, Some(1));

@@ -14,7 +14,7 @@ use crate::ply::{ContactSegment, Kind, Lines, Ply};
 pub struct Circumstances<'a, T> {
     /// The ply.
     pub ply: &'a Ply,
-    /// Lines.
+    /// Lines of the ply.
     pub lines: &'a Lines,
     /// Rules of the model.
     pub settings: &'a Settings,

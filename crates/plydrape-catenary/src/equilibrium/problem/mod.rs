@@ -84,8 +84,9 @@ impl<T: Number> Problem<T> {
         self.stretched.clear();
         self.stretched.resize(around.lines.catenaries() - self.edges, None);
         for cell in around.lines.cells() {
-            let path =
-                |bias: &BiasLines| mean_path(bias.list().iter().map(|n| around.taut_path(*n)));
+            let path = |bias: &BiasLines| {
+                shear::mean_path(bias.list().iter().map(|n| around.taut_path(*n)))
+            };
             let [rising, falling] = cell.bias.each_ref().map(path);
             let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
             let trellis = around.ply.trellis(cell, around.contacts);
@@ -156,7 +157,7 @@ impl<T: Number> Problem<T> {
     /// two cells has the mean of both by their squares: that is the side at the mean of the sines of their shear angles.
     fn set_length(&self, around: &Circumstances<T>, catenary: usize) -> T {
         let is_falling = around.kind(catenary) == Kind::Falling;
-        mean_path(around.lines.cells_of(catenary).map(|cell| match self.shearing[cell] {
+        shear::mean_path(around.lines.cells_of(catenary).map(|cell| match self.shearing[cell] {
             Some((path, falling)) if falling != is_falling => {
                 shear::partner_length(around.trellis(cell), path)
             }
@@ -238,14 +239,6 @@ impl<T: Number> Problem<T> {
     #[must_use]
     pub fn sides(&self) -> &[[[Side<T>; 2]; 2]] {
         self.slopes.sides()
-    }
-}
-
-/// Mean (m) of the lengths of one or two lines by their squares.
-fn mean_path<T: Number>(mut paths: impl Iterator<Item = T>) -> T {
-    match [paths.next(), paths.next()] {
-        [Some(one), Some(other)] => ((one * one + other * other) / 2.0).sqrt(),
-        [one, _] => one.unwrap_or(T::from(0.0)),
     }
 }
 

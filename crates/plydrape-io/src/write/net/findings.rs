@@ -1,7 +1,7 @@
 //! What is found of a ply on its mold beside the nodes of its net.
 
 use plydrape::mold::Mold;
-use plydrape::net::{Boundary, Net, Seeds, SharpEdges, Trim, Wanted};
+use plydrape::net::{Boundary, Net, Seeds, SharpEdges, TargetBoundary, Trim};
 
 /// What is found of a ply on its mold beside the nodes of its net.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -19,7 +19,12 @@ pub struct Findings {
 impl Findings {
     /// What is found of a net on its mold, with the target boundary and the search for its seed, if there are any.
     #[must_use]
-    pub fn new(net: &Net, mold: &Mold, wanted: Option<&Wanted>, seeds: Option<Seeds>) -> Self {
+    pub fn new(
+        net: &Net,
+        mold: &Mold,
+        wanted: Option<&TargetBoundary>,
+        seeds: Option<Seeds>,
+    ) -> Self {
         let boundary = net.boundary(mold);
         let trim = boundary.as_ref().zip(wanted).and_then(|(own, wanted)| own.trim(mold, wanted));
         Findings { sharp_edges: net.sharp_edges(mold), boundary, trim, seeds }

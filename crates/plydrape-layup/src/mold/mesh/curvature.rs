@@ -88,9 +88,9 @@ fn transport(tangent: [f64; 3], from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
 
 /// Σ form_ij t_i t_j as a matrix in space.
 fn outer([a, b, c]: [f64; 3], [s, r]: [[f64; 3]; 2]) -> Symmetric {
-    let at =
+    let part =
         |i: usize, j: usize| a * s[i] * s[j] + b * (s[i] * r[j] + r[i] * s[j]) + c * r[i] * r[j];
-    [at(0, 0), at(0, 1), at(0, 2), at(1, 1), at(1, 2), at(2, 2)]
+    [part(0, 0), part(0, 1), part(0, 2), part(1, 1), part(1, 2), part(2, 2)]
 }
 
 /// Components (1,1), (1,2) and (2,2) of a matrix in a frame.

@@ -9,6 +9,7 @@
 //!
 //! Fabric spans a pit. So the triangles of a pit can be replaced by a flat cap, and so can an open hole.
 
+use super::join::middle;
 use super::orient::NONE;
 use super::soup::Soup;
 use super::{Mesh, MeshReport};
@@ -209,8 +210,7 @@ impl Mesh {
         if self.triangle_normals[triangle][2] < TUNING.wall {
             return None;
         }
-        let [a, b, c] = self.corners(triangle);
-        let middle = [0, 1, 2].map(|n| (a[n] + b[n] + c[n]) / 3.0);
+        let middle = middle(self.corners(triangle));
         let top = self.highest_point([middle[0], middle[1]])?;
         (top[2] - middle[2] <= tolerance).then_some(middle)
     }
@@ -489,7 +489,7 @@ pub(super) struct Size {
 }
 
 impl Size {
-    /// Of some points (m), and of the area (m²) and the perimeter (m) that they bound, if these are known.
+    /// Size of some points (m), which bound an area (m²) with a perimeter (m) if these are known.
     pub fn new(points: &[[f64; 3]], area_and_perimeter: Option<[f64; 2]>) -> Option<Self> {
         let extents = (0..TUNING.extents).map(|n| {
             let angle = std::f64::consts::PI * n as f64 / TUNING.extents as f64;
@@ -717,11 +717,11 @@ mod tests {
         };
         let mut wall = |a: Point, b: Point| faces.extend([[a, down(a), down(b)], [a, down(b), b]]);
         (0..4).for_each(|k| (0..10).for_each(|n| wall(side(k, n), side(k, n + 1))));
-        let rim = |n: usize| {
+        let edge = |n: usize| {
             let (sin, cos) = (PI * n as f64 / 8.0).sin_cos();
             [0.003 * cos, 0.003 * sin, 0.0]
         };
-        (0..16).for_each(|n| wall(rim(n + 1), rim(n)));
+        (0..16).for_each(|n| wall(edge(n + 1), edge(n)));
         let (_, report) = spanned(&faces);
         assert_eq!((report.surfaces, report.closed), (1, 1), "{report}");
         assert_eq!((only(&report).kind, only(&report).spanned), (DetailKind::Hole, false));

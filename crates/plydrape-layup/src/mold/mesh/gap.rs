@@ -38,7 +38,7 @@ impl Mesh {
             .collect();
         let mut gaps: Option<Gaps> = None;
         for side in &sides.all {
-            let middle = side.at(0.5);
+            let middle = side.point_at(0.5);
             let mut across: Option<f64> = None;
             for n in sides.near([middle].into_iter(), width) {
                 let other = &sides.all[n];
@@ -49,7 +49,7 @@ impl Mesh {
                 // what lies on the other side of its own face is no gap
                 let opposite = dot(side.outward, other.outward) < -TUNING.parallel_sides;
                 let (share, away) = other.closest(middle);
-                let outside = dot(sub(other.at(share), middle), side.outward) >= -0.5 * away;
+                let outside = dot(sub(other.point_at(share), middle), side.outward) >= -0.5 * away;
                 if opposite && outside && away <= width && across.is_none_or(|least| away < least) {
                     across = Some(away);
                 }

@@ -2,6 +2,7 @@
 
 use super::report::{Finding, MeshReport};
 use super::soup::Soup;
+use super::triangle::double_area;
 use crate::geometry::vector::{cross, distance, dot, norm, sub};
 use crate::mold::tuning::TUNING;
 use std::collections::{HashMap, HashSet};
@@ -64,15 +65,7 @@ impl Joined {
         }
         self.vertices = vertices;
     }
-}
 
-pub(super) fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
-    let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
-    let double_area = norm(cross(sub(q, p), sub(r, p)));
-    a != b && b != c && c != a && double_area > TUNING.needle * longest * longest
-}
-
-impl Joined {
     /// Leaves out triangles that cap a vertex beside the middle of a side and are no higher than `least` (m), which is less than
     /// the digits of files tell: they face anywhere. The vertex then divides the side, once both are stitched.
     pub fn leave_out_caps(&mut self, least: f64, report: &mut MeshReport) {
@@ -103,7 +96,16 @@ impl Joined {
     }
 }
 
-fn middle([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+/// Whether a triangle has three different vertices and, to rounding, an area.
+pub(super) fn has_area([a, b, c]: [u32; 3], points: [[f64; 3]; 3]) -> bool {
+    let [p, q, r] = points;
+    let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
+    let twice_area = norm(double_area(points));
+    a != b && b != c && c != a && twice_area > TUNING.needle * longest * longest
+}
+
+/// The middle of a triangle.
+pub(super) fn middle([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     [0, 1, 2].map(|n| (a[n] + b[n] + c[n]) / 3.0)
 }
 

@@ -31,6 +31,7 @@ pub use gap::Gaps;
 pub use report::{Finding, MeshReport, Stitches};
 pub use sharp::SharpEdge;
 pub use soup::{Role, Skipped, Soup};
+pub(crate) use triangle::{Closest, closest};
 
 use std::fmt;
 use std::sync::OnceLock;

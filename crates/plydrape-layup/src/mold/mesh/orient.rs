@@ -4,7 +4,7 @@
 //! one triangle of each surface the others follow, edge by edge. Then a closed surface is turned so that
 //! its volume Σ p·(q × r)/6 is positive, an open one so that its vector area points up.
 
-use super::join::Joined;
+use super::join::{Joined, middle};
 use super::report::MeshReport;
 use crate::Error;
 use crate::geometry::vector::{cross, dot, norm, sub};
@@ -21,20 +21,26 @@ pub(super) struct Component {
     pub closed: bool,
 }
 
-/// Finds the neighbors of all triangles; refuses edges of three triangles or more.
-pub(super) fn neighbors(mesh: &Joined, noun: &'static str) -> Result<Neighbors, Error> {
-    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
-    for (corners, n) in mesh.triangles.iter().zip(0u32..) {
+/// Both vertices of each edge in one number, the lower one first, and the side of a triangle that it is: 3 n + k for the side
+/// from corner k to corner k + 1 of triangle n. Sorted, so that sides along the same edge follow each other.
+pub(super) fn edges(triangles: &[[u32; 3]]) -> Vec<(u64, u32)> {
+    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
+    for (corners, n) in triangles.iter().zip(0u32..) {
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
             edges.push(((u64::from(a.min(b)) << 32) | u64::from(a.max(b)), 3 * n + k as u32));
         }
     }
     edges.sort_unstable();
+    edges
+}
+
+/// Finds the neighbors of all triangles; refuses edges of three triangles or more.
+pub(super) fn neighbors(mesh: &Joined, noun: &'static str) -> Result<Neighbors, Error> {
     let mut neighbors = vec![[NONE; 3]; mesh.triangles.len()];
-    for same in edges.chunk_by(|a, b| a.0 == b.0) {
+    for same in edges(&mesh.triangles).chunk_by(|a, b| a.0 == b.0) {
         match *same {
-            [_] => {}
+            [] | [_] => {}
             [(_, s), (_, t)] => {
                 neighbors[s as usize / 3][s as usize % 3] = t / 3;
                 neighbors[t as usize / 3][t as usize % 3] = s / 3;
@@ -46,7 +52,6 @@ pub(super) fn neighbors(mesh: &Joined, noun: &'static str) -> Result<Neighbors, 
                     place: edge_middle(mesh, s as usize / 3, s as usize % 3),
                 });
             }
-            [] => {}
         }
     }
     Ok(neighbors)
@@ -125,8 +130,8 @@ pub(super) fn orient(
         if turn[t] {
             mesh.triangles[t].swap(1, 2);
             neighbors[t].swap(0, 2);
-            let [a, b, c] = mesh.triangles[t].map(|n| mesh.vertices[n as usize]);
-            report.flipped.note(mesh.numbers[t], [0, 1, 2].map(|n| (a[n] + b[n] + c[n]) / 3.0));
+            let corners = mesh.triangles[t].map(|n| mesh.vertices[n as usize]);
+            report.flipped.note(mesh.numbers[t], middle(corners));
         }
     }
     Ok((component, components))

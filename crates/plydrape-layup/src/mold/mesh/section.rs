@@ -8,7 +8,7 @@
 
 use super::Mesh;
 use super::orient::NONE;
-use crate::geometry::vector::{along, distance, dot, sub};
+use crate::geometry::vector::{along, distance, distance_from_segment, sub};
 use crate::mold::SurfaceCurve;
 use crate::mold::tuning::TUNING;
 
@@ -141,7 +141,7 @@ impl Cut<'_> {
             let triangle = triangle as usize;
             let ends = (self.crossing(triangle, true), self.crossing(triangle, false));
             let (Some((_, a)), Some((_, b))) = ends else { continue };
-            let off = off_segment(a, b, p);
+            let off = distance_from_segment(p, a, b);
             if off <= tolerance && best.is_none_or(|(least, _)| off < least) {
                 best = Some((off, triangle));
             }
@@ -177,14 +177,6 @@ impl Cut<'_> {
     }
 
     fn is_on(&self, a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> bool {
-        off_segment(a, b, p) <= TUNING.on_curve * self.mesh.size
+        distance_from_segment(p, a, b) <= TUNING.on_curve * self.mesh.size
     }
-}
-
-/// Distance of `p` from the straight line between two points (m).
-fn off_segment(a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> f64 {
-    let (ab, ap) = (sub(b, a), sub(p, a));
-    let square = dot(ab, ab);
-    let share = if square > 0.0 { (dot(ap, ab) / square).clamp(0.0, 1.0) } else { 0.0 };
-    distance(p, along(a, share, ab))
 }

@@ -1,8 +1,9 @@
 //! Sides of triangles that lie on a boundary, and which of them face each other over a gap.
 
 use super::bounds;
+use super::orient::edges;
 use super::tree::Tree;
-use crate::geometry::vector::{along, cross, distance, dot, sub, unit};
+use crate::geometry::vector::{along, distance, dot, sub, unit};
 use crate::mold::tuning::TUNING;
 
 /// A side of a triangle that has no other triangle beyond it.
@@ -43,11 +44,11 @@ impl Side {
     /// Where along it a point is closest, from 0 to 1, and how far away (m).
     pub fn closest(&self, p: [f64; 3]) -> (f64, f64) {
         let share = (dot(sub(p, self.points[0]), self.direction) / self.length).clamp(0.0, 1.0);
-        (share, distance(p, self.at(share)))
+        (share, distance(p, self.point_at(share)))
     }
 
     /// Point at a share of its length (m).
-    pub fn at(&self, share: f64) -> [f64; 3] {
+    pub fn point_at(&self, share: f64) -> [f64; 3] {
         along(self.points[0], share * self.length, self.direction)
     }
 
@@ -63,16 +64,9 @@ impl Side {
 }
 
 impl Sides {
-    /// All of a mesh, in the order of their triangles.
+    /// All boundary sides of a mesh, in the order of their triangles.
     pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Self {
-        let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
-        for (corners, n) in triangles.iter().zip(0u32..) {
-            for k in 0..3 {
-                let (a, b) = (corners[k], corners[(k + 1) % 3]);
-                edges.push(((u64::from(a.min(b)) << 32) | u64::from(a.max(b)), 3 * n + k as u32));
-            }
-        }
-        edges.sort_unstable();
+        let edges = edges(triangles);
         let lone = edges.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
         let mut numbers: Vec<u32> = lone.map(|same| same[0].1).collect();
         numbers.sort_unstable();
@@ -92,9 +86,4 @@ impl Sides {
         found.sort_unstable();
         found
     }
-}
-
-/// A vector across a triangle of three points, as long as twice its area.
-pub(super) fn double_area([p, q, r]: [[f64; 3]; 3]) -> [f64; 3] {
-    cross(sub(q, p), sub(r, p))
 }

@@ -1,6 +1,7 @@
 //! Triangles as a file gives them: not yet joined, in the unit of the file.
 
-use crate::geometry::vector::{cross, distance, dot, sub};
+use super::triangle::double_area;
+use crate::geometry::vector::{distance, dot};
 
 /// The triangles of a file before they are joined into a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +78,7 @@ fn cut(points: &[[f64; 3]], corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
     // twice the vector area of the polygon
     let mut normal = [0.0; 3];
     for n in 1..corners.len().saturating_sub(1) {
-        let part = corner_normal([point(corners[0]), point(corners[n]), point(corners[n + 1])]);
+        let part = double_area([point(corners[0]), point(corners[n]), point(corners[n + 1])]);
         normal = [0, 1, 2].map(|c| normal[c] + part[c]);
     }
     let mut left = corners.to_vec();
@@ -87,7 +88,7 @@ fn cut(points: &[[f64; 3]], corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
         let mut best: Option<(f64, usize)> = None;
         for n in 0..count {
             let [a, b, c] = ear(n).map(point);
-            let convex = dot(corner_normal([a, b, c]), normal) > 0.0;
+            let convex = dot(double_area([a, b, c]), normal) > 0.0;
             let length = distance(a, c);
             if !convex || best.is_some_and(|(shortest, _)| length >= shortest) {
                 continue;
@@ -110,13 +111,9 @@ fn cut(points: &[[f64; 3]], corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
     }
 }
 
-fn corner_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
-    cross(sub(b, a), sub(c, a))
-}
-
 /// Whether a triangle covers a point, seen along `normal`, strictly.
 fn covers([a, b, c]: [[f64; 3]; 3], p: [f64; 3], normal: [f64; 3]) -> bool {
-    [[a, b], [b, c], [c, a]].iter().all(|&[s, t]| dot(corner_normal([s, t, p]), normal) > 0.0)
+    [[a, b], [b, c], [c, a]].iter().all(|&[s, t]| dot(double_area([s, t, p]), normal) > 0.0)
 }
 
 #[cfg(test)]
@@ -158,7 +155,7 @@ mod tests {
                 [radius * angle.cos(), radius * angle.sin(), 0.1 * radius]
             })
             .collect();
-        let area = |corners: [[f64; 3]; 3]| 0.5 * corner_normal(corners)[2];
+        let area = |corners: [[f64; 3]; 3]| 0.5 * double_area(corners)[2];
         let expected: f64 = (0..14).map(|n| area([[0.0; 3], star[n], star[(n + 1) % 14]])).sum();
         let parts = split(star.clone());
         let found: f64 = parts.iter().map(|t| area(t.map(|n| star[n as usize]))).sum();

@@ -9,7 +9,8 @@
 
 use super::join::{Joined, has_area};
 use super::report::Stitches;
-use super::side::{Side, Sides, double_area};
+use super::side::{Side, Sides};
+use super::triangle::double_area;
 use crate::geometry::vector::{between, distance, dot};
 use crate::mold::tuning::TUNING;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -65,7 +66,8 @@ fn at_vertices(sides: &Sides) -> BTreeMap<u32, Vec<usize>> {
 }
 
 impl Stitching<'_> {
-    fn at(&self, vertex: u32) -> [f64; 3] {
+    /// Where a vertex is (m).
+    fn place(&self, vertex: u32) -> [f64; 3] {
         self.mesh.vertices[vertex as usize]
     }
 
@@ -83,11 +85,11 @@ impl Stitching<'_> {
         let own = at_vertices(sides);
         let mut nearest: BTreeMap<u32, u32> = BTreeMap::new();
         for (&v, of_v) in &own {
-            let p = self.at(v);
+            let p = self.place(v);
             let mut best: Option<(f64, u32)> = None;
             for n in sides.near([p].into_iter(), self.tolerance) {
                 for w in sides.all[n].ends {
-                    let away = distance(p, self.at(w));
+                    let away = distance(p, self.place(w));
                     let is_better = best
                         .is_none_or(|(least, other)| away < least || (away == least && w < other));
                     if w == v || away > self.tolerance || !is_better {
@@ -106,9 +108,10 @@ impl Stitching<'_> {
         }
         let mut changed = false;
         for (&v, &w) in nearest.iter().filter(|(v, w)| v < w && nearest.get(w) == Some(v)) {
-            let (p, q) = (self.at(v), self.at(w));
+            let (p, q) = (self.place(v), self.place(w));
             // in the middle, or where one of them is if its triangles are too small to be moved
-            let place = [between(p, q, 0.5), p, q].into_iter().find(|at| self.may_merge(v, w, *at));
+            let places = [between(p, q, 0.5), p, q];
+            let place = places.into_iter().find(|place| self.may_merge(v, w, *place));
             match place {
                 Some(place) => {
                     self.merge(v, w, place);
@@ -146,8 +149,8 @@ impl Stitching<'_> {
     /// Whether a triangle still has an area, and faces as before, with some of its vertices moved (m).
     fn keeps_its_side(&self, t: u32, moved: impl Fn(u32) -> Option<[f64; 3]>) -> bool {
         let corners = self.mesh.triangles[t as usize];
-        let before = corners.map(|n| self.at(n));
-        let after = corners.map(|n| moved(n).unwrap_or_else(|| self.at(n)));
+        let before = corners.map(|n| self.place(n));
+        let after = corners.map(|n| moved(n).unwrap_or_else(|| self.place(n)));
         has_area(corners, after) && dot(double_area(before), double_area(after)) > 0.0
     }
 
@@ -166,7 +169,7 @@ impl Stitching<'_> {
         // for each side the vertices that divide it, by their place along it
         let mut dividing: BTreeMap<usize, Vec<(f64, u32)>> = BTreeMap::new();
         for (&v, of_v) in &at_vertices(sides) {
-            let p = self.at(v);
+            let p = self.place(v);
             let mut best: Option<(f64, f64, usize)> = None;
             for n in sides.near([p].into_iter(), self.tolerance) {
                 let side = &sides.all[n];
@@ -210,11 +213,10 @@ impl Stitching<'_> {
         let Some(c) = corners.into_iter().find(|n| *n != a && *n != b) else { return false };
         let mut changed = false;
         for &(share, v) in along {
-            let closest = side.at(share);
-            let away = distance(self.at(v), closest);
-            let place =
-                [self.at(v), closest].into_iter().find(|at| self.may_divide([a, b, c], v, *at));
-            let Some(place) = place else {
+            let closest = side.point_at(share);
+            let away = distance(self.place(v), closest);
+            let mut places = [self.place(v), closest].into_iter();
+            let Some(place) = places.find(|place| self.may_divide([a, b, c], v, *place)) else {
                 let [low, high] = [a.min(b), a.max(b)];
                 changed |= self.refused.insert([v, low, high]);
                 continue;
@@ -244,9 +246,9 @@ impl Stitching<'_> {
     /// Whether the side from a to b of a triangle a, b, c (in either order) may be divided at a vertex that is then at a
     /// place (m).
     fn may_divide(&self, [a, b, c]: [u32; 3], v: u32, place: [f64; 3]) -> bool {
-        let whole = double_area([a, b, c].map(|n| self.at(n)));
+        let whole = double_area([a, b, c].map(|n| self.place(n)));
         let keeps_its_side = |corners: [u32; 3]| {
-            let points = corners.map(|n| if n == v { place } else { self.at(n) });
+            let points = corners.map(|n| if n == v { place } else { self.place(n) });
             has_area(corners, points) && dot(double_area(points), whole) > 0.0
         };
         let uses = |n: u32| {

@@ -4,11 +4,16 @@ use crate::geometry::vector::{along, cross, dot, sub};
 
 /// A point of a triangle by the weights of its corners; a weight of zero is exact, so that the weights
 /// tell corners, edges and the inside apart.
-pub(super) type Weights = [f64; 3];
+pub(crate) type Weights = [f64; 3];
+
+/// A vector across a triangle of three points, as long as twice its area.
+pub(super) fn double_area([p, q, r]: [[f64; 3]; 3]) -> [f64; 3] {
+    cross(sub(q, p), sub(r, p))
+}
 
 /// A point of a triangle that is closest to another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Closest {
+pub(crate) struct Closest {
     pub weights: Weights,
     /// The point (m).
     pub point: [f64; 3],
@@ -22,7 +27,7 @@ pub(super) struct Closest {
 /// projection are ratios of signed areas; where one is negative, the closest point is on the edge across
 /// from it, or on another edge that meets it.
 #[inline]
-pub(super) fn closest([a, b, c]: [[f64; 3]; 3], p: [f64; 3]) -> Closest {
+pub(crate) fn closest([a, b, c]: [[f64; 3]; 3], p: [f64; 3]) -> Closest {
     let (ab, ac, ap) = (sub(b, a), sub(c, a), sub(p, a));
     let (bb, bc, cc) = (dot(ab, ab), dot(ab, ac), dot(ac, ac));
     let (pb, pc) = (dot(ap, ab), dot(ap, ac));

@@ -34,18 +34,18 @@ pub struct Moving {
     pub rates: Vec<[[f64; 3]; 3]>,
     /// Largest norm of each; infinite where there is no limit.
     pub bounds: [f64; 3],
-    /// At how many of the first times the bounds are others, and these.
+    /// How many of the first times have other bounds, and these bounds; `None` if the bounds are the same at all times.
     pub early: Option<(usize, [f64; 3])>,
 }
 
 impl Moving {
     /// Derivatives to the time as shares of their bounds, at one of the times and at a pace.
     fn shares(&self, jet: &Jet, n: usize) -> [f64; 3] {
-        jet.shares(&self.rates[n], &self.bounds(n))
+        jet.shares(&self.rates[n], &self.bounds_at(n))
     }
 
     /// The bounds at one of the times.
-    fn bounds(&self, n: usize) -> [f64; 3] {
+    fn bounds_at(&self, n: usize) -> [f64; 3] {
         self.early.filter(|(count, _)| n < *count).map_or(self.bounds, |(_, bounds)| bounds)
     }
 }
@@ -53,7 +53,7 @@ impl Moving {
 /// Which bound is nearest to its limit, at a time of the quickest motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limiting {
-    /// How long it is (s).
+    /// How long the part of the motion is in which it is the nearest (s).
     pub time: f64,
     /// Which of those that move.
     pub moving: usize,
@@ -81,10 +81,10 @@ impl<'a> Course<'a> {
     #[must_use]
     pub fn new(motion: &'a TimedMotion) -> Option<Self> {
         let path = motion.path.as_ref()?;
-        let mut at = motion.law.breaks();
-        at.extend(path.knots.iter().map(|u| motion.law.time(*u)));
-        at.sort_by(f64::total_cmp);
-        let pace = Pace::over(&at, TUNING.pace_parts.map(|share| share * motion.duration()))?;
+        let mut ends = motion.law.breaks();
+        ends.extend(path.knots.iter().map(|u| motion.law.time(*u)));
+        ends.sort_by(f64::total_cmp);
+        let pace = Pace::over(&ends, TUNING.pace_parts.map(|share| share * motion.duration()))?;
         let inside = TUNING.pace_inside;
         let times = pace.parts().flat_map(|(begin, end)| {
             [inside, 0.5, 1.0 - inside].map(|share| begin + share * (end - begin))
@@ -156,7 +156,7 @@ impl<'a> Course<'a> {
     /// How much longer a pace has to be for all that moves to keep its bounds at the times of the course; 1 where it does.
     fn stretch(&self, pace: &Pace, moving: &[Moving]) -> f64 {
         let shares = self.times.iter().enumerate().flat_map(|(n, t)| {
-            let jet = pace.at(*t);
+            let jet = pace.jet_at(*t);
             moving.iter().flat_map(move |one| one.shares(&jet, n).into_iter().enumerate())
         });
         let longer = shares.map(|(order, share)| share.powf(1.0 / (order + 1) as f64));
@@ -184,8 +184,8 @@ impl<'a> Course<'a> {
 
     /// The state of the path's parameter at a time of the motion as it is, at a pace.
     fn state(&self, pace: &Pace, t: f64) -> [f64; 3] {
-        let [s, v, a, _] = self.motion.law.at(t);
-        let Jet { value, slope, .. } = pace.at(t);
+        let [s, v, a, _] = self.motion.law.state_at(t);
+        let Jet { value, slope, .. } = pace.jet_at(t);
         [s, v * value.sqrt(), a * value + 0.5 * v * slope]
     }
 
@@ -196,7 +196,7 @@ impl<'a> Course<'a> {
         let stretch = match &self.early {
             None => peaks(path, &law, tolerance).stretch(bounds),
             Some((until, early)) => {
-                let until = law.time(self.motion.law.at(*until)[0]);
+                let until = law.time(self.motion.law.state_at(*until)[0]);
                 let part = |times| peaks_within(path, &law, tolerance, times);
                 let first = part([0.0, until]).stretch(early);
                 part([until, law.duration]).stretch(bounds).max(first)
@@ -208,7 +208,7 @@ impl<'a> Course<'a> {
 
     /// What is nearest to its limit, at each time of the course.
     fn limiting(&self, pace: &Pace, moving: &[Moving], longer: f64) -> Vec<Limiting> {
-        let jets = self.times.iter().map(|t| pace.at(*t));
+        let jets = self.times.iter().map(|t| pace.jet_at(*t));
         let lasts = pace.parts().enumerate().flat_map(|(part, _)| [pace.time_of(part) / 3.0; 3]);
         let nearest = |(n, (jet, lasts)): (usize, (Jet, f64))| {
             let time = lasts * longer;

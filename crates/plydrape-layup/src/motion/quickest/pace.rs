@@ -32,7 +32,7 @@ impl Pace {
             return None;
         }
         let mut ends = vec![first];
-        let mut to = |end: f64| {
+        let mut extend_to = |end: f64| {
             let begin = *ends.last().unwrap_or(&first);
             let count = ((end - begin) / longest).ceil().max(1.0);
             ends.extend((1..count as usize).map(|k| begin + (end - begin) * k as f64 / count));
@@ -41,11 +41,11 @@ impl Pace {
         let mut before = first;
         for time in times {
             if time - before >= shortest && last - time >= shortest {
-                to(*time);
+                extend_to(*time);
                 before = *time;
             }
         }
-        to(last);
+        extend_to(last);
         let values = vec![1.0; ends.len() + 1];
         Some(Pace { ends, values })
     }
@@ -84,7 +84,7 @@ impl Pace {
     }
 
     /// b, b' and b'' at a time (s).
-    pub fn at(&self, t: f64) -> Jet {
+    pub fn jet_at(&self, t: f64) -> Jet {
         let part = self.part(t);
         let [value, slope, curvature] = self
             .weights(part, t)
@@ -95,7 +95,7 @@ impl Pace {
     /// How long a part takes at this pace (s).
     pub fn time_of(&self, part: usize) -> f64 {
         let (begin, length) = (self.ends[part], self.ends[part + 1] - self.ends[part]);
-        let rate = |share: f64| self.at(begin + share * length).value.sqrt();
+        let rate = |share: f64| self.jet_at(begin + share * length).value.sqrt();
         GAUSS.iter().map(|(share, weight)| length * weight / rate(*share)).sum()
     }
 

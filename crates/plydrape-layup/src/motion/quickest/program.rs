@@ -27,11 +27,11 @@ impl<'a> Program<'a> {
     /// Puts in, of each time and order, the bound that is nearest to its limit at a pace, if there is none yet or it is passed.
     pub fn meet(&mut self, pace: &Pace) {
         for (n, t) in self.times.iter().enumerate() {
-            let jet = pace.at(*t);
+            let jet = pace.jet_at(*t);
             let shares: Vec<[f64; 3]> = self.moving.iter().map(|one| one.shares(&jet, n)).collect();
             for order in [1, 2] {
                 let bounded =
-                    (0..shares.len()).filter(|k| self.moving[*k].bounds(n)[order].is_finite());
+                    (0..shares.len()).filter(|k| self.moving[*k].bounds_at(n)[order].is_finite());
                 let by_share =
                     |a: &usize, b: &usize| shares[*a][order].total_cmp(&shares[*b][order]);
                 let Some(nearest) = bounded.max_by(by_share) else { continue };
@@ -91,11 +91,11 @@ impl<'a> Program<'a> {
         for (n, t) in self.times.iter().enumerate() {
             let part = pace.part(*t);
             let [value, slope, curvature] = pace.weights(part, *t);
-            let now = pace.at(*t).value;
+            let now = pace.jet_at(*t).value;
             for (k, order) in &self.met[n] {
                 let one = &self.moving[*k];
                 let [first, second, third] = one.rates[n];
-                let bound = one.bounds(n)[*order];
+                let bound = one.bounds_at(n)[*order];
                 let weights = |axis: usize| match order {
                     1 => [0, 1, 2].map(|m| second[axis] * value[m] + 0.5 * first[axis] * slope[m]),
                     _ => [0, 1, 2].map(|m| {
@@ -148,7 +148,8 @@ impl<'a> Program<'a> {
             matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
         let found = solver.solution.x.get(..values)?.to_vec();
         let found = pace.with(found);
-        let moves = self.times.iter().all(|t| found.at(*t).value > 0.0) && found.time().is_finite();
+        let moves =
+            self.times.iter().all(|t| found.jet_at(*t).value > 0.0) && found.time().is_finite();
         (good && moves).then_some(found)
     }
 }

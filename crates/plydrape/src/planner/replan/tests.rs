@@ -492,7 +492,7 @@ fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
         let alone = samples.iter().map(|t| {
             let positions = motion.at(*t);
             let poses = Poses::new(&scene.layup, &positions, &attitudes.at(*t), &positions);
-            1e3 * clearance::at(&scene.layup, least, &poses).unwrap().distance
+            1e3 * clearance::at_poses(&scene.layup, least, &poses).unwrap().distance
         });
         let least = alone.fold(f64::INFINITY, f64::min);
         assert!(clearance.value <= least + 1e-4 * least.abs().max(1.0), "{clearance:?} {least}");
