@@ -15,15 +15,15 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Draw {
-    /// Of the tool frame.
+    /// Error of the tool frame.
     pub frame: RigidError,
-    /// Of each gripper, in the order of [`crate::ply::Ply::index`].
+    /// Error of each gripper, in the order of [`crate::ply::Ply::index`].
     pub grippers: Vec<GripperError>,
-    /// Of where the grippers hold the ply.
+    /// Error of where the grippers hold the ply.
     pub pick_up: PickUpError,
-    /// Of the ply.
+    /// Error of the ply.
     pub material: MaterialError,
-    /// Of the mold.
+    /// Error of the mold.
     pub mold: MoldError,
 }
 
@@ -61,13 +61,13 @@ pub struct PickUpError {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MaterialError {
-    /// Of the mass.
+    /// Error of the mass.
     pub areal_mass: RelativeError,
-    /// Of the bending rigidities.
+    /// Error of the bending rigidities.
     pub bending: RelativeError,
-    /// Of the shear force.
+    /// Error of the shear force.
     pub shear: RelativeError,
-    /// Of the length, as a share.
+    /// Error of the length, as a share of it.
     pub length: f64,
 }
 
@@ -218,7 +218,7 @@ impl Errors {
 }
 
 impl RelativeError {
-    /// Larger by a factor: twice the error of a half is that of a quarter if it is a logarithm.
+    /// This error, larger by a factor: twice the error of a half is that of a quarter if it is a logarithm.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         match self {
@@ -255,7 +255,7 @@ impl From<RelativeError> for f64 {
 }
 
 impl RigidError {
-    /// Larger by a factor.
+    /// This error, larger by a factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let times = |v: [f64; 3]| v.map(|x| factor * x);
@@ -264,7 +264,7 @@ impl RigidError {
 }
 
 impl Draw {
-    /// The same cell with every error larger by a factor; 0 is the nominal cell.
+    /// This cell with every error larger by a factor; 0 is the nominal cell.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let times = |v: [f64; 3]| v.map(|x| factor * x);

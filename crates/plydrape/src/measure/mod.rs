@@ -146,11 +146,11 @@ pub enum Scope {
     EveryStep,
     /// At the end alone.
     End,
-    /// Of the motion in time: it has no meaning where the steps have no times yet, as in a search.
+    /// In every step of a motion in time: it has no meaning where the steps have no times yet, as in a search.
     Time,
-    /// Of the motion in time alone, whatever the ply does: every motion is judged by it, be it given or planned.
+    /// Over a motion in time alone, whatever the ply does: every motion is judged by it, be it given or planned.
     Motion,
-    /// Of a whole drape or plan, found outside of its steps.
+    /// Over a whole drape or plan, found outside of its steps.
     Whole,
 }
 
@@ -185,7 +185,7 @@ pub struct Description {
 }
 
 impl Description {
-    /// Of a measure that is bounded from above in every step, and of which less is better.
+    /// A description of a measure that is bounded from above in every step, and of which less is better.
     const fn new(name: &'static str, key: &'static str, label: &'static str, unit: Unit) -> Self {
         let (sense, scope, worth) = (Sense::AtMost, Scope::EveryStep, Worth::Less);
         Description { name, key, label, unit, sense, scope, worth, model: None }

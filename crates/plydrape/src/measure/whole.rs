@@ -30,9 +30,9 @@ pub struct WholeMotion<'a> {
 /// The largest rates of the parts of a motion that have limits of their own.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MotionPeaks {
-    /// Of the transport.
+    /// Peaks of the transport.
     pub transport: Peaks,
-    /// Of all that the limits of the transport do not bound.
+    /// Peaks of all that the limits of the transport do not bound.
     pub drape: Peaks,
 }
 

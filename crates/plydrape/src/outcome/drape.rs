@@ -35,7 +35,7 @@ pub struct DrapedSheet {
     pub drape: sheet::Drape,
     /// The states that the scene keeps, the first and the last among them; empty if the caller took them as they came.
     pub states: Vec<sheet::ClothState>,
-    /// Its flight, if there is one to share.
+    /// The flight of the drape, if there is one to share.
     pub flight: Option<Flight>,
 }
 
@@ -60,7 +60,7 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// Of a drape that could not begin.
+    /// The judgment of a drape that could not begin.
     #[must_use]
     pub(crate) fn nothing() -> Self {
         Judged {

@@ -28,7 +28,7 @@ pub(super) fn sheet() -> Scene {
     scene
 }
 
-/// Of the grippers' positions along each axis (m).
+/// Errors of the grippers' positions along each axis (m).
 fn of_grippers(samples: usize, bound: f64) -> Errors {
     let mut errors = Errors { samples, seed: 3, ..Errors::default() };
     errors.gripper.position = Term::Bound(bound);

@@ -43,7 +43,7 @@ pub fn first_mesh(layup: &Layup) -> Mesh {
 /// The drapes along planned positions: the one without errors, and those of cells with errors.
 #[derive(Debug, Clone)]
 pub struct Drapes {
-    /// Of each limit the worst of all.
+    /// The worst of all drapes, limit by limit.
     pub worst: Judged,
     /// Each of them, the one without errors first.
     pub each: Vec<Judged>,
@@ -296,6 +296,7 @@ pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
         + drape.unsolved as f64
         + if missing > 0.0 { missing_weight * (1.0 + missing) } else { 0.0 }
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,7 +41,7 @@ fn is_zero(share: &f64) -> bool {
 /// Ratio of a front's axes from which on it counts as a line.
 const LINE: f64 = 100.0;
 
-/// Of these, how many count for grippers on mounts alone.
+/// Numbers, the last of those that a search varies, that count for grippers on mounts alone.
 pub const MOUNTED: usize = 2;
 
 /// Numbers that a search varies at most.

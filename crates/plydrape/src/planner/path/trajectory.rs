@@ -52,7 +52,7 @@ fn between(from: &[Point], to: &[Point], t: f64) -> Vec<Point> {
     from.iter().zip(to).map(|(a, b)| vector::between(*a, *b, t)).collect()
 }
 
-/// The same path in steps whose longest moves are equal.
+/// A path in steps whose longest moves are equal.
 fn evened(fine: &[Vec<Point>], steps: usize) -> Vec<Vec<Point>> {
     let mut lengths = vec![0.0];
     for pair in fine.windows(2) {
