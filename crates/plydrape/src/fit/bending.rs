@@ -79,7 +79,7 @@ impl Overhang {
     /// The errors of [`Self::rigidities`], and [`Error::FitTooFew`] if there is none.
     pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, Error> {
         if overhangs.is_empty() {
-            return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
+            return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 });
         }
         Ok(Estimate::of_specimens(&self.rigidities(overhangs)?))
     }
@@ -207,7 +207,7 @@ fn signs(hang: &Hang, [x, z]: [f64; 2]) -> Result<(), (usize, PointFault)> {
 fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
     positive("the length of the overhang", hang.length, "m")?;
     positive("the weight per area", hang.weight, "N/m^2")?;
-    let few = |found| Error::FitTooFew { what: name.to_string(), found, wanted: FEWEST };
+    let few = |found| Error::FitTooFew { what: name.to_string(), found, expected: FEWEST };
     // points at the edge say nothing: every strip goes through it
     let far = hang.points.iter().filter(|[x, z]| x.hypot(*z) > 0.02 * hang.length).count();
     if far < FEWEST {
@@ -269,7 +269,7 @@ pub fn fit_hang(strips: &[(String, Hang)]) -> Result<(Estimate, Vec<[Estimate; 2
     let each: Result<Vec<_>, _> = strips.iter().map(|(name, hang)| fit_one(hang, name)).collect();
     let each = each?;
     let whole = match each.as_slice() {
-        [] => return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 }),
+        [] => return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 }),
         [[rigidity, _]] => *rigidity,
         many => {
             let values: Vec<f64> = many.iter().map(|[rigidity, _]| rigidity.value).collect();
@@ -312,7 +312,7 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
             .map_err(|(point, fault)| Error::FitPoint { what: name.clone(), point, fault })?;
         if folded.len() < 3 {
             let found = folded.len();
-            return Err(Error::FitTooFew { what: name.clone(), found, wanted: 3 });
+            return Err(Error::FitTooFew { what: name.clone(), found, expected: 3 });
         }
         curves.push(folded);
         remarks.push(own);
@@ -321,7 +321,7 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
     let reaches: Vec<f64> = curves.iter().map(last).collect();
     let reach = reaches.iter().copied().fold(f64::INFINITY, f64::min);
     if curves.is_empty() {
-        return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
+        return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 });
     }
     let means: Vec<Vec<[f64; 2]>> = curves.iter().map(|curve| in_intervals(curve, reach)).collect();
     let first = means.first().map(Vec::as_slice).unwrap_or_default();

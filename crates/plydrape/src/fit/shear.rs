@@ -178,7 +178,7 @@ impl ShearSpecimen {
         };
         if self.points.len() < 3 {
             let (what, found) = (self.name.clone(), self.points.len());
-            return Err(Error::FitTooFew { what, found, wanted: 3 });
+            return Err(Error::FitTooFew { what, found, expected: 3 });
         }
         let shears = |displacement: f64| {
             self.test.angle(displacement).is_some_and(|angle| angle > 0.0 && angle <= LARGEST)
@@ -208,7 +208,7 @@ impl ShearSpecimen {
         known.dedup_by(|b, a| b[0] - a[0] < 1e-12);
         if known.len() < 3 {
             let what = format!("the loading in {}", self.name);
-            return Err(Error::FitTooFew { what, found: known.len(), wanted: 3 });
+            return Err(Error::FitTooFew { what, found: known.len(), expected: 3 });
         }
         let mut curve = [vec![0.0], vec![0.0]];
         for [angle, force] in known {
@@ -233,22 +233,25 @@ impl ShearSpecimen {
 /// The shear law of all specimens, each with its own measures.
 ///
 /// # Errors
-/// The errors of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
+/// The errors of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if there are no specimens, or these share less than 10° of shear.
 pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
     let found: Result<Vec<_>, _> = specimens.iter().map(ShearSpecimen::curve).collect();
     let (curves, remarks): (Vec<[Vec<f64>; 2]>, Vec<_>) = found?.into_iter().unzip();
+    if curves.is_empty() {
+        return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 });
+    }
     let reach: Vec<f64> =
         curves.iter().map(|[angles, _]| angles.last().copied().unwrap_or(0.0)).collect();
     let shared = reach.iter().copied().fold(f64::INFINITY, f64::min);
     let whole = (shared / SPACING + 1e-9).floor() as usize;
-    if whole < 2 || curves.is_empty() {
+    if whole < 2 {
         let shortest = specimens.iter().zip(&reach).find(|(_, own)| **own == shared);
         let name = shortest.map_or("", |(specimen, _)| &specimen.name);
         let what = format!(
             "the shear that all specimens reach, up to {:.1} deg of {name}, in points every 5 deg,",
             shared.to_degrees()
         );
-        return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
+        return Err(Error::FitTooFew { what, found: whole, expected: 2 });
     }
     let angle = angles_to(shared);
     let at =

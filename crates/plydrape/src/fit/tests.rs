@@ -159,6 +159,9 @@ fn tests_that_say_nothing_are_refused() {
     let test = ShearTest::Frame(PictureFrame { side: 0.2, fabric: 0.2 });
     let specimen = ShearSpecimen { name: "a".into(), test, points: vec![[0.001, 1.0]] };
     assert!(matches!(fit_shear(&[specimen]), Err(Error::FitTooFew { .. })));
+    assert!(matches!(fit_shear(&[]), Err(Error::FitTooFew { found: 0, .. })));
+    // three times 1e-4 have a variance of 1.7e-24 by their squares
+    assert_eq!(statistics::line(&[[1e-4, 0.0], [1e-4, 5.0], [1e-4, 10.0]]), None);
     let mut strip = seen(1e-3, 0.0, 1);
     strip.points.truncate(3);
     assert!(matches!(fit_hang(&[("a".into(), strip)]), Err(Error::FitTooFew { .. })));
