@@ -255,8 +255,7 @@ fn a_strip_whose_end_is_let_go_hangs_as_a_cantilever() {
 #[test]
 fn the_mold_bears_the_weight_of_a_ply_without_pads() {
     // eight grippers, as points on a level and on an inclined mold, and as pads on mounts
-    let held: Vec<[f64; 2]> =
-        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    let held = pins();
     for (angle, radius) in [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02)] {
         let mut sheet = sheet([even(0.34, 17), even(0.14, 7)], &[]);
         sheet.grippers = held
