@@ -59,10 +59,16 @@ impl Limits {
         self.bounds.get(name).copied()
     }
 
-    /// The bound of a measure (SI), infinite if it has no limit.
+    /// The bound of a measure (SI) that must not exceed it, infinite if it has no limit.
     #[must_use]
     pub fn most(&self, name: Name) -> f64 {
         self.get(name).unwrap_or(f64::INFINITY)
+    }
+
+    /// The bound of a measure (SI) that must not fall below it, zero if it has no limit.
+    #[must_use]
+    pub fn least(&self, name: Name) -> f64 {
+        self.get(name).unwrap_or(0.0)
     }
 
     /// The bounds that no gripper exceeds in a planned motion.

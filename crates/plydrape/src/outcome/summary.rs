@@ -151,8 +151,8 @@ impl Summary {
         catenaries.or(self.sheet.as_ref().and_then(|report| report.first_contact_step))
     }
 
-    /// The last of so many steps, by its index, at which nothing that happens depends on the mold: two before the first contact, or the last step of a motion that
-    /// ends in the air.
+    /// The index of the last step, in a motion of this number of steps, at which nothing that happens depends on the mold: two before the first
+    /// contact, or the last step of a motion that ends in the air.
     #[must_use]
     pub fn last_free(&self, steps: usize) -> usize {
         self.first_contact_step()

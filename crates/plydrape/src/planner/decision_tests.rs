@@ -68,7 +68,6 @@ fn a_plan_that_keeps_its_limits_at_its_steps_alone_is_refused() {
 #[test]
 fn a_plan_is_called_accepted_once_its_motion_is_judged_too() {
     let mut scene = scene();
-    scene.limits.set(Name::GripperDistance, Some(0.01));
     let start = scene.layup.motion.positions[0].clone();
     let lift = |k: usize| start.iter().map(|p| [p[0], p[1], p[2] + 5e-3 * k as f64]).collect();
     let positions: Vec<Vec<_>> = (0..6).map(lift).collect();

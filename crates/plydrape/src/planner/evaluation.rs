@@ -206,18 +206,19 @@ pub fn also(mut drape: Judged, verdict: Option<Verdict>) -> Judged {
 #[must_use]
 pub fn clearance_verdict(scene: &Scene, nearest: &Nearest, step: usize) -> Verdict {
     let worst = Worst::new(&clearance_found(nearest, nearest.time), &scene.layup);
-    let limit = scene.limits.get(Name::Clearance).unwrap_or(0.0) * 1e3;
+    let limit = scene.limits.least(Name::Clearance) * 1e3;
     Verdict::new(Name::Clearance, worst, limit, Some(step))
 }
 
-/// The verdict on the nearest pair of bodies along the whole of a motion in time; `None` if the scene has no bodies.
+/// The verdict on the nearest pair of bodies along the whole of a motion in time, with pads turned as the motion file will say; `None` if the
+/// scene has no bodies.
 #[must_use]
 pub fn clearance_of_motion(
     scene: &Scene,
     motion: &TimedMotion,
     attitudes: &Attitudes,
 ) -> Option<Verdict> {
-    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let least = scene.limits.least(Name::Clearance);
     let rate = motion.fitting_rate(scene.plan.rate);
     let nearest = Nearest::of_motion(&scene.layup, least, rate, motion, attitudes)?;
     let step = motion.times().partition_point(|t| *t < nearest.time) + 1;
@@ -259,6 +260,10 @@ impl Bias {
             let Some(b) = fine.limits.iter().find(|b| b.name == a.name) else { continue };
             let most = TUNING.largest_bias;
             let factor = (b.ratio() / a.ratio().max(f64::MIN_POSITIVE)).clamp(1.0 / most, most);
+            // two values that are no numbers say nothing of each other
+            if factor.is_nan() {
+                continue;
+            }
             match self.0.iter_mut().find(|(name, _)| *name == a.name) {
                 Some((_, before)) => *before = (*before * factor).sqrt(),
                 None => self.0.push((a.name, factor)),
@@ -350,5 +355,8 @@ mod tests {
         wild.learn(&height(0.1), &height(5.0));
         assert_eq!(wild.factor(Name::Height), TUNING.largest_bias);
         assert_eq!(wild.factor(Name::Position), 1.0);
+        let mut lost = Bias::default();
+        lost.learn(&height(f64::NAN), &height(f64::INFINITY));
+        assert!(lost.is_empty());
     }
 }

@@ -73,7 +73,7 @@ fn places(
         (Name::Workspace, 0.0, workspace),
         (
             Name::GripperDistance,
-            limits.most(Name::GripperDistance) * 1e3,
+            limits.least(Name::GripperDistance) * 1e3,
             closest_grippers(positions),
         ),
     ];
@@ -220,7 +220,7 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     };
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
     let poses = Poses::new(&scene.layup, &target.grippers, &turned?, &target.grippers);
-    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let least = scene.limits.least(Name::Clearance);
     let nearest = clearance::at(&scene.layup, least, &poses)?;
     let at = format!("{} at the target", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
@@ -235,7 +235,7 @@ fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
         return None;
     }
     let poses = Poses::by_neighbors(layup, &layup.ply.neighbors(), start);
-    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let least = scene.limits.least(Name::Clearance);
     let nearest = clearance::at(layup, least, &poses)?;
     let at = format!("{} at the start", nearest.label(layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };

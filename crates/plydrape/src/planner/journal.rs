@@ -86,9 +86,9 @@ impl Journal {
         self.scores.get(&key).copied()
     }
 
-    /// Keeps of a candidate its score alone: so it is with most of them, which come after the best from the first.
+    /// Keeps of a candidate its score alone, if that can be written: most candidates come after the best from the first.
     pub(super) fn keep_score(&mut self, key: u64, score: f64) {
-        if self.ranked.remove(&key).is_some() {
+        if self.ranked.remove(&key).is_some() && score.is_finite() {
             self.scores.insert(key, score);
         }
     }
@@ -146,6 +146,8 @@ mod tests {
         journal.rank(keys[3], &drapes(f64::NAN));
         journal.keep_score(keys[1], 7.5);
         journal.keep_score(keys[4], 9.0);
+        journal.rank(keys[2], &drapes(0.5));
+        journal.keep_score(keys[2], f64::INFINITY);
         assert_eq!(journal.ranked(keys[0]).unwrap().worst, judged(0.25));
         assert!(journal.ranked(keys[1]).is_none() && journal.ranked(keys[3]).is_none());
         assert_eq!(keys.map(|key| journal.score(key)), [None, Some(7.5), None, None, None]);

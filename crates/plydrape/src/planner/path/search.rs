@@ -320,8 +320,9 @@ impl Search<'_, '_> {
     /// The best candidates first, and no more of them than can matter.
     fn rank(&mut self) {
         self.candidates.sort_by(|a, b| {
-            let key = |c: &Candidate| (c.score, c.strategy.to_unit());
-            key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
+            let [first, second] = [a, b].map(|candidate| candidate.strategy.to_unit());
+            let by_strategy = first.partial_cmp(&second).unwrap_or(Ordering::Equal);
+            a.score.total_cmp(&b.score).then(by_strategy)
         });
         let kept = TUNING.search.kept.min(self.candidates.len());
         for dropped in self.candidates.drain(kept..) {

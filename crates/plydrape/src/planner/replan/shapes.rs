@@ -134,7 +134,7 @@ impl Shapes {
             boxes.iter().any(|(pose, [low, high])| {
                 let p = pose.local(*point);
                 let off = [0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0));
-                norm(off) < scene.limits.most(Name::Clearance)
+                norm(off) < scene.limits.least(Name::Clearance)
             })
         };
         let clear = |series: &Series| {
