@@ -179,8 +179,8 @@ fn a_draw_is_linear_in_a_common_factor() {
 fn errors_are_as_large_as_their_terms_say() {
     let errors = budget();
     let cells: Vec<Draw> = (0..20_000).map(|n| errors.draw(n, 1)).collect();
-    let check = |term: Term, of: &dyn Fn(&Draw) -> f64| {
-        let values: Vec<f64> = cells.iter().map(of).collect();
+    let check = |term: Term, value: &dyn Fn(&Draw) -> f64| {
+        let values: Vec<f64> = cells.iter().map(value).collect();
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let root = (values.iter().map(|x| x * x).sum::<f64>() / count).sqrt();

@@ -189,8 +189,8 @@ mod tests {
                     Name::SlackRatio => preset.value(Name::SlackAngle).map(slack_of_angle),
                     name => preset.value(*name),
                 };
-                let wanted = figure.or(before.get(*name));
-                assert_eq!(after.get(*name), wanted, "{preset:?} {name:?}");
+                let expected = figure.or(before.get(*name));
+                assert_eq!(after.get(*name), expected, "{preset:?} {name:?}");
             }
         }
     }

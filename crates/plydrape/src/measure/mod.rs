@@ -448,7 +448,7 @@ mod tests {
         let catenaries = values(&layup, &before, &state);
         state.model = Model::Sheet;
         let sheet = values(&layup, &before, &state);
-        for (name, wanted) in [
+        for (name, expected) in [
             (Name::GripperLoad, 6.0),
             (Name::GripperPull, 5.0),
             (Name::Tilt, 0.1_f64.to_degrees()),
@@ -459,7 +459,7 @@ mod tests {
             (Name::Position, 1.0),
         ] {
             let found = value(&catenaries, name).unwrap();
-            assert!((found - wanted).abs() < 1e-9, "{name:?} {found} {wanted}");
+            assert!((found - expected).abs() < 1e-9, "{name:?} {found} {expected}");
             assert_eq!(value(&sheet, name), Some(found), "{name:?}");
         }
     }
@@ -470,7 +470,7 @@ mod tests {
         let layup = sample::layup();
         let state = sample::state(&layup);
         let found = values(&layup, &state, &state);
-        for (name, wanted) in [
+        for (name, expected) in [
             (Name::Slack, 0.3),
             (Name::SlackRatio, 0.3 / 200.0),
             (Name::OverstretchLength, 0.2),
@@ -483,7 +483,7 @@ mod tests {
             (Name::LandingError, 1.0),
         ] {
             let value = value(&found, name).unwrap();
-            assert!((value - wanted).abs() < 1e-9, "{name:?} {value} {wanted}");
+            assert!((value - expected).abs() < 1e-9, "{name:?} {value} {expected}");
         }
     }
 

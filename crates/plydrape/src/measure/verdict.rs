@@ -108,8 +108,9 @@ mod tests {
     #[test]
     fn a_depth_has_a_ratio_too() {
         let ratio = |value: f64| verdict(Name::Clearance, value, 5.0).ratio();
-        for (value, wanted) in [(20.0, 0.25), (5.0, 1.0), (0.0, 2.0), (-5.0, 3.0), (-50.0, 12.0)] {
-            assert!((ratio(value) - wanted).abs() < 1e-12, "{value}: {}", ratio(value));
+        for (value, expected) in [(20.0, 0.25), (5.0, 1.0), (0.0, 2.0), (-5.0, 3.0), (-50.0, 12.0)]
+        {
+            assert!((ratio(value) - expected).abs() < 1e-12, "{value}: {}", ratio(value));
         }
         let slope = |from: f64, to: f64| (ratio(to) - ratio(from)) / (to - from);
         assert!((slope(4.99, 5.0) - slope(5.0, 5.01)).abs() < 1e-3);

@@ -281,7 +281,7 @@ impl<'a> SearchState<'a> {
 
     /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank, one that is
     /// accepted better than all that are not. One that was broken off because the search shall end does not count. `plan` is what was draped;
-    /// none of one that is draped once more.
+    /// `None` of a plan that is draped once more.
     pub fn record(
         &self,
         drape: &Judged,

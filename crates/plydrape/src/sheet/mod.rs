@@ -28,7 +28,7 @@ mod gripper;
 mod hand_over;
 mod inertia;
 mod march;
-mod matrix3;
+pub(crate) mod matrix3;
 mod model;
 mod mount;
 mod newton;

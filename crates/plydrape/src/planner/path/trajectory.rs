@@ -11,7 +11,7 @@ use crate::motion::farthest;
 use crate::scene::Scene;
 
 /// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target, beyond which
-/// grippers on mounts are commanded. None without a mold or a target.
+/// grippers on mounts are commanded. `None` without a mold or a target.
 #[must_use]
 pub fn trajectory(
     scene: &Scene,
