@@ -121,7 +121,7 @@ const WORDS: u128 = 64;
 
 /// The random numbers of one sample.
 struct Stream {
-    /// At the beginning of the stream.
+    /// The generator at the beginning of the stream.
     start: ChaCha8Rng,
 }
 
@@ -133,7 +133,7 @@ impl Stream {
     }
 
     /// The generator at the place of number `n` of a quantity of gripper `item`, 0 for what has no gripper.
-    fn at(&self, quantity: Quantity, item: usize, n: usize) -> ChaCha8Rng {
+    fn generator(&self, quantity: Quantity, item: usize, n: usize) -> ChaCha8Rng {
         let place = (item as u128 * QUANTITIES + quantity as u128) * NUMBERS + n as u128;
         let mut random = self.start.clone();
         random.set_word_pos(place * WORDS);
@@ -142,7 +142,7 @@ impl Stream {
 
     /// An even number from 0 up to 1.
     fn even(&self, quantity: Quantity, item: usize, n: usize) -> f64 {
-        Standard.sample(&mut self.at(quantity, item, n))
+        Standard.sample(&mut self.generator(quantity, item, n))
     }
 
     /// Numbers of the law of a term; of a factor their logarithms.
@@ -150,7 +150,7 @@ impl Stream {
         std::array::from_fn(|n| match term {
             _ if term.is_zero() => 0.0,
             Term::Deviation(deviation) => {
-                let normal: f64 = StandardNormal.sample(&mut self.at(quantity, item, n));
+                let normal: f64 = StandardNormal.sample(&mut self.generator(quantity, item, n));
                 deviation * normal
             }
             Term::Bound(bound) => bound * (2.0 * self.even(quantity, item, n) - 1.0),

@@ -112,7 +112,8 @@ struct Residuals<'a> {
 }
 
 impl Residuals<'_> {
-    fn at(&self, parameters: &Vector2<f64>) -> Option<DVector<f64>> {
+    /// The distances of the points (m) from a strip with other parameters; `None` if no strip hangs so.
+    fn distances(&self, parameters: &Vector2<f64>) -> Option<DVector<f64>> {
         let strip = Cantilever {
             length: self.hang.length,
             angle: parameters[1],
@@ -159,7 +160,7 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        self.at(&self.parameters)
+        self.distances(&self.parameters)
     }
 
     fn jacobian(&self) -> Option<nalgebra::OMatrix<f64, Dyn, nalgebra::U2>> {
@@ -168,8 +169,8 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
         for n in 0..2 {
             let mut step = Vector2::zeros();
             step[n] = DIFFERENCE;
-            let [plus, minus] =
-                [self.at(&(self.parameters + step))?, self.at(&(self.parameters - step))?];
+            let plus = self.distances(&(self.parameters + step))?;
+            let minus = self.distances(&(self.parameters - step))?;
             jacobian.set_column(n, &((plus - minus) / (2.0 * DIFFERENCE)));
         }
         Some(jacobian)

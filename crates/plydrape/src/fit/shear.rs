@@ -254,9 +254,9 @@ pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
         return Err(Error::FitTooFew { what, found: whole, expected: 2 });
     }
     let angle = angles_to(shared);
-    let at =
+    let forces =
         |n: usize| -> Vec<f64> { curves.iter().map(|[x, y]| smoothed(x, y, angle[n])).collect() };
-    let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&at(n))).collect();
+    let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&forces(n))).collect();
     let mut means = vec![0.0];
     // below zero by noise alone: more is refused before
     means.extend(rows.iter().map(|(mean, _)| mean.max(0.0)));

@@ -8,7 +8,7 @@ pub enum Sure {
     /// The residuals of one specimen's points, by the covariance of the fit, with this many degrees of freedom. It says nothing of
     /// how specimens differ.
     Residuals(usize),
-    /// Nothing: one value of one specimen.
+    /// Nothing says it, because the value is the only one of one specimen.
     Unknown,
 }
 

@@ -110,8 +110,8 @@ impl Limits {
         self
     }
 
-    /// The limits of a layup that none of these verdicts is on, in the measure's own unit: of a motion in time, and those that are neither usual nor
-    /// of a preset, whether the layup has what they measure or not.
+    /// The limits of a layup on which there is no verdict among these, in the measure's own unit: limits of a motion in time, and limits that are
+    /// neither usual nor of a preset, whether the layup has what they measure or not.
     #[must_use]
     pub fn unjudged(&self, layup: &Layup, verdicts: &[Verdict]) -> Vec<(Name, f64)> {
         let usual = Limits::usual(layup);

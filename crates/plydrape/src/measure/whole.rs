@@ -90,7 +90,8 @@ impl Course<'_> {
     }
 }
 
-/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged, and the arm along it. The transport ends at one of the steps.
+/// Verdicts on all limits of the motion in time of a layup, as its steps and its tool make it, and the arm along it. The transport ends at the
+/// step of index `last_free`.
 #[must_use]
 pub(crate) fn verdicts_of_steps(
     layup: &Layup,

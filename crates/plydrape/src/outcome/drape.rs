@@ -97,7 +97,7 @@ impl Judged {
     }
 }
 
-/// Who watches a drape: asked whether to go on, and shown what comes.
+/// What watches a drape: it is asked whether to go on, and shown each step.
 pub struct DrapeWatch<'a> {
     /// Asked before each time step whether to end.
     pub stop: &'a (dyn Fn() -> bool + Sync),
@@ -261,9 +261,9 @@ pub(super) struct Seen<'a> {
     pub sheet: &'a sheet::Sheet,
     /// The ply in the step.
     pub state: &'a sheet::ClothState,
-    /// Who has judged it.
+    /// The judge that has seen it.
     pub judge: &'a Judge<'a>,
-    /// Who has handed it over.
+    /// What has handed it over.
     pub hand_over: &'a HandOver,
 }
 

@@ -52,7 +52,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Who judges the steps.
+    /// The judge of the steps.
     pub fn judge(&self) -> &Judge<'a> {
         &self.judge
     }

@@ -59,7 +59,7 @@ fn so_many_cells_are_needed_as_the_share_says() {
     }
 }
 
-/// Errors of which so many cells must keep the limits.
+/// Errors with a sample of this many cells, of which a share must keep the limits.
 fn counted(samples: usize, share: f64) -> Errors {
     Errors { samples, share, ..Errors::default() }
 }
