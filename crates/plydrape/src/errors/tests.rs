@@ -6,7 +6,7 @@ use crate::clearance::Poses;
 use crate::equilibrium::Solver;
 use crate::geometry::vector::{along, sub, turned};
 use crate::layup::{Layup, Model, Settings, Target};
-use crate::material::{Material, Section, ShearCurve, TensionLaw};
+use crate::material::{Material, Section, ShearCurve};
 use crate::mold::{Relief, distance};
 use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
@@ -42,15 +42,9 @@ pub(crate) fn budget() -> Errors {
 pub(crate) fn layup(nu: usize, nv: usize) -> Layup {
     let grid = Grid { nu, nv };
     let material = Material {
-        name: "paper".into(),
-        source: "Krogh et al. 2018".into(),
         section: Section::Areal { mass: 3.143, warp_rigidity: 9e-5, weft_rigidity: 8e-5 },
         shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0, 2.0] }),
-        tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
+        ..Material::woven("paper", 3.143, 9e-5, 1e6, 5.0)
     };
     let ply = Ply::of_array(grid, [0.1, 0.08], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };

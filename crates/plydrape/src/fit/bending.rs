@@ -2,7 +2,7 @@
 
 use super::positive;
 use super::record::{Remark, loading};
-use super::statistics::{Estimate, Sure, between, mean_and_deviation, rising};
+use super::statistics::{Estimate, between, mean_and_deviation, rising};
 use crate::Error;
 use crate::elastica::{Bending, Cantilever, Shape};
 use crate::error::PointFault;
@@ -251,13 +251,10 @@ fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
         .ok_or_else(|| no_fit("rigidity and angle at the edge cannot be told apart".into()))?;
     let error = |n: usize| (variance * covariance[(n, n)]).sqrt();
     let rigidity = problem.parameters[0].exp();
-    let estimate = |value: f64, error: f64| Estimate {
-        value,
-        error,
-        sure: Sure::Residuals(degrees),
-        scatter: None,
-    };
-    Ok([estimate(rigidity, rigidity * error(0)), estimate(problem.parameters[1], error(1))])
+    Ok([
+        Estimate::of_residuals(rigidity, rigidity * error(0), degrees),
+        Estimate::of_residuals(problem.parameters[1], error(1), degrees),
+    ])
 }
 
 /// Rigidity per width (N·m) of strips that hang over an edge, by least squares with the exact elastica; of several strips the mean, and

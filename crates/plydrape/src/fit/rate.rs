@@ -5,7 +5,7 @@
 //! coefficients and in G₁, so that for each θ they are found by linear least squares, and θ alone is searched for.
 
 use super::shear::{BiasExtension, ShearTest, table_of};
-use super::statistics::{Estimate, Sure};
+use super::statistics::Estimate;
 use crate::Error;
 use crate::error::PointFault;
 use nalgebra::{DMatrix, DVector};
@@ -213,19 +213,13 @@ pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
         let entry = inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(n, n)]);
         (squares / degrees as f64 * entry).sqrt()
     };
-    let estimate = |value: f64, error: f64| Estimate {
-        value,
-        error,
-        sure: Sure::Residuals(degrees),
-        scatter: None,
-    };
     let largest = records.iter().flat_map(|record| &record.angles).copied().fold(0.0, f64::max);
     let polynomial =
         |angle: f64| (0..POWERS).map(|k| solution[k] * angle.powi(k as i32 + 1)).sum::<f64>();
     let (angle, force) = table_of(largest, polynomial);
     Ok(RateFit {
-        stiffness: estimate(stiffness, error(POWERS)),
-        relaxation: estimate(relaxation, relaxation * error(LINEAR)),
+        stiffness: Estimate::of_residuals(stiffness, error(POWERS), degrees),
+        relaxation: Estimate::of_residuals(relaxation, relaxation * error(LINEAR), degrees),
         angle,
         force,
         residual: (squares / count as f64).sqrt(),

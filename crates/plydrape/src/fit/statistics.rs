@@ -41,6 +41,11 @@ impl Estimate {
         }
     }
 
+    /// A value of one specimen with its standard error by the covariance of the fit, and the degrees of freedom of that.
+    pub(super) fn of_residuals(value: f64, error: f64, degrees: usize) -> Estimate {
+        Estimate { value, error, sure: Sure::Residuals(degrees), scatter: None }
+    }
+
     /// The interval that holds the true value in 95 of 100 tests, by Student's distribution; `None` where nothing says it.
     #[must_use]
     pub fn interval(&self) -> Option<[f64; 2]> {

@@ -41,7 +41,9 @@ pub fn first_mesh(layup: &Layup) -> Mesh {
 }
 
 /// The drapes along planned positions: the one without errors, and those of cells with errors.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Drapes {
     /// The worst of all drapes, limit by limit.
     pub worst: Judged,

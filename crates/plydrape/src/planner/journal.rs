@@ -15,20 +15,12 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Journal {
-    ranked: BTreeMap<u64, Ranked>,
+    /// The drapes that ranked candidates.
+    ranked: BTreeMap<u64, Drapes>,
     /// Scores of candidates of which nothing else was used.
     scores: BTreeMap<u64, f64>,
+    /// How plans were decided on.
     decided: BTreeMap<u64, Known>,
-}
-
-/// The drapes that ranked a candidate, see [`Drapes`].
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-struct Ranked {
-    worst: Judged,
-    each: Vec<Judged>,
-    refused_by: Option<usize>,
 }
 
 /// How a plan was decided on.
@@ -77,8 +69,7 @@ impl Journal {
 
     /// The drapes that ranked a candidate.
     pub(super) fn ranked(&self, key: u64) -> Option<Drapes> {
-        let Ranked { worst, each, refused_by } = self.ranked.get(&key)?.clone();
-        Some(Drapes { worst, each, refused_by })
+        self.ranked.get(&key).cloned()
     }
 
     /// The score of a candidate of which nothing else was used.
@@ -100,9 +91,8 @@ impl Journal {
 
     /// Keeps the drapes that ranked a candidate.
     pub(super) fn rank(&mut self, key: u64, drapes: &Drapes) {
-        let Drapes { worst, each, refused_by } = drapes.clone();
-        if each.iter().chain([&worst]).all(is_finite) {
-            self.ranked.insert(key, Ranked { worst, each, refused_by });
+        if drapes.each.iter().chain([&drapes.worst]).all(is_finite) {
+            self.ranked.insert(key, drapes.clone());
         }
     }
 
