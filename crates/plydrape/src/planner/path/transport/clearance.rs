@@ -227,10 +227,13 @@ fn boundary(mold: &Mold, [mut on, mut off]: [Point; 2]) -> Option<Point> {
     found
 }
 
-/// Height of the highest boundary of a mold within ranges of x and y, as lines so far apart meet it (m); minus infinity
-/// where they meet none.
+/// Height of the highest boundary of a mold within ranges of x and y, as lines `pitch` apart meet it (m); minus infinity where they
+/// meet none.
 fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
-    let [nx, ny] = ranges.map(|[low, high]| ((high - low) / pitch).ceil().max(1.0) as usize);
+    // a very long way has no more of these lines than samples
+    let most = TUNING.transport.most_samples;
+    let [nx, ny] =
+        ranges.map(|[low, high]| (((high - low) / pitch).ceil().max(1.0) as usize).min(most));
     let node = |i: usize, j: usize| {
         let [x, y] = [(0, i, nx), (1, j, ny)].map(|(n, k, count)| {
             let [low, high] = ranges[n];
