@@ -1,6 +1,6 @@
 //! Sheets and strips that hang, against printed figures, the elastica and closed forms.
 
-use super::super::hand_over::{TILT_REACH, surroundings};
+use super::super::hand_over::{TILT_REACH, frame_around};
 use super::*;
 use crate::elastica::{Bending, Cantilever};
 use crate::geometry::vector::angle_between;
@@ -55,7 +55,7 @@ fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
         bring(&mut cloth, &to, 20, 0.1);
         let reach = TILT_REACH * sheet.pitch;
         let tilt = |place: &[f64; 2]| {
-            let around = surroundings(&sheet.fabric, &cloth.now.x, *place, reach);
+            let around = frame_around(&sheet.fabric, &cloth.now.x, *place, reach);
             angle_between(around.expect("cells").0, [0.0, 0.0, 1.0]).to_degrees()
         };
         held.iter().map(tilt).collect::<Vec<_>>()
