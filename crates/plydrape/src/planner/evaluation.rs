@@ -76,7 +76,11 @@ pub fn drape(
 ) -> Result<Drapes, Error> {
     let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    let layup = along_motion(&scene.layup, Motion { times, positions });
+    let mut layup = along_motion(&scene.layup, Motion { times, positions });
+    // a candidate begins where the ply hangs: none of its steps is one of the lift
+    if let Some(pick_up) = &mut layup.pick_up {
+        pick_up.lift_steps = 0;
+    }
     let limits = &scene.limits;
     match layup.settings.model {
         Model::Catenaries => {
