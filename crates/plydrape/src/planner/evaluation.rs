@@ -266,7 +266,7 @@ impl Bias {
             let Some(b) = fine.limits.iter().find(|b| b.name == a.name) else { continue };
             let most = TUNING.largest_bias;
             let factor = (b.ratio() / a.ratio().max(f64::MIN_POSITIVE)).clamp(1.0 / most, most);
-            // two values that are no numbers say nothing of each other
+            // two ratios without end say nothing of each other
             if factor.is_nan() {
                 continue;
             }
