@@ -280,6 +280,10 @@ impl Fabric {
     #[must_use]
     pub fn boundary_along(&self, ring: &[[f64; 2]]) -> Vec<BoundaryPoint> {
         let mut out = Vec::new();
+        // a strip is a line without cells
+        if self.cells.is_empty() {
+            return out;
+        }
         for n in 0..ring.len() {
             let (from, to) = (ring[n], ring[(n + 1) % ring.len()]);
             let mut shares = vec![0.0];
@@ -448,6 +452,14 @@ mod tests {
             found.windows(2).all(|pair| pair[1] - pair[0] <= 0.01 + 1e-12 && pair[1] > pair[0])
         );
         assert_eq!(lines(vec![0.0, 0.3], 0.01).len(), 31);
+    }
+
+    /// A strip is one line of nodes without cells, so no ring has points in them.
+    #[test]
+    fn a_strip_has_no_boundary() {
+        let strip = Fabric::rectangle([lines(vec![0.0, 0.3], 0.1), vec![0.0]], 0.1);
+        let ring = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.1], [0.0, 0.1]];
+        assert_eq!(strip.boundary_along(&ring), []);
     }
 
     /// A rectangle that is cut out along lines of nodes is that rectangle, whatever lies beyond it.
