@@ -84,6 +84,9 @@ pub(super) struct Loading {
 /// # Errors
 /// What no specimen does, at the index of its point.
 pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault)> {
+    if points.is_empty() {
+        return Ok(Loading { points: 0..0, remarks: Vec::new() });
+    }
     let (end, mut remarks) = forth(points)?;
     let forces: Vec<f64> = points[..end].iter().map(|point| point[1]).collect();
     let below = |n: &usize| forces[*n] < 0.0;

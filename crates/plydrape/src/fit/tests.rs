@@ -171,6 +171,8 @@ fn tests_that_say_nothing_are_refused() {
     let falling = (1..20).map(|n| [f64::from(n), -f64::from(n)]).collect();
     let found = fit_moments(&[("a".into(), falling)]);
     assert!(matches!(found, Err(Error::FitPoint { fault: PointFault::BelowZero, .. })));
+    let found = fit_moments(&[("a".into(), Vec::new())]);
+    assert!(matches!(found, Err(Error::FitTooFew { found: 0, .. })));
 }
 
 /// Displacement (m) and force (N) of a bias specimen of the law τ = 10 γ + 40 γ³ N/m, a point every two degrees from 2 deg on.
