@@ -70,8 +70,9 @@ pub struct ShearFit {
     pub deviation: Option<Vec<f64>>,
     /// Scatter between specimens as a share of the force, root mean square over the angles.
     pub scatter: Option<f64>,
-    /// Coefficients of γ, γ², γ³ (N/m) by least squares, and their standard errors from the residuals.
-    pub polynomial: [[f64; 2]; POWERS],
+    /// Coefficients of γ, γ², γ³ (N/m) by least squares, and their standard errors from the residuals; `None` where fewer than three points
+    /// are left.
+    pub polynomial: Option<[[f64; 2]; POWERS]>,
     /// Where the curve turns up (rad): the corner of the best two straight lines; `None` where it does not.
     pub locking: Option<f64>,
     /// The largest shear angle of each specimen (rad).
@@ -329,17 +330,20 @@ fn smoothed(x: &[f64], y: &[f64], at: f64) -> f64 {
     line(&near).map_or_else(|| near[0][1], |(value, _)| value)
 }
 
-/// Coefficients of γ, γ², γ³ by least squares, and their standard errors.
-fn polynomial(points: &[[f64; 2]]) -> [[f64; 2]; POWERS] {
+/// Coefficients of γ, γ², γ³ by least squares, and their standard errors; `None` of fewer points.
+fn polynomial(points: &[[f64; 2]]) -> Option<[[f64; 2]; POWERS]> {
     let rows = points.len();
+    if rows < POWERS {
+        return None;
+    }
     let matrix = DMatrix::from_fn(rows, POWERS, |i, j| points[i][0].powi(j as i32 + 1));
     let right = DVector::from_fn(rows, |i, _| points[i][1]);
     let normal = matrix.transpose() * &matrix;
-    let Some(inverse) = normal.try_inverse() else { return [[f64::NAN; 2]; POWERS] };
+    let inverse = normal.try_inverse()?;
     let solution = &inverse * (matrix.transpose() * &right);
     let residual = (&matrix * &solution - right).norm_squared();
     let variance = residual / (rows.saturating_sub(POWERS).max(1)) as f64;
-    std::array::from_fn(|n| [solution[n], (variance * inverse[(n, n)]).sqrt()])
+    Some(std::array::from_fn(|n| [solution[n], (variance * inverse[(n, n)]).sqrt()]))
 }
 
 /// The corner of the two straight lines, one from 0, that are nearest to the table; `None` where the second is not much steeper.
