@@ -352,8 +352,10 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
         let reason = "the moment does not rise with the curvature".to_string();
         return Err(Error::FitNoStrip { what: "the bending test".into(), reason });
     }
+    // a load cell that shows nothing yet has no scatter
     let shares: Option<Vec<f64>> = rows
         .iter()
+        .filter(|(_, mean, _)| *mean != 0.0)
         .map(|(_, mean, deviation)| Some((*deviation.as_ref()? / mean).powi(2)))
         .collect();
     let scatter = shares.map(|s| (s.iter().sum::<f64>() / s.len().max(1) as f64).sqrt());
