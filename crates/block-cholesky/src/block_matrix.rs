@@ -44,10 +44,11 @@ impl BlockMatrix {
     /// # Errors
     /// If a pair names a node outside of `0..nodes`, or if there are too many blocks.
     pub fn new(nodes: usize, pairs: impl IntoIterator<Item = [u32; 2]>) -> Result<Self, Error> {
-        Self::of_pairs(nodes, pairs.into_iter().collect())
+        Self::from_pairs(nodes, pairs.into_iter().collect())
     }
 
-    fn of_pairs(nodes: usize, mut pairs: Vec<[u32; 2]>) -> Result<Self, Error> {
+    /// [`Self::new`], compiled once for all kinds of iterators.
+    fn from_pairs(nodes: usize, mut pairs: Vec<[u32; 2]>) -> Result<Self, Error> {
         let beyond = |node: &u32| *node as usize >= nodes;
         if let Some(&node) = pairs.iter().flatten().find(|node| beyond(node)) {
             return Err(Error::NoSuchNode { node, nodes });

@@ -63,7 +63,7 @@ impl Cholesky {
             let mine = fronts.iter().filter(|front| front.parity == parity);
             mine.map(|front| front.update + front.shape.update_len()).max().unwrap_or(0)
         };
-        let panels = [Shape::pivot_panels, Shape::panels].map(|of| shapes().map(of).max());
+        let panels = [Shape::pivot_panels, Shape::panels].map(|count| shapes().map(count).max());
         Self {
             split_panels: if n < tuning.thread_nodes {
                 usize::MAX

@@ -23,7 +23,7 @@ pub struct Restriction {
 }
 
 impl Restriction {
-    /// Of the fronts of the whole matrix.
+    /// The restriction of the fronts of the whole matrix, with nothing left out.
     pub fn new(whole: &[Front]) -> Self {
         let rows = whole.iter().map(|front| front.shape.panels() * PANEL_NODES).max();
         let remaining = whole.iter().map(|front| (0..front.rows.len() as u32).collect());

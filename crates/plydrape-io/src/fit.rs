@@ -507,16 +507,14 @@ impl Fitted {
         // the shear curve as a table; its polynomial and a hint of locking are comments
         if let Some(shear) = &self.shear {
             let degrees: Vec<f64> = shear.angle.iter().map(|angle| angle.to_degrees()).collect();
-            let terms: Vec<String> = shear
-                .polynomial
-                .iter()
-                .map(|[c, error]| format!("{} ± {}", short(*c), short(*error)))
-                .collect();
-            let _ = writeln!(
-                text,
-                "# as a polynomial of the angle in rad: {} N/m (standard errors from the residuals)",
-                terms.join(", ")
-            );
+            if let Some(polynomial) = shear.polynomial {
+                let term = |[c, error]: [f64; 2]| format!("{} ± {}", short(c), short(error));
+                let _ = writeln!(
+                    text,
+                    "# as a polynomial of the angle in rad: {} N/m (standard errors from the residuals)",
+                    polynomial.map(term).join(", ")
+                );
+            }
             if let Some(angle) = shear.locking {
                 let _ = writeln!(
                     text,
@@ -623,8 +621,8 @@ impl Fitted {
                 "force": shear.force,
                 "deviation": shear.deviation,
                 "scatter": shear.scatter,
-                "polynomial": shear.polynomial.map(|[c, _]| c),
-                "polynomial_standard_error": shear.polynomial.map(|[_, error]| error),
+                "polynomial": shear.polynomial.map(|terms| terms.map(|[c, _]| c)),
+                "polynomial_standard_error": shear.polynomial.map(|terms| terms.map(|[_, error]| error)),
                 "locking_hint": shear.locking,
                 "specimens": shear.reach.len(),
             });

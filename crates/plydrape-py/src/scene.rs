@@ -620,7 +620,7 @@ impl Scene {
                 "no arm is known: say it in robot, as in robot=dict(arm=\"ur20\"), beside a tool",
             ));
         }
-        let clearance = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+        let clearance = scene.limits.least(Name::Clearance);
         let Some(placement) = py.detach(|| scene.layup.placement(clearance)) else {
             return Err(PyValueError::new_err(
                 "the arm follows from the start to the target from no place; take one with a longer reach, or ask less of it in robot",

@@ -13,14 +13,14 @@ pub enum Error {
     Layup(#[from] LayupError),
 
     /// A specimen, or a test, has too few points.
-    #[error("{what} has {found} points; expected {wanted}")]
+    #[error("{what} has {found} points; expected {expected}")]
     FitTooFew {
         /// Which specimen or test.
         what: String,
         /// How many it has.
         found: usize,
         /// How many it needs.
-        wanted: usize,
+        expected: usize,
     },
     /// A point of a record shows what no specimen does.
     #[error("{what}, point {}: {fault}", point + 1)]

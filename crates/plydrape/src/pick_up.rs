@@ -22,7 +22,7 @@ pub struct Offset {
     pub shift: [f64; 2],
     /// Turn about the upright axis (rad), from x to y.
     pub yaw: f64,
-    /// Where the axis is (m); none for the middle of the grippers at the start.
+    /// Where the axis is (m); `None` for the middle of the grippers at the start.
     pub about: Option<[f64; 2]>,
 }
 
@@ -38,8 +38,8 @@ impl Offset {
             return Err(Error::OffsetTooFew { found: pairs.len() });
         }
         let count = pairs.len() as f64;
-        let middle = |of: &dyn Fn(&(Place, Place)) -> Place| {
-            [0, 1].map(|c| pairs.iter().map(|pair| of(pair)[c]).sum::<f64>() / count)
+        let middle = |place: &dyn Fn(&(Place, Place)) -> Place| {
+            [0, 1].map(|c| pairs.iter().map(|pair| place(pair)[c]).sum::<f64>() / count)
         };
         let (planned, seen) = (middle(&|pair| pair.0), middle(&|pair| pair.1));
         let from = |p: Place, middle: Place| [p[0] - middle[0], p[1] - middle[1]];
@@ -80,7 +80,7 @@ impl Offset {
         near && self.yaw.abs() <= std::f64::consts::PI
     }
 
-    /// The same, about the axis through a point (m): the shift is then that of this point.
+    /// This offset about the axis through a point (m): the shift is then that of this point.
     #[must_use]
     pub fn about(&self, point: Place) -> Offset {
         let given = Moved::new(self.about.unwrap_or(point), self.shift, self.yaw);

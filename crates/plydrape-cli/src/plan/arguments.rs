@@ -123,7 +123,7 @@ impl Arguments {
                 "say in [robot] which arm carries the tool, as in arm = \"ur20\"",
             ));
         }
-        let clearance = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+        let clearance = scene.limits.least(Name::Clearance);
         let found = scene.layup.placement(clearance).ok_or((
             "has no place where its arm follows from the start to the target within its limits",
             "choose an arm with a longer reach, let the ply be picked up nearer to its mold, or ask less of the arm in [robot]",

@@ -106,10 +106,11 @@ impl Ply {
         cell.trellis.map(|side| scale * (side * self.length_factor))
     }
 
-    /// The shorter side of a cell (m): the unit of length of planners, with which a scaled ply has the scaled plan.
+    /// The shorter side of a cell (m), of a strip whose cells have no width their length: the unit of length of planners, with which a scaled ply
+    /// has the scaled plan.
     #[must_use]
     pub fn shorter_side(&self) -> f64 {
-        self.cell[0].min(self.cell[1])
+        if self.cell[1] > 0.0 { self.cell[0].min(self.cell[1]) } else { self.cell[0] }
     }
 
     /// Whether the rows of its cups cross the yarns.

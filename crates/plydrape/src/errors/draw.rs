@@ -15,15 +15,15 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Draw {
-    /// Of the tool frame.
+    /// Error of the tool frame.
     pub frame: RigidError,
-    /// Of each gripper, in the order of [`crate::ply::Ply::index`].
+    /// Error of each gripper, in the order of [`crate::ply::Ply::index`].
     pub grippers: Vec<GripperError>,
-    /// Of where the grippers hold the ply.
+    /// Error of where the grippers hold the ply.
     pub pick_up: PickUpError,
-    /// Of the ply.
+    /// Error of the ply.
     pub material: MaterialError,
-    /// Of the mold.
+    /// Error of the mold.
     pub mold: MoldError,
 }
 
@@ -61,13 +61,13 @@ pub struct PickUpError {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MaterialError {
-    /// Of the mass.
+    /// Error of the mass.
     pub areal_mass: RelativeError,
-    /// Of the bending rigidities.
+    /// Error of the bending rigidities.
     pub bending: RelativeError,
-    /// Of the shear force.
+    /// Error of the shear force.
     pub shear: RelativeError,
-    /// Of the length, as a share.
+    /// Error of the length, as a share of it.
     pub length: f64,
 }
 
@@ -121,7 +121,7 @@ const WORDS: u128 = 64;
 
 /// The random numbers of one sample.
 struct Stream {
-    /// At the beginning of the stream.
+    /// The generator at the beginning of the stream.
     start: ChaCha8Rng,
 }
 
@@ -133,7 +133,7 @@ impl Stream {
     }
 
     /// The generator at the place of number `n` of a quantity of gripper `item`, 0 for what has no gripper.
-    fn at(&self, quantity: Quantity, item: usize, n: usize) -> ChaCha8Rng {
+    fn generator(&self, quantity: Quantity, item: usize, n: usize) -> ChaCha8Rng {
         let place = (item as u128 * QUANTITIES + quantity as u128) * NUMBERS + n as u128;
         let mut random = self.start.clone();
         random.set_word_pos(place * WORDS);
@@ -142,7 +142,7 @@ impl Stream {
 
     /// An even number from 0 up to 1.
     fn even(&self, quantity: Quantity, item: usize, n: usize) -> f64 {
-        Standard.sample(&mut self.at(quantity, item, n))
+        Standard.sample(&mut self.generator(quantity, item, n))
     }
 
     /// Numbers of the law of a term; of a factor their logarithms.
@@ -150,7 +150,7 @@ impl Stream {
         std::array::from_fn(|n| match term {
             _ if term.is_zero() => 0.0,
             Term::Deviation(deviation) => {
-                let normal: f64 = StandardNormal.sample(&mut self.at(quantity, item, n));
+                let normal: f64 = StandardNormal.sample(&mut self.generator(quantity, item, n));
                 deviation * normal
             }
             Term::Bound(bound) => bound * (2.0 * self.even(quantity, item, n) - 1.0),
@@ -218,7 +218,7 @@ impl Errors {
 }
 
 impl RelativeError {
-    /// Larger by a factor: twice the error of a half is that of a quarter if it is a logarithm.
+    /// This error, larger by a factor: twice the error of a half is that of a quarter if it is a logarithm.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         match self {
@@ -255,7 +255,7 @@ impl From<RelativeError> for f64 {
 }
 
 impl RigidError {
-    /// Larger by a factor.
+    /// This error, larger by a factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let times = |v: [f64; 3]| v.map(|x| factor * x);
@@ -264,7 +264,7 @@ impl RigidError {
 }
 
 impl Draw {
-    /// The same cell with every error larger by a factor; 0 is the nominal cell.
+    /// This cell with every error larger by a factor; 0 is the nominal cell.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let times = |v: [f64; 3]| v.map(|x| factor * x);

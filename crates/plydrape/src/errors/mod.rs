@@ -36,15 +36,15 @@ pub struct Errors {
     pub samples: usize,
     /// Share of the drawn cells that must keep the limits.
     pub share: f64,
-    /// Of the tool frame, common to all grippers.
+    /// Errors of the tool frame, common to all grippers.
     pub frame: FrameErrors,
-    /// Of each gripper by itself.
+    /// Errors of each gripper by itself.
     pub gripper: GripperErrors,
-    /// Of where the grippers hold the ply.
+    /// Errors of where the grippers hold the ply.
     pub pick_up: PickUpErrors,
-    /// Of the ply.
+    /// Errors of the ply.
     pub material: MaterialErrors,
-    /// Of the mold.
+    /// Errors of the mold.
     pub mold: MoldErrors,
 }
 
@@ -86,13 +86,13 @@ pub struct PickUpErrors {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MaterialErrors {
-    /// Of the mass per area, or per length.
+    /// Error of the mass per area, or per length.
     pub areal_mass: Term,
-    /// Of the bending rigidities, warp and weft alike.
+    /// Error of the bending rigidities, warp and weft alike.
     pub bending: Term,
-    /// Of the shear force at every shear angle.
+    /// Error of the shear force at every shear angle.
     pub shear: Term,
-    /// Of the length of fabric between two grippers, positive if there is more of it.
+    /// Error of the length of fabric between two grippers, positive if there is more of it.
     pub length: Term,
 }
 

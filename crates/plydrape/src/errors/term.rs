@@ -18,7 +18,7 @@ impl Term {
     /// No error.
     pub const NONE: Term = Term::Bound(0.0);
 
-    /// The same law with all errors larger by a factor.
+    /// This law with all errors larger by a factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         match self {

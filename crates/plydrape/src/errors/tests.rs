@@ -6,7 +6,7 @@ use crate::clearance::Poses;
 use crate::equilibrium::Solver;
 use crate::geometry::vector::{along, sub, turned};
 use crate::layup::{Layup, Model, Settings, Target};
-use crate::material::{Material, Section, ShearCurve, TensionLaw};
+use crate::material::{Material, Section, ShearCurve};
 use crate::mold::{Relief, distance};
 use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
@@ -42,15 +42,9 @@ pub(crate) fn budget() -> Errors {
 pub(crate) fn layup(nu: usize, nv: usize) -> Layup {
     let grid = Grid { nu, nv };
     let material = Material {
-        name: "paper".into(),
-        source: "Krogh et al. 2018".into(),
         section: Section::Areal { mass: 3.143, warp_rigidity: 9e-5, weft_rigidity: 8e-5 },
         shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0, 2.0] }),
-        tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
+        ..Material::woven("paper", 3.143, 9e-5, 1e6, 5.0)
     };
     let ply = Ply::of_array(grid, [0.1, 0.08], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
@@ -179,8 +173,8 @@ fn a_draw_is_linear_in_a_common_factor() {
 fn errors_are_as_large_as_their_terms_say() {
     let errors = budget();
     let cells: Vec<Draw> = (0..20_000).map(|n| errors.draw(n, 1)).collect();
-    let check = |term: Term, of: &dyn Fn(&Draw) -> f64| {
-        let values: Vec<f64> = cells.iter().map(of).collect();
+    let check = |term: Term, value: &dyn Fn(&Draw) -> f64| {
+        let values: Vec<f64> = cells.iter().map(value).collect();
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let root = (values.iter().map(|x| x * x).sum::<f64>() / count).sqrt();

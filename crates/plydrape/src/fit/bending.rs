@@ -2,7 +2,7 @@
 
 use super::positive;
 use super::record::{Remark, loading};
-use super::statistics::{Estimate, Sure, between, mean_and_deviation, rising};
+use super::statistics::{Estimate, between, mean_and_deviation, rising};
 use crate::Error;
 use crate::elastica::{Bending, Cantilever, Shape};
 use crate::error::PointFault;
@@ -79,7 +79,7 @@ impl Overhang {
     /// The errors of [`Self::rigidities`], and [`Error::FitTooFew`] if there is none.
     pub fn fit(&self, overhangs: &[f64]) -> Result<Estimate, Error> {
         if overhangs.is_empty() {
-            return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
+            return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 });
         }
         Ok(Estimate::of_specimens(&self.rigidities(overhangs)?))
     }
@@ -112,7 +112,8 @@ struct Residuals<'a> {
 }
 
 impl Residuals<'_> {
-    fn at(&self, parameters: &Vector2<f64>) -> Option<DVector<f64>> {
+    /// The distances of the points (m) from a strip with other parameters; `None` if no strip hangs so.
+    fn distances(&self, parameters: &Vector2<f64>) -> Option<DVector<f64>> {
         let strip = Cantilever {
             length: self.hang.length,
             angle: parameters[1],
@@ -159,7 +160,7 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        self.at(&self.parameters)
+        self.distances(&self.parameters)
     }
 
     fn jacobian(&self) -> Option<nalgebra::OMatrix<f64, Dyn, nalgebra::U2>> {
@@ -168,8 +169,8 @@ impl LeastSquaresProblem<f64, Dyn, nalgebra::U2> for Residuals<'_> {
         for n in 0..2 {
             let mut step = Vector2::zeros();
             step[n] = DIFFERENCE;
-            let [plus, minus] =
-                [self.at(&(self.parameters + step))?, self.at(&(self.parameters - step))?];
+            let plus = self.distances(&(self.parameters + step))?;
+            let minus = self.distances(&(self.parameters - step))?;
             jacobian.set_column(n, &((plus - minus) / (2.0 * DIFFERENCE)));
         }
         Some(jacobian)
@@ -207,7 +208,7 @@ fn signs(hang: &Hang, [x, z]: [f64; 2]) -> Result<(), (usize, PointFault)> {
 fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
     positive("the length of the overhang", hang.length, "m")?;
     positive("the weight per area", hang.weight, "N/m^2")?;
-    let few = |found| Error::FitTooFew { what: name.to_string(), found, wanted: FEWEST };
+    let few = |found| Error::FitTooFew { what: name.to_string(), found, expected: FEWEST };
     // points at the edge say nothing: every strip goes through it
     let far = hang.points.iter().filter(|[x, z]| x.hypot(*z) > 0.02 * hang.length).count();
     if far < FEWEST {
@@ -250,13 +251,10 @@ fn fit_one(hang: &Hang, name: &str) -> Result<[Estimate; 2], Error> {
         .ok_or_else(|| no_fit("rigidity and angle at the edge cannot be told apart".into()))?;
     let error = |n: usize| (variance * covariance[(n, n)]).sqrt();
     let rigidity = problem.parameters[0].exp();
-    let estimate = |value: f64, error: f64| Estimate {
-        value,
-        error,
-        sure: Sure::Residuals(degrees),
-        scatter: None,
-    };
-    Ok([estimate(rigidity, rigidity * error(0)), estimate(problem.parameters[1], error(1))])
+    Ok([
+        Estimate::of_residuals(rigidity, rigidity * error(0), degrees),
+        Estimate::of_residuals(problem.parameters[1], error(1), degrees),
+    ])
 }
 
 /// Rigidity per width (N·m) of strips that hang over an edge, by least squares with the exact elastica; of several strips the mean, and
@@ -269,7 +267,7 @@ pub fn fit_hang(strips: &[(String, Hang)]) -> Result<(Estimate, Vec<[Estimate; 2
     let each: Result<Vec<_>, _> = strips.iter().map(|(name, hang)| fit_one(hang, name)).collect();
     let each = each?;
     let whole = match each.as_slice() {
-        [] => return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 }),
+        [] => return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 }),
         [[rigidity, _]] => *rigidity,
         many => {
             let values: Vec<f64> = many.iter().map(|[rigidity, _]| rigidity.value).collect();
@@ -312,7 +310,7 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
             .map_err(|(point, fault)| Error::FitPoint { what: name.clone(), point, fault })?;
         if folded.len() < 3 {
             let found = folded.len();
-            return Err(Error::FitTooFew { what: name.clone(), found, wanted: 3 });
+            return Err(Error::FitTooFew { what: name.clone(), found, expected: 3 });
         }
         curves.push(folded);
         remarks.push(own);
@@ -321,7 +319,7 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
     let reaches: Vec<f64> = curves.iter().map(last).collect();
     let reach = reaches.iter().copied().fold(f64::INFINITY, f64::min);
     if curves.is_empty() {
-        return Err(Error::FitTooFew { what: "the test".into(), found: 0, wanted: 1 });
+        return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 });
     }
     let means: Vec<Vec<[f64; 2]>> = curves.iter().map(|curve| in_intervals(curve, reach)).collect();
     let first = means.first().map(Vec::as_slice).unwrap_or_default();
@@ -354,8 +352,10 @@ pub fn fit_moments(specimens: &[(String, Vec<[f64; 2]>)]) -> Result<MomentFit, E
         let reason = "the moment does not rise with the curvature".to_string();
         return Err(Error::FitNoStrip { what: "the bending test".into(), reason });
     }
+    // a load cell that shows nothing yet has no scatter
     let shares: Option<Vec<f64>> = rows
         .iter()
+        .filter(|(_, mean, _)| *mean != 0.0)
         .map(|(_, mean, deviation)| Some((*deviation.as_ref()? / mean).powi(2)))
         .collect();
     let scatter = shares.map(|s| (s.iter().sum::<f64>() / s.len().max(1) as f64).sqrt());

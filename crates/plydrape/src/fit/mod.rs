@@ -1,8 +1,9 @@
 //! Laws of a ply from tests of specimens, with their uncertainty.
 //!
 //! `shear` turns forces of a bias-extension or picture-frame test into shear force per length, `bending` overhangs, hanging
-//! strips and bending tests into rigidities and curves of the moment, `rate` strips that are pulled at several speeds into what resin adds. `record` finds the part of a machine's record that is the test,
-//! `statistics` says how sure the laws are. Theory: `docs/theory/fit.md`.
+//! strips and bending tests into rigidities and curves of the moment, `rate` strips that are pulled at several speeds into what
+//! resin adds. `record` finds the part of a machine's record that is the test, and `statistics` says how sure the laws are. Theory:
+//! `docs/theory/fit.md`.
 
 mod bending;
 mod rate;

@@ -5,7 +5,7 @@
 //! coefficients and in G₁, so that for each θ they are found by linear least squares, and θ alone is searched for.
 
 use super::shear::{BiasExtension, ShearTest, table_of};
-use super::statistics::{Estimate, Sure};
+use super::statistics::Estimate;
 use crate::Error;
 use crate::error::PointFault;
 use nalgebra::{DMatrix, DVector};
@@ -32,7 +32,7 @@ pub struct TimedSpecimen {
     pub test: BiasExtension,
     /// Record: displacement (m) and force (N).
     pub points: Vec<[f64; 2]>,
-    /// Times of the points, rising (s).
+    /// Times of the points, one each, rising (s).
     pub times: Vec<f64>,
 }
 
@@ -72,15 +72,13 @@ struct Record {
 impl Record {
     fn new(specimen: &TimedSpecimen) -> Result<Self, Error> {
         let TimedSpecimen { name, test, points, times } = specimen;
-        // refuse what no fit could use: impossible strips, too few points, times that do not rise
+        // refuse what no fit could use: impossible strips, too few points or times, times that do not rise
         let trellis = ShearTest::Bias(*test);
         trellis.check()?;
-        if points.len() < LINEAR {
-            return Err(Error::FitTooFew {
-                what: name.clone(),
-                found: points.len(),
-                wanted: LINEAR,
-            });
+        let found = points.len().min(times.len());
+        let expected = points.len().max(times.len()).max(LINEAR);
+        if found < expected {
+            return Err(Error::FitTooFew { what: name.clone(), found, expected });
         }
         let fault = |point, fault| Error::FitPoint { what: name.clone(), point, fault };
         if let Some(n) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
@@ -215,19 +213,13 @@ pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
         let entry = inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(n, n)]);
         (squares / degrees as f64 * entry).sqrt()
     };
-    let estimate = |value: f64, error: f64| Estimate {
-        value,
-        error,
-        sure: Sure::Residuals(degrees),
-        scatter: None,
-    };
     let largest = records.iter().flat_map(|record| &record.angles).copied().fold(0.0, f64::max);
     let polynomial =
         |angle: f64| (0..POWERS).map(|k| solution[k] * angle.powi(k as i32 + 1)).sum::<f64>();
     let (angle, force) = table_of(largest, polynomial);
     Ok(RateFit {
-        stiffness: estimate(stiffness, error(POWERS)),
-        relaxation: estimate(relaxation, relaxation * error(LINEAR)),
+        stiffness: Estimate::of_residuals(stiffness, error(POWERS), degrees),
+        relaxation: Estimate::of_residuals(relaxation, relaxation * error(LINEAR), degrees),
         angle,
         force,
         residual: (squares / count as f64).sqrt(),
@@ -235,20 +227,20 @@ pub fn fit_rate(specimens: &[TimedSpecimen]) -> Result<RateFit, Error> {
 }
 
 /// Where a function is least between two places, by the golden section.
-fn least(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
+fn least(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let place = |low: f64, high: f64, share: f64| low + share * (high - low);
     let mut inner = [place(low, high, 1.0 - golden), place(low, high, golden)];
-    let mut values = inner.map(&of);
+    let mut values = inner.map(&value);
     for _ in 0..HALVINGS {
         if values[0] < values[1] {
             high = inner[1];
             inner = [place(low, high, 1.0 - golden), inner[0]];
-            values = [of(inner[0]), values[0]];
+            values = [value(inner[0]), values[0]];
         } else {
             low = inner[0];
             inner = [inner[1], place(low, high, golden)];
-            values = [values[1], of(inner[1])];
+            values = [values[1], value(inner[1])];
         }
     }
     0.5 * (low + high)
@@ -334,5 +326,18 @@ mod tests {
         fast.times[7] = fast.times[6];
         let Err(Error::FitPoint { point, fault, .. }) = fit_rate(&[fast]) else { panic!("a law") };
         assert_eq!((point, fault), (7, PointFault::Untimely));
+    }
+
+    /// A point without its time is refused as one that is missing, and so is a time without its point.
+    #[test]
+    fn points_and_times_are_as_many() {
+        let whole = pulled(20e-3, 1.5, 6.0, 20);
+        let (mut timeless, mut pointless) = (whole.clone(), whole);
+        timeless.times.pop();
+        pointless.points.pop();
+        for specimen in [timeless, pointless] {
+            let found = fit_rate(&[specimen]);
+            assert!(matches!(found, Err(Error::FitTooFew { found: 20, expected: 21, .. })));
+        }
     }
 }

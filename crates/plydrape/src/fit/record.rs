@@ -23,7 +23,8 @@ const LEAST: f64 = 0.01;
 const DEVIATIONS: f64 = 5.0;
 /// A few first values may be below zero by this share of the largest force.
 const START: (usize, f64) = (3, 0.02);
-/// A force that is no zero where the test begins, as a share of the largest: refused at no displacement, reported where it follows from the first points.
+/// Force that is not zero where the test begins, as a share of the largest: at a displacement of zero, where it is refused, and by the straight
+/// line through the first points, where it is reported.
 const ZERO: [f64; 2] = [0.1, 0.05];
 /// A first displacement that is far from zero: in distances of the points, and as a share of the last one.
 const LATE: [f64; 2] = [3.0, 0.1];
@@ -83,6 +84,9 @@ pub(super) struct Loading {
 /// # Errors
 /// What no specimen does, at the index of its point.
 pub(super) fn loading(points: &[[f64; 2]]) -> Result<Loading, (usize, PointFault)> {
+    if points.is_empty() {
+        return Ok(Loading { points: 0..0, remarks: Vec::new() });
+    }
     let (end, mut remarks) = forth(points)?;
     let forces: Vec<f64> = points[..end].iter().map(|point| point[1]).collect();
     let below = |n: &usize| forces[*n] < 0.0;

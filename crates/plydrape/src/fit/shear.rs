@@ -70,8 +70,9 @@ pub struct ShearFit {
     pub deviation: Option<Vec<f64>>,
     /// Scatter between specimens as a share of the force, root mean square over the angles.
     pub scatter: Option<f64>,
-    /// Coefficients of γ, γ², γ³ (N/m) by least squares, and their standard errors from the residuals.
-    pub polynomial: [[f64; 2]; POWERS],
+    /// Coefficients of γ, γ², γ³ (N/m) by least squares, and their standard errors from the residuals; `None` where fewer than three points
+    /// are left.
+    pub polynomial: Option<[[f64; 2]; POWERS]>,
     /// Where the curve turns up (rad): the corner of the best two straight lines; `None` where it does not.
     pub locking: Option<f64>,
     /// The largest shear angle of each specimen (rad).
@@ -178,7 +179,7 @@ impl ShearSpecimen {
         };
         if self.points.len() < 3 {
             let (what, found) = (self.name.clone(), self.points.len());
-            return Err(Error::FitTooFew { what, found, wanted: 3 });
+            return Err(Error::FitTooFew { what, found, expected: 3 });
         }
         let shears = |displacement: f64| {
             self.test.angle(displacement).is_some_and(|angle| angle > 0.0 && angle <= LARGEST)
@@ -208,7 +209,7 @@ impl ShearSpecimen {
         known.dedup_by(|b, a| b[0] - a[0] < 1e-12);
         if known.len() < 3 {
             let what = format!("the loading in {}", self.name);
-            return Err(Error::FitTooFew { what, found: known.len(), wanted: 3 });
+            return Err(Error::FitTooFew { what, found: known.len(), expected: 3 });
         }
         let mut curve = [vec![0.0], vec![0.0]];
         for [angle, force] in known {
@@ -233,27 +234,30 @@ impl ShearSpecimen {
 /// The shear law of all specimens, each with its own measures.
 ///
 /// # Errors
-/// The errors of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if the specimens share less than 10° of shear.
+/// The errors of [`ShearSpecimen::curve`], and [`Error::FitTooFew`] if there are no specimens, or these share less than 10° of shear.
 pub fn fit_shear(specimens: &[ShearSpecimen]) -> Result<ShearFit, Error> {
     let found: Result<Vec<_>, _> = specimens.iter().map(ShearSpecimen::curve).collect();
     let (curves, remarks): (Vec<[Vec<f64>; 2]>, Vec<_>) = found?.into_iter().unzip();
+    if curves.is_empty() {
+        return Err(Error::FitTooFew { what: "the test".into(), found: 0, expected: 1 });
+    }
     let reach: Vec<f64> =
         curves.iter().map(|[angles, _]| angles.last().copied().unwrap_or(0.0)).collect();
     let shared = reach.iter().copied().fold(f64::INFINITY, f64::min);
     let whole = (shared / SPACING + 1e-9).floor() as usize;
-    if whole < 2 || curves.is_empty() {
+    if whole < 2 {
         let shortest = specimens.iter().zip(&reach).find(|(_, own)| **own == shared);
         let name = shortest.map_or("", |(specimen, _)| &specimen.name);
         let what = format!(
             "the shear that all specimens reach, up to {:.1} deg of {name}, in points every 5 deg,",
             shared.to_degrees()
         );
-        return Err(Error::FitTooFew { what, found: whole.min(100), wanted: 2 });
+        return Err(Error::FitTooFew { what, found: whole, expected: 2 });
     }
     let angle = angles_to(shared);
-    let at =
+    let forces =
         |n: usize| -> Vec<f64> { curves.iter().map(|[x, y]| smoothed(x, y, angle[n])).collect() };
-    let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&at(n))).collect();
+    let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&forces(n))).collect();
     let mut means = vec![0.0];
     // below zero by noise alone: more is refused before
     means.extend(rows.iter().map(|(mean, _)| mean.max(0.0)));
@@ -326,17 +330,20 @@ fn smoothed(x: &[f64], y: &[f64], at: f64) -> f64 {
     line(&near).map_or_else(|| near[0][1], |(value, _)| value)
 }
 
-/// Coefficients of γ, γ², γ³ by least squares, and their standard errors.
-fn polynomial(points: &[[f64; 2]]) -> [[f64; 2]; POWERS] {
+/// Coefficients of γ, γ², γ³ by least squares, and their standard errors; `None` of fewer points.
+fn polynomial(points: &[[f64; 2]]) -> Option<[[f64; 2]; POWERS]> {
     let rows = points.len();
+    if rows < POWERS {
+        return None;
+    }
     let matrix = DMatrix::from_fn(rows, POWERS, |i, j| points[i][0].powi(j as i32 + 1));
     let right = DVector::from_fn(rows, |i, _| points[i][1]);
     let normal = matrix.transpose() * &matrix;
-    let Some(inverse) = normal.try_inverse() else { return [[f64::NAN; 2]; POWERS] };
+    let inverse = normal.try_inverse()?;
     let solution = &inverse * (matrix.transpose() * &right);
     let residual = (&matrix * &solution - right).norm_squared();
     let variance = residual / (rows.saturating_sub(POWERS).max(1)) as f64;
-    std::array::from_fn(|n| [solution[n], (variance * inverse[(n, n)]).sqrt()])
+    Some(std::array::from_fn(|n| [solution[n], (variance * inverse[(n, n)]).sqrt()]))
 }
 
 /// The corner of the two straight lines, one from 0, that are nearest to the table; `None` where the second is not much steeper.

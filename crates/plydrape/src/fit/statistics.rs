@@ -8,7 +8,7 @@ pub enum Sure {
     /// The residuals of one specimen's points, by the covariance of the fit, with this many degrees of freedom. It says nothing of
     /// how specimens differ.
     Residuals(usize),
-    /// Nothing: one value of one specimen.
+    /// Nothing says it, because the value is the only one of one specimen.
     Unknown,
 }
 
@@ -39,6 +39,11 @@ impl Estimate {
             },
             None => Estimate { value, error: f64::INFINITY, sure: Sure::Unknown, scatter: None },
         }
+    }
+
+    /// A value of one specimen with its standard error by the covariance of the fit, and the degrees of freedom of that.
+    pub(super) fn of_residuals(value: f64, error: f64, degrees: usize) -> Estimate {
+        Estimate { value, error, sure: Sure::Residuals(degrees), scatter: None }
     }
 
     /// The interval that holds the true value in 95 of 100 tests, by Student's distribution; `None` where nothing says it.
@@ -110,5 +115,7 @@ pub(super) fn line(points: &[[f64; 2]]) -> Option<(f64, f64)> {
     let sum = |f: fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();
     let (x, y) = (sum(|p| p[0]) / count, sum(|p| p[1]) / count);
     let (xx, xy) = (sum(|p| p[0] * p[0]) / count - x * x, sum(|p| p[0] * p[1]) / count - x * y);
-    (xx > 0.0).then(|| (y - xy / xx * x, xy / xx))
+    // rounding leaves a variance where there is none
+    let differs = points.iter().any(|p| p[0] != points[0][0]);
+    (differs && xx > 0.0).then(|| (y - xy / xx * x, xy / xx))
 }

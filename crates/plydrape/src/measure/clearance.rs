@@ -4,8 +4,7 @@
 //! count as negative distances.
 
 use super::{
-    Bound, Course, Description, Found, Limits, Measure, Name, Observation, Sense, Unit,
-    WholeMotion, Worth,
+    Bound, Course, Description, Found, Measure, Name, Observation, Sense, Unit, WholeMotion, Worth,
 };
 use crate::clearance::{self, Nearest};
 use crate::layup::Layup;
@@ -42,7 +41,7 @@ impl Measure for Clearance {
         if layup.bodies.is_empty() {
             return None;
         }
-        let (least, now) = (least(limits), seen.poses());
+        let (least, now) = (limits.least(Name::Clearance), seen.poses());
         let Some(past) = past else {
             return Some(found(&clearance::at_poses(layup, least, &now)?, state.time));
         };
@@ -55,24 +54,20 @@ impl Measure for Clearance {
         if layup.bodies.is_empty() {
             return None;
         }
-        // of the arm in the configuration in which it is judged
+        // the limit, of which the resolution of distances is a share; and the arm in the configuration in which it is judged
+        let least = limits.least(Name::Clearance);
         let record = whole.tool.and_then(|peaks| peaks.arm_record);
         let layup = &layup.beginning_as(record.as_ref());
         let nearest = match (motion, whole.attitudes) {
             (Course::Smooth(motion), Some(attitudes)) => {
-                Nearest::of_motion(layup, least(limits), rate, motion, attitudes)?
+                Nearest::of_motion(layup, least, rate, motion, attitudes)?
             }
             // between the steps of a motion that was given, every step has looked, but not at the arm
-            (Course::Steps(motion), _) => Nearest::of_arm(layup, least(limits), motion)?,
+            (Course::Steps(motion), _) => Nearest::of_arm(layup, least, motion)?,
             (Course::Smooth(_), None) => return None,
         };
         Some((found(&nearest, nearest.time), Some(nearest.time)))
     }
-}
-
-/// The limit (m) that the resolution of distances is a share of.
-fn least(limits: &Limits) -> f64 {
-    limits.get(Name::Clearance).unwrap_or(0.0)
 }
 
 /// What a nearest pair is as a value (mm), at a time (s).

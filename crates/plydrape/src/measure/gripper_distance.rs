@@ -28,8 +28,8 @@ impl Measure for GripperDistance {
     }
 
     fn usual_limit(&self, layup: &Layup) -> Option<UsualLimit> {
-        let [a, b] = layup.ply.cell;
-        UsualLimit::new(0.5 * a.min(b), "our choice: half of the shorter side of a cell")
+        let side = layup.ply.shorter_side();
+        UsualLimit::new(0.5 * side, "our choice: half of the shorter side of a cell")
     }
 
     fn evaluate(&self, seen: &Observation) -> Option<Found> {

@@ -57,32 +57,25 @@ impl<'a> Judge<'a> {
 
     /// Evaluates the limits of a step; `last` if no other follows.
     pub fn see(&mut self, state: &PlyState, last: bool) {
-        let seen = self.observation(state);
-        let judged = |name: &&Name| {
-            (last || name.measure().scope() != Scope::End) && self.limit(**name).is_some()
-        };
-        let found: Vec<(Name, Found)> = Name::ALL
-            .iter()
-            .filter(judged)
-            .filter_map(|name| Some((*name, name.measure().evaluate(&seen)?)))
-            .collect();
+        let found = self.evaluate(state, |name| {
+            (last || name.measure().scope() != Scope::End) && self.limit(name).is_some()
+        });
         self.keep(state, &found);
     }
 
     /// Evaluates every measure of a step, and returns them.
     pub fn see_all(&mut self, state: &PlyState) -> Measures {
-        let seen = self.observation(state);
-        let found: Vec<(Name, Found)> = Name::ALL
-            .iter()
-            .filter_map(|name| Some((*name, name.measure().evaluate(&seen)?)))
-            .collect();
+        let found = self.evaluate(state, |_| true);
         self.keep(state, &found);
         found.iter().map(|(name, found)| (*name, Worst::new(found, self.layup))).collect()
     }
 
-    fn observation<'b>(&'b self, state: &'b PlyState) -> Observation<'b> {
+    /// Evaluates the measures of a step that count.
+    fn evaluate(&self, state: &PlyState, counts: impl Fn(Name) -> bool) -> Vec<(Name, Found)> {
         let Judge { layup, limits, past, .. } = self;
-        Observation { layup, limits, state, past: past.as_ref() }
+        let seen = Observation { layup, limits, state, past: past.as_ref() };
+        let names = Name::ALL.iter().copied().filter(|name| counts(*name));
+        names.filter_map(|name| Some((name, name.measure().evaluate(&seen)?))).collect()
     }
 
     /// Keeps what was found in a step, and the step as the past of the next one.

@@ -59,10 +59,16 @@ impl Limits {
         self.bounds.get(name).copied()
     }
 
-    /// The bound of a measure (SI), infinite if it has no limit.
+    /// The bound of a measure (SI) that must not exceed it, infinite if it has no limit.
     #[must_use]
     pub fn most(&self, name: Name) -> f64 {
         self.get(name).unwrap_or(f64::INFINITY)
+    }
+
+    /// The bound of a measure (SI) that must not fall below it, zero if it has no limit.
+    #[must_use]
+    pub fn least(&self, name: Name) -> f64 {
+        self.get(name).unwrap_or(0.0)
     }
 
     /// The bounds that no gripper exceeds in a planned motion.
@@ -104,8 +110,8 @@ impl Limits {
         self
     }
 
-    /// The limits of a layup that none of these verdicts is on, in the measure's own unit: of a motion in time, and those that are neither usual nor
-    /// of a preset, whether the layup has what they measure or not.
+    /// The limits of a layup on which there is no verdict among these, in the measure's own unit: limits of a motion in time, and limits that are
+    /// neither usual nor of a preset, whether the layup has what they measure or not.
     #[must_use]
     pub fn unjudged(&self, layup: &Layup, verdicts: &[Verdict]) -> Vec<(Name, f64)> {
         let usual = Limits::usual(layup);
@@ -183,8 +189,8 @@ mod tests {
                     Name::SlackRatio => preset.value(Name::SlackAngle).map(slack_of_angle),
                     name => preset.value(*name),
                 };
-                let wanted = figure.or(before.get(*name));
-                assert_eq!(after.get(*name), wanted, "{preset:?} {name:?}");
+                let expected = figure.or(before.get(*name));
+                assert_eq!(after.get(*name), expected, "{preset:?} {name:?}");
             }
         }
     }

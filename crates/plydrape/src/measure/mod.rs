@@ -146,11 +146,11 @@ pub enum Scope {
     EveryStep,
     /// At the end alone.
     End,
-    /// Of the motion in time: it has no meaning where the steps have no times yet, as in a search.
+    /// In every step of a motion in time: it has no meaning where the steps have no times yet, as in a search.
     Time,
-    /// Of the motion in time alone, whatever the ply does: every motion is judged by it, be it given or planned.
+    /// Over a motion in time alone, whatever the ply does: every motion is judged by it, be it given or planned.
     Motion,
-    /// Of a whole drape or plan, found outside of its steps.
+    /// Over a whole drape or plan, found outside of its steps.
     Whole,
 }
 
@@ -185,7 +185,7 @@ pub struct Description {
 }
 
 impl Description {
-    /// Of a measure that is bounded from above in every step, and of which less is better.
+    /// A description of a measure that is bounded from above in every step, and of which less is better.
     const fn new(name: &'static str, key: &'static str, label: &'static str, unit: Unit) -> Self {
         let (sense, scope, worth) = (Sense::AtMost, Scope::EveryStep, Worth::Less);
         Description { name, key, label, unit, sense, scope, worth, model: None }
@@ -448,7 +448,7 @@ mod tests {
         let catenaries = values(&layup, &before, &state);
         state.model = Model::Sheet;
         let sheet = values(&layup, &before, &state);
-        for (name, wanted) in [
+        for (name, expected) in [
             (Name::GripperLoad, 6.0),
             (Name::GripperPull, 5.0),
             (Name::Tilt, 0.1_f64.to_degrees()),
@@ -459,7 +459,7 @@ mod tests {
             (Name::Position, 1.0),
         ] {
             let found = value(&catenaries, name).unwrap();
-            assert!((found - wanted).abs() < 1e-9, "{name:?} {found} {wanted}");
+            assert!((found - expected).abs() < 1e-9, "{name:?} {found} {expected}");
             assert_eq!(value(&sheet, name), Some(found), "{name:?}");
         }
     }
@@ -470,7 +470,7 @@ mod tests {
         let layup = sample::layup();
         let state = sample::state(&layup);
         let found = values(&layup, &state, &state);
-        for (name, wanted) in [
+        for (name, expected) in [
             (Name::Slack, 0.3),
             (Name::SlackRatio, 0.3 / 200.0),
             (Name::OverstretchLength, 0.2),
@@ -483,7 +483,7 @@ mod tests {
             (Name::LandingError, 1.0),
         ] {
             let value = value(&found, name).unwrap();
-            assert!((value - wanted).abs() < 1e-9, "{name:?} {value} {wanted}");
+            assert!((value - expected).abs() < 1e-9, "{name:?} {value} {expected}");
         }
     }
 

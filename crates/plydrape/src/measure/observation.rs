@@ -39,7 +39,7 @@ impl Past {
     /// The past of the step that follows a state, which itself followed `before`. `duration` (s) is that of the whole motion.
     #[must_use]
     pub fn after(state: &PlyState, before: Option<Past>, duration: f64) -> Past {
-        let points = |one: fn(&GripperState) -> Point| state.grippers.iter().map(one).collect();
+        let points = |place: fn(&GripperState) -> Point| state.grippers.iter().map(place).collect();
         let mut earlier = VecDeque::new();
         if let Some(before) = before {
             earlier = before.earlier;

@@ -2,7 +2,7 @@
 
 use crate::geometry::Point;
 use crate::layup::{Layup, Model, Settings, Target};
-use crate::material::{Material, Scatter, Section};
+use crate::material::Material;
 use crate::mold::{Mold, Plane};
 use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
@@ -10,17 +10,8 @@ use crate::state::{CellState, FabricPoint, GripperState, LineState, PlyState, Si
 
 /// Four grippers on a square of 100 mm over a flat mold at z = 0, which are to come down by 50 mm in 2 s.
 pub fn layup() -> Layup {
-    let material = Material {
-        name: String::new(),
-        source: String::new(),
-        section: Section::Areal { mass: 0.3, warp_rigidity: 9e-5, weft_rigidity: 9e-5 },
-        moment: [None, None],
-        shear_curve: None,
-        tension: None,
-        locking_angle: None,
-        shear_rate: None,
-        scatter: Scatter::default(),
-    };
+    let woven = Material::woven("", 0.3, 9e-5, 1e6, 5.0);
+    let material = Material { shear_curve: None, tension: None, ..woven };
     let ply = Ply::of_array(Grid { nu: 2, nv: 2 }, [0.1; 2], material);
     let positions = vec![corners(0.05), corners(0.0)];
     let mut layup =

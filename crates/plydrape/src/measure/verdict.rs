@@ -61,17 +61,20 @@ impl Verdict {
 
     /// The value as a multiple of its limit: up to 1 it holds. Of a least one, what is missing to the whole if it is
     /// a share, else the limit as a multiple of the value; where that may be below zero, 1 and what is missing as a multiple of
-    /// the limit.
+    /// the limit, or in its unit where the limit is zero.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         let Verdict { value, limit, .. } = *self;
-        let whole = self.name.measure().unit().factor;
+        let measure = self.name.measure();
+        let (whole, is_signed) = (measure.unit().factor, measure.is_signed());
         if !(value.is_finite() && self.judged) {
             return f64::INFINITY;
         }
         let ratio = match self.is_least() {
             // at the limit as large as, and as steep as, the ratio of what keeps it
-            true if self.name.measure().is_signed() && value < limit => 2.0 - value / limit,
+            true if is_signed && value < limit && limit > 0.0 => 2.0 - value / limit,
+            // of no limit there is no multiple
+            true if is_signed && value < limit => 1.0 + limit - value,
             true if whole != 1.0 => (whole - value) / (whole - limit).max(1e-5 * whole),
             true => limit / value.max(f64::MIN_POSITIVE),
             false if limit > 0.0 => value / limit,
@@ -108,9 +111,11 @@ mod tests {
     #[test]
     fn a_depth_has_a_ratio_too() {
         let ratio = |value: f64| verdict(Name::Clearance, value, 5.0).ratio();
-        for (value, wanted) in [(20.0, 0.25), (5.0, 1.0), (0.0, 2.0), (-5.0, 3.0), (-50.0, 12.0)] {
-            assert!((ratio(value) - wanted).abs() < 1e-12, "{value}: {}", ratio(value));
+        for (value, expected) in [(20.0, 0.25), (5.0, 1.0), (0.0, 2.0), (-5.0, 3.0), (-50.0, 12.0)]
+        {
+            assert!((ratio(value) - expected).abs() < 1e-12, "{value}: {}", ratio(value));
         }
+        assert_eq!(verdict(Name::TableGap, -3.0, 0.0).ratio(), 4.0);
         let slope = |from: f64, to: f64| (ratio(to) - ratio(from)) / (to - from);
         assert!((slope(4.99, 5.0) - slope(5.0, 5.01)).abs() < 1e-3);
         assert!(!verdict(Name::Clearance, -1.0, 5.0).ok && verdict(Name::Clearance, 5.0, 5.0).ok);

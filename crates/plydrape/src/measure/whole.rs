@@ -30,9 +30,9 @@ pub struct WholeMotion<'a> {
 /// The largest rates of the parts of a motion that have limits of their own.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MotionPeaks {
-    /// Of the transport.
+    /// Peaks of the transport.
     pub transport: Peaks,
-    /// Of all that the limits of the transport do not bound.
+    /// Peaks of all that the limits of the transport do not bound.
     pub drape: Peaks,
 }
 
@@ -90,7 +90,8 @@ impl Course<'_> {
     }
 }
 
-/// Every limit of the motion in time of a layup, as its steps and its tool make it, judged, and the arm along it. The transport ends at one of the steps.
+/// Verdicts on all limits of the motion in time of a layup, as its steps and its tool make it, and the arm along it. The transport ends at the
+/// step of index `last_free`.
 #[must_use]
 pub(crate) fn verdicts_of_steps(
     layup: &Layup,

@@ -35,7 +35,7 @@ pub struct DrapedSheet {
     pub drape: sheet::Drape,
     /// The states that the scene keeps, the first and the last among them; empty if the caller took them as they came.
     pub states: Vec<sheet::ClothState>,
-    /// Its flight, if there is one to share.
+    /// The flight of the drape, if there is one to share.
     pub flight: Option<Flight>,
 }
 
@@ -60,7 +60,7 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// Of a drape that could not begin.
+    /// The judgment of a drape that could not begin.
     #[must_use]
     pub(crate) fn nothing() -> Self {
         Judged {
@@ -97,7 +97,7 @@ impl Judged {
     }
 }
 
-/// Who watches a drape: asked whether to go on, and shown what comes.
+/// What watches a drape: it is asked whether to go on, and shown each step.
 pub struct DrapeWatch<'a> {
     /// Asked before each time step whether to end.
     pub stop: &'a (dyn Fn() -> bool + Sync),
@@ -261,9 +261,9 @@ pub(super) struct Seen<'a> {
     pub sheet: &'a sheet::Sheet,
     /// The ply in the step.
     pub state: &'a sheet::ClothState,
-    /// Who has judged it.
+    /// The judge that has seen it.
     pub judge: &'a Judge<'a>,
-    /// Who has handed it over.
+    /// What has handed it over.
     pub hand_over: &'a HandOver,
 }
 

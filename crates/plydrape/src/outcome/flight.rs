@@ -91,7 +91,7 @@ impl Flight {
         judge_seen(cell, limits, usize::MAX, flight, stop).map(|(judged, _)| judged)
     }
 
-    /// Who judges and hands over the ply of a cell that goes on from here.
+    /// The judge of a cell that goes on from here, and what hands over its ply.
     pub(super) fn go_on<'a>(&self, layup: &'a Layup, limits: &'a Limits) -> (Judge<'a>, HandOver) {
         (Judge::after(self.worst.clone(), layup, limits, false), self.hand_over.clone())
     }

@@ -27,7 +27,7 @@ pub struct Constants {
     pub between: f64,
     /// Time of a drape with errors beside that of the drape without (1), where both share their flight.
     pub cell: f64,
-    /// The same where each begins at its start (1).
+    /// Time of a drape with errors beside that of the drape without (1), where each begins at its start.
     pub whole_cell: f64,
     /// c on a machine that has draped nothing yet (s).
     pub seconds: f64,
@@ -65,7 +65,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// That of a finished drape.
+    /// The effort of a finished drape.
     #[must_use]
     pub fn new(drape: &sheet::Drape) -> Self {
         let sheet::Report { nodes, solves, .. } = drape.report;
@@ -110,14 +110,14 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Of drapes of a sheet with so many nodes that need so many linear systems, on all threads, at a pace.
+    /// A forecast for drapes of a sheet by its nodes, the linear systems that it needs, and a pace, on all threads.
     #[must_use]
     pub fn new(nodes: usize, solves: f64, pace: Pace) -> Self {
         let time = seconds(pace.seconds() * solves * work(nodes));
         Self::like(Effort { nodes, solves: solves as usize, time })
     }
 
-    /// Of drapes like one that is finished, on all threads.
+    /// A forecast for drapes like one that is finished, on all threads.
     #[must_use]
     pub fn like(effort: Effort) -> Self {
         let (Effort { nodes, time: drape, .. }, cell) = (effort, CONSTANTS.cell);

@@ -52,7 +52,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Who judges the steps.
+    /// The judge of the steps.
     pub fn judge(&self) -> &Judge<'a> {
         &self.judge
     }
@@ -109,7 +109,7 @@ impl<'a> Recorder<'a> {
 
     fn catenary_report(&self, equilibria: usize) -> CatenaryReport {
         let recorded = || self.steps.iter().filter_map(|s| Some((s.step, s.catenaries.as_ref()?)));
-        let touching = |one: &&crate::draping::record::CatenaryState| one.contact.is_some();
+        let touching = |line: &&crate::draping::record::CatenaryState| line.contact.is_some();
         let first = recorded().find(|(_, step)| step.catenaries.iter().any(|c| touching(&c)));
         let id = |c: &crate::draping::record::CatenaryState| CatenaryId {
             kind: c.kind,

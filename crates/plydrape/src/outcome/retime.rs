@@ -56,7 +56,7 @@ impl Summary {
         let duration = layup.motion.times.last().copied().unwrap_or(0.0);
         let mut past: Option<Past> = None;
         for (n, step) in steps.iter_mut().enumerate() {
-            let mut state = step.state_of_grippers(self.model);
+            let state = step.state_of_grippers(self.model);
             let seen = Observation { layup, limits, state: &state, past: past.as_ref() };
             let mut found: Vec<(Name, Option<Found>)> =
                 names.iter().map(|name| (*name, name.measure().evaluate(&seen))).collect();
@@ -73,7 +73,6 @@ impl Summary {
             for (name, found) in found {
                 step.measures.set(name, found.map(|found| Worst::new(&found, layup)));
             }
-            state.step = step.step;
             past = Some(Past::after(&state, past.take(), duration));
         }
         self.worst = worst_numbers(steps.iter().map(|step| &step.measures));

@@ -19,20 +19,20 @@ pub struct Robustness {
     scene: Scene,
     /// The errors of the sample; `None` where the scene has none.
     sample: Option<Errors>,
-    /// Whether somebody asks what the motion tolerates.
+    /// Whether it is asked what the motion tolerates.
     tolerance: bool,
 }
 
 impl Robustness {
-    /// Of a drape along the motion of a scene: only the scene's own errors count.
+    /// The judgment of a drape along the motion of a scene: only the scene's own errors count.
     #[must_use]
     pub fn of_simulated(scene: &Scene) -> Self {
         let errors = scene.errors.filter(Errors::is_drawn);
         Robustness { scene: scene.clone(), sample: errors, tolerance: errors.is_some() }
     }
 
-    /// Of a drape along a planned motion, with steps cut as planners do. What it tolerates is said, but not where the scene asks for no
-    /// samples.
+    /// The judgment of a drape along a planned motion, with steps cut as planners do. What it tolerates is found, but not where the scene asks
+    /// for no samples.
     #[must_use]
     pub fn of_planned(scene: &Scene, motion: Motion) -> Self {
         let mut planned = scene.clone();

@@ -37,7 +37,8 @@ pub struct SampleVerdict {
     pub errors: Errors,
     /// How many cells of the whole sample must keep every limit.
     pub needed: usize,
-    /// Whether it is accepted: this many do, or all of this many first ones that no more were draped ([`Errors::decided`]).
+    /// Whether it is accepted: as many cells as needed keep every limit, or all of the first ones do and these are enough
+    /// ([`Errors::decided`]).
     pub ok: bool,
     /// Confidence (0 to 1) that the share of all possible cells keeps every limit if `ok`, and that fewer do if not.
     pub confidence: f64,
@@ -243,7 +244,7 @@ fn cell_verdict(drape: &Drape) -> CellVerdict {
     }
 }
 
-/// Every limit, judged by the drape of which so many keep it as well or better.
+/// Every limit, judged by the drape at this rank: as many keep the limit as well or better.
 fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
     let mut names: Vec<_> = Vec::new();
     for verdict in drapes.iter().flat_map(|drape| &drape.judged.limits) {
@@ -252,9 +253,9 @@ fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
         }
     }
     let verdict_of = |name| {
-        let of =
+        let verdicts =
             drapes.iter().flat_map(|drape| drape.judged.limits.iter().find(|v| v.name == name));
-        let mut found: Vec<&Verdict> = of.collect();
+        let mut found: Vec<&Verdict> = verdicts.collect();
         found.sort_by(|a, b| a.ratio().total_cmp(&b.ratio()));
         found.get(needed.min(found.len()).max(1) - 1).map(|verdict| (*verdict).clone())
     };

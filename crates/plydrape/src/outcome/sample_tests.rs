@@ -28,7 +28,7 @@ pub(super) fn sheet() -> Scene {
     scene
 }
 
-/// Of the grippers' positions along each axis (m).
+/// Errors of the grippers' positions along each axis (m).
 fn of_grippers(samples: usize, bound: f64) -> Errors {
     let mut errors = Errors { samples, seed: 3, ..Errors::default() };
     errors.gripper.position = Term::Bound(bound);
@@ -59,7 +59,7 @@ fn so_many_cells_are_needed_as_the_share_says() {
     }
 }
 
-/// Errors of which so many cells must keep the limits.
+/// Errors with a sample of this many cells, of which a share must keep the limits.
 fn counted(samples: usize, share: f64) -> Errors {
     Errors { samples, share, ..Errors::default() }
 }

@@ -22,7 +22,7 @@ pub enum Status {
     NotSolved,
     /// No ply would survive the last step, see [`Summary::stopped`].
     Torn,
-    /// Somebody broke it off.
+    /// It was broken off.
     Interrupted,
 }
 
@@ -138,7 +138,7 @@ impl Summary {
         }
     }
 
-    /// Whether somebody broke the drape off.
+    /// Whether the drape was broken off.
     #[must_use]
     pub fn interrupted(&self) -> bool {
         self.status == Status::Interrupted
@@ -151,8 +151,8 @@ impl Summary {
         catenaries.or(self.sheet.as_ref().and_then(|report| report.first_contact_step))
     }
 
-    /// The last of so many steps, by its index, at which nothing that happens depends on the mold: two before the first contact, or the last step of a motion that
-    /// ends in the air.
+    /// The index of the last step, in a motion of this number of steps, at which nothing that happens depends on the mold: two before the first
+    /// contact, or the last step of a motion that ends in the air.
     #[must_use]
     pub fn last_free(&self, steps: usize) -> usize {
         self.first_contact_step()
@@ -198,8 +198,8 @@ impl Summary {
         self.judge_rest(layup, limits);
     }
 
-    /// Says of every limit of a finished drape that none of its verdicts is on that it was not judged, so that it is not accepted: of those that
-    /// somebody has set, because a usual limit is of the model that measures it, and of those of a motion in time.
+    /// Adds a verdict that a limit was not judged for limits of a finished drape on which there is none, so that it is not accepted: for limits
+    /// that a scene sets, because a usual limit is of the model that measures it, and for limits of a motion in time.
     pub fn judge_rest(&mut self, layup: &Layup, limits: &Limits) {
         if self.status != Status::Converged {
             return;

@@ -144,8 +144,8 @@ fn a_verdict_that_contradicts_its_limits_is_refused() {
         let forged = text.replacen(&own, &format!("\"accepted\":{says}"), 1);
         assert_ne!(forged, text);
         let refused = serde_json::from_str::<Summary>(&forged).unwrap_err().to_string();
-        let wanted = format!("`accepted` is {says}, and by its limits the drape is {follows}");
-        assert!(refused.contains(&wanted), "{refused}");
+        let expected = format!("`accepted` is {says}, and by its limits the drape is {follows}");
+        assert!(refused.contains(&expected), "{refused}");
         // without a verdict it is no summary of this version
         let without = text.replacen(&format!("{own},"), "", 1);
         assert!(serde_json::from_str::<Summary>(&without).is_err());

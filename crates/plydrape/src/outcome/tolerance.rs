@@ -47,7 +47,7 @@ impl Tolerance {
     /// The largest multiple of a property of the ply that is tried; the least is its inverse.
     pub const MOST: f64 = MULTIPLES[MULTIPLES.len() - 1];
 
-    /// Of a motion that is not accepted without errors.
+    /// What a motion tolerates that is not accepted without errors.
     pub const NOTHING: Tolerance = Tolerance {
         gripper_mm: 0.0,
         gripper_at_least: false,
@@ -94,16 +94,17 @@ fn unit_error(pitch: f64) -> f64 {
     1e-3 * pitch
 }
 
-/// The least and the largest multiple of a property of the ply with which a scene along its motion is accepted; `of` is the error of that
-/// property. What is refused at one multiple is taken to be refused at those beyond it. Another ply hangs otherwise in the air from the start on, so each is draped from there. None if it was stopped.
+/// The least and the largest multiple of a property of the ply with which a scene along its motion is accepted; `error_of`
+/// makes the error of that property. What is refused at one multiple is taken to be refused at those beyond it. Another ply hangs in another shape
+/// from the start on, so each is draped from there. `None` if it was stopped.
 fn range(
     scene: &Scene,
-    of: impl Fn(RelativeError) -> MaterialError + Sync,
+    error_of: impl Fn(RelativeError) -> MaterialError + Sync,
     watch: &Watch,
 ) -> Option<[f64; 2]> {
     let keeps = |multiple: f64| {
         let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
-        draw.material = of(RelativeError::Share(multiple - 1.0));
+        draw.material = error_of(RelativeError::Share(multiple - 1.0));
         let other = Scene { layup: draw.apply(&scene.layup), errors: None, ..scene.clone() };
         Some(draped(&other, None, watch.stop)?.judged.accepted())
     };
@@ -160,7 +161,7 @@ fn factor(place: i32) -> f64 {
 }
 
 /// The last place at which a cell keeps its limits, one before the first if it keeps them nowhere; no search beyond `most`, if
-/// given. None if it was stopped.
+/// given. `None` if it was stopped.
 fn largest(most: Option<i32>, keeps: impl Fn(i32) -> Option<bool>) -> Option<i32> {
     let [first, last] = PLACES;
     let start = most.unwrap_or(0);

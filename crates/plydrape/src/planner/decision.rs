@@ -76,9 +76,9 @@ impl Decision {
         state: &SearchState,
     ) -> Result<Self, Error> {
         let asked = positions.clone();
-        let planned = Planned::new(scene, strategy, positions)?;
-        state.set_forecast(forecast(scene, &planned.motion, ranked, state));
-        let decision = planned.decide(scene, state).and_then(|mut decision| {
+        let undecided = Undecided::new(scene, strategy, positions)?;
+        state.set_forecast(forecast(scene, &undecided.motion, ranked, state));
+        let decision = undecided.decide(scene, state).and_then(|mut decision| {
             decision.slow_down(scene, state, true)?;
             if decision.decided.judged.accepted() {
                 decision.finish(scene, Vec::new(), state, true)?;
@@ -211,7 +211,7 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, Error> {
-        Planned::new(scene, strategy, positions)?.decide(scene, state)
+        Undecided::new(scene, strategy, positions)?.decide(scene, state)
     }
 
     /// Slows a motion that is not accepted until the resin of the ply follows it, by a power of 2; leaves it as it is where that does not
@@ -291,14 +291,14 @@ impl Decision {
 }
 
 /// A plan before it is decided on: a [`Decision`] without what was decided.
-struct Planned {
+struct Undecided {
     strategy: Option<Strategy>,
     positions: Vec<Vec<Point>>,
     asked: Option<ToolRecord>,
     motion: TimedMotion,
 }
 
-impl Planned {
+impl Undecided {
     /// The motion in time along planned positions (m).
     fn new(
         scene: &Scene,
@@ -319,12 +319,12 @@ impl Planned {
             None => (positions, None),
         };
         let motion = TimedMotion::new(&positions, &scene.limits.motion_bounds())?;
-        Ok(Planned { strategy, positions, asked, motion })
+        Ok(Undecided { strategy, positions, asked, motion })
     }
 
     fn decide(self, scene: &Scene, state: &SearchState) -> Result<Decision, Error> {
         let decided = decide(scene, &self.motion, state)?;
-        let Planned { strategy, positions, asked, motion } = self;
+        let Undecided { strategy, positions, asked, motion } = self;
         let (cycle, limited_by, slowed, redraped) = (None, None, 1.0, false);
         Ok(Decision {
             strategy,
@@ -390,7 +390,7 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     );
     let (_, mut drape) = drape?;
     let attitudes = outcome::attitudes(&drape.steps)?;
-    let clearance = clearance(scene, motion, &attitudes);
+    let clearance = evaluation::clearance_of_motion(scene, motion, &attitudes);
     drape.summary.judge_also(clearance.clone());
     let mut judged = Judged::new(&drape);
     let mut score = evaluation::score(&judged);
@@ -424,12 +424,6 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
         score = evaluation::score(&judged);
     }
     Ok(Decided { drape, attitudes, judged, score, refused_by })
-}
-
-/// The verdict on the nearest pair of bodies along the whole motion, with pads turned as the motion file will say; `None` if the scene has
-/// no bodies.
-fn clearance(scene: &Scene, motion: &TimedMotion, attitudes: &Attitudes) -> Option<Verdict> {
-    evaluation::clearance_of_motion(scene, motion, attitudes)
 }
 
 /// The drape of the sheet along the motion with a step half-way between all its steps, because a good plan does not depend

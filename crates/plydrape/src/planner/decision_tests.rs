@@ -68,31 +68,30 @@ fn a_plan_that_keeps_its_limits_at_its_steps_alone_is_refused() {
 #[test]
 fn a_plan_is_called_accepted_once_its_motion_is_judged_too() {
     let mut scene = scene();
-    scene.limits.set(Name::GripperDistance, Some(0.01));
     let start = scene.layup.motion.positions[0].clone();
     let lift = |k: usize| start.iter().map(|p| [p[0], p[1], p[2] + 5e-3 * k as f64]).collect();
     let positions: Vec<Vec<_>> = (0..6).map(lift).collect();
     let mut decide = |longest: Option<f64>| {
         scene.limits.set(Name::Duration, longest);
-        let mut told = false;
+        let mut reported = false;
         let mut go_on = |progress: &super::Progress| {
-            told |= progress.accepted;
+            reported |= progress.accepted;
             ControlFlow::Continue(())
         };
         let state = SearchState::new(1, &mut go_on);
         let decision = Decision::on(&scene, None, positions.clone(), None, &state).unwrap();
         drop(state);
-        (decision, told)
+        (decision, reported)
     };
-    let (free, told) = decide(None);
+    let (free, reported) = decide(None);
     assert!(free.decided.judged.accepted(), "{:?}", free.decided.judged);
-    assert!(told && free.limited_by.is_some() && free.decided.drape.summary.accepted());
+    assert!(reported && free.limited_by.is_some() && free.decided.drape.summary.accepted());
     let duration = free.motion.duration();
 
-    let (refused, told) = decide(Some(0.5 * duration));
-    assert!(!told && !refused.decided.judged.accepted(), "{:?}", refused.decided.judged);
+    let (refused, reported) = decide(Some(0.5 * duration));
+    assert!(!reported && !refused.decided.judged.accepted(), "{:?}", refused.decided.judged);
     assert!(refused.decided.score > 1.0 && !refused.decided.drape.summary.accepted());
-    let (kept, told) = decide(Some(2.0 * duration));
-    assert!(told && kept.decided.drape.summary.accepted());
+    let (kept, reported) = decide(Some(2.0 * duration));
+    assert!(reported && kept.decided.drape.summary.accepted());
     assert_eq!(kept.decided.score, free.decided.score, "a limit that is kept changes no ranking");
 }

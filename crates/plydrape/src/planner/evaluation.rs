@@ -41,9 +41,11 @@ pub fn first_mesh(layup: &Layup) -> Mesh {
 }
 
 /// The drapes along planned positions: the one without errors, and those of cells with errors.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Drapes {
-    /// Of each limit the worst of all.
+    /// The worst of all drapes, limit by limit.
     pub worst: Judged,
     /// Each of them, the one without errors first.
     pub each: Vec<Judged>,
@@ -74,7 +76,11 @@ pub fn drape(
 ) -> Result<Drapes, Error> {
     let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    let layup = along_motion(&scene.layup, Motion { times, positions });
+    let mut layup = along_motion(&scene.layup, Motion { times, positions });
+    // a candidate begins where the ply hangs: none of its steps is one of the lift
+    if let Some(pick_up) = &mut layup.pick_up {
+        pick_up.lift_steps = 0;
+    }
     let limits = &scene.limits;
     match layup.settings.model {
         Model::Catenaries => {
@@ -206,18 +212,19 @@ pub fn also(mut drape: Judged, verdict: Option<Verdict>) -> Judged {
 #[must_use]
 pub fn clearance_verdict(scene: &Scene, nearest: &Nearest, step: usize) -> Verdict {
     let worst = Worst::new(&clearance_found(nearest, nearest.time), &scene.layup);
-    let limit = scene.limits.get(Name::Clearance).unwrap_or(0.0) * 1e3;
+    let limit = scene.limits.least(Name::Clearance) * 1e3;
     Verdict::new(Name::Clearance, worst, limit, Some(step))
 }
 
-/// The verdict on the nearest pair of bodies along the whole of a motion in time; `None` if the scene has no bodies.
+/// The verdict on the nearest pair of bodies along the whole of a motion in time, with pads turned as the motion file will say; `None` if the
+/// scene has no bodies.
 #[must_use]
 pub fn clearance_of_motion(
     scene: &Scene,
     motion: &TimedMotion,
     attitudes: &Attitudes,
 ) -> Option<Verdict> {
-    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+    let least = scene.limits.least(Name::Clearance);
     let rate = motion.fitting_rate(scene.plan.rate);
     let nearest = Nearest::of_motion(&scene.layup, least, rate, motion, attitudes)?;
     let step = motion.times().partition_point(|t| *t < nearest.time) + 1;
@@ -259,6 +266,10 @@ impl Bias {
             let Some(b) = fine.limits.iter().find(|b| b.name == a.name) else { continue };
             let most = TUNING.largest_bias;
             let factor = (b.ratio() / a.ratio().max(f64::MIN_POSITIVE)).clamp(1.0 / most, most);
+            // two ratios without end say nothing of each other
+            if factor.is_nan() {
+                continue;
+            }
             match self.0.iter_mut().find(|(name, _)| *name == a.name) {
                 Some((_, before)) => *before = (*before * factor).sqrt(),
                 None => self.0.push((a.name, factor)),
@@ -296,6 +307,7 @@ pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
         + drape.unsolved as f64
         + if missing > 0.0 { missing_weight * (1.0 + missing) } else { 0.0 }
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -349,5 +361,8 @@ mod tests {
         wild.learn(&height(0.1), &height(5.0));
         assert_eq!(wild.factor(Name::Height), TUNING.largest_bias);
         assert_eq!(wild.factor(Name::Position), 1.0);
+        let mut lost = Bias::default();
+        lost.learn(&height(f64::NAN), &height(f64::INFINITY));
+        assert!(lost.is_empty());
     }
 }

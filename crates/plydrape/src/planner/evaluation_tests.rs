@@ -1,15 +1,18 @@
 //! A plan is made with other cells than those that judge it.
 
-use super::evaluation::{Bias, planned_cell, score_with, with_errors};
+use super::evaluation::{self, Bias, Mesh, planned_cell, score_with, with_errors};
+use super::search_state::{Progress, SearchState};
 use super::tuning::TUNING;
 use crate::errors::tests::{budget, layup};
 use crate::errors::{Errors, Term};
-use crate::layup::Layup;
+use crate::layup::{Layup, Model, PickUp};
 use crate::material::Section;
 use crate::measure::{Name, Verdict, Worst};
 use crate::motion::Motion;
 use crate::outcome::Judged;
+use crate::scene::Scene;
 use proptest::prelude::*;
+use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 proptest! {
@@ -77,6 +80,30 @@ fn a_candidate_is_ranked_by_the_cells_of_the_search() {
     let bias = Bias::default();
     let [low, high] = [true, false].map(|ok| score_with(&judged(ok), &bias));
     assert!((some.score(&bias) - (8.0 * low + high) / 9.0).abs() < 1e-12);
+}
+
+/// A candidate begins where the ply hangs from its grippers, so none of its steps is judged as the end of the lift.
+#[test]
+fn a_candidate_is_not_judged_by_the_end_of_a_lift() {
+    let Layup { ply, settings, motion, .. } = layup(2, 2);
+    let planned = motion.positions.clone();
+    let mut scene = Scene::new(ply, settings, motion);
+    scene.layup.settings.model = Model::Sheet;
+    scene.layup.settings.sheet.mesh = Some(0.04);
+    scene.layup.pick_up = Some(PickUp {
+        height: 0.1,
+        clearance: 0.05,
+        grip: 0.5,
+        vacuum_timeout: None,
+        retreat: 0.02,
+        table: None,
+        lift_steps: 1,
+    });
+    let mut go_on = |_: &Progress| ControlFlow::Continue(());
+    let state = SearchState::new(1, &mut go_on);
+    let found = evaluation::drape(&scene, &planned, Mesh::Own, &state).expect("a sheet");
+    let judged = |name: Name| found.worst.limits.iter().any(|verdict| verdict.name == name);
+    assert!(judged(Name::Strain) && !judged(Name::TableGap), "{:?}", found.worst);
 }
 
 /// The first two cells are the plies that hardly one of twenty passes: stiff in shear and light, limp and heavy.

@@ -73,7 +73,7 @@ fn places(
         (Name::Workspace, 0.0, workspace),
         (
             Name::GripperDistance,
-            limits.most(Name::GripperDistance) * 1e3,
+            limits.least(Name::GripperDistance) * 1e3,
             closest_grippers(positions),
         ),
     ];
@@ -221,12 +221,7 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     };
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
     let poses = Poses::new(&scene.layup, &target.grippers, &turned?, &target.grippers);
-    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
-    let nearest = clearance::at_poses(&scene.layup, least, &poses)?;
-    let at = format!("{} at the target", nearest.label(&scene.layup));
-    let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, None);
-    (!verdict.ok).then_some(verdict)
+    too_near(scene, &poses, "at the target", None)
 }
 
 /// Bodies that are too close at the start to what stands in the cell, or to each other.
@@ -236,11 +231,16 @@ fn clearance_at_start(scene: &Scene, start: &[[f64; 3]]) -> Option<Verdict> {
         return None;
     }
     let poses = Poses::by_neighbors(layup, &layup.ply.neighbors(), start);
-    let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
-    let nearest = clearance::at_poses(layup, least, &poses)?;
-    let at = format!("{} at the start", nearest.label(layup));
+    too_near(scene, &poses, "at the start", Some(1))
+}
+
+/// Bodies too near to each other, to an obstacle or to the mold where they are.
+fn too_near(scene: &Scene, poses: &Poses, when: &str, step: Option<usize>) -> Option<Verdict> {
+    let least = scene.limits.least(Name::Clearance);
+    let nearest = clearance::at_poses(&scene.layup, least, poses)?;
+    let at = format!("{} {when}", nearest.label(&scene.layup));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
-    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, Some(1));
+    let verdict = Verdict::new(Name::Clearance, worst, least * 1e3, step);
     (!verdict.ok).then_some(verdict)
 }
 

@@ -15,20 +15,12 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Journal {
-    ranked: BTreeMap<u64, Ranked>,
+    /// The drapes that ranked candidates.
+    ranked: BTreeMap<u64, Drapes>,
     /// Scores of candidates of which nothing else was used.
     scores: BTreeMap<u64, f64>,
+    /// How plans were decided on.
     decided: BTreeMap<u64, Known>,
-}
-
-/// The drapes that ranked a candidate, see [`Drapes`].
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-struct Ranked {
-    worst: Judged,
-    each: Vec<Judged>,
-    refused_by: Option<usize>,
 }
 
 /// How a plan was decided on.
@@ -77,8 +69,7 @@ impl Journal {
 
     /// The drapes that ranked a candidate.
     pub(super) fn ranked(&self, key: u64) -> Option<Drapes> {
-        let Ranked { worst, each, refused_by } = self.ranked.get(&key)?.clone();
-        Some(Drapes { worst, each, refused_by })
+        self.ranked.get(&key).cloned()
     }
 
     /// The score of a candidate of which nothing else was used.
@@ -86,9 +77,9 @@ impl Journal {
         self.scores.get(&key).copied()
     }
 
-    /// Keeps of a candidate its score alone: so it is with most of them, which come after the best from the first.
+    /// Keeps of a candidate its score alone, if that can be written: most candidates come after the best from the first.
     pub(super) fn keep_score(&mut self, key: u64, score: f64) {
-        if self.ranked.remove(&key).is_some() {
+        if self.ranked.remove(&key).is_some() && score.is_finite() {
             self.scores.insert(key, score);
         }
     }
@@ -100,9 +91,8 @@ impl Journal {
 
     /// Keeps the drapes that ranked a candidate.
     pub(super) fn rank(&mut self, key: u64, drapes: &Drapes) {
-        let Drapes { worst, each, refused_by } = drapes.clone();
-        if each.iter().chain([&worst]).all(is_finite) {
-            self.ranked.insert(key, Ranked { worst, each, refused_by });
+        if drapes.each.iter().chain([&drapes.worst]).all(is_finite) {
+            self.ranked.insert(key, drapes.clone());
         }
     }
 
@@ -146,6 +136,8 @@ mod tests {
         journal.rank(keys[3], &drapes(f64::NAN));
         journal.keep_score(keys[1], 7.5);
         journal.keep_score(keys[4], 9.0);
+        journal.rank(keys[2], &drapes(0.5));
+        journal.keep_score(keys[2], f64::INFINITY);
         assert_eq!(journal.ranked(keys[0]).unwrap().worst, judged(0.25));
         assert!(journal.ranked(keys[1]).is_none() && journal.ranked(keys[3]).is_none());
         assert_eq!(keys.map(|key| journal.score(key)), [None, Some(7.5), None, None, None]);

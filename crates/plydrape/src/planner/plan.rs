@@ -45,10 +45,11 @@ impl Planned {
     }
 }
 
-/// Plans the gripper motion of a scene, from where it starts, or higher if that is too low ([`LowStart`]), to its target, and judges it by the model that decides, with the errors of the
-/// scene if it has any.
+/// Plans the gripper motion of a scene, from where it starts, or higher if that is too low ([`LowStart`]), to its target, and judges it by the
+/// model that decides, with the errors of the scene if it has any.
 ///
-/// The search continues from `checkpoint`, that of an earlier search for the same ply. `watcher` receives the progress;
+/// The search continues from `checkpoint`, that of an earlier search for the same ply; one that was cut off must be of the same scene, or else
+/// without its judgments ([`Checkpoint::finished`]), because these are taken as they are. `watcher` receives the progress;
 /// when it breaks, the best plan so far is finished. A plan that does not keep all limits is a plan all the same: its
 /// verdicts say which limits, where and by how much.
 ///

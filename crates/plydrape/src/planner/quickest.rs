@@ -14,7 +14,7 @@ use crate::tool::Tool;
 pub(super) struct Quickest {
     /// The motion.
     pub motion: TimedMotion,
-    /// What limits its time, that of the longest time first.
+    /// What limits the time of the motion; what does for the longest comes first.
     pub limited_by: Vec<LimitedBy>,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
     if let Some(tool) = &scene.layup.tool {
         limited.extend(carrying(tool, &motion, &course));
     }
-    let moving: Vec<Moving> = limited.iter().map(|one| one.moving.clone()).collect();
+    let moving: Vec<Moving> = limited.iter().map(|limited| limited.moving.clone()).collect();
     let (mut quickest, limiting) = course.quickest(&bounds, &moving);
     // a tool is looked at between the samples of the written motion: what the course did not see there takes longer
     let longer = tool_stretch(scene, &quickest);
@@ -185,8 +185,8 @@ fn by_name(
     parts.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let mut found: Vec<LimitedBy> = Vec::new();
     for ((name, gripper), time_s) in parts {
-        match found.iter_mut().find(|one| one.name == name) {
-            Some(one) => one.time_s += time_s,
+        match found.iter_mut().find(|limited| limited.name == name) {
+            Some(limited) => limited.time_s += time_s,
             None => {
                 let gripper = gripper.map(|n| scene.layup.ply.id(n));
                 found.push(LimitedBy { name, time_s, gripper });

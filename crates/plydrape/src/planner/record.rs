@@ -19,7 +19,7 @@ pub struct PlanRecord {
     pub evaluations: usize,
     /// Samples a second of the motion as it is written (Hz).
     pub rate: f64,
-    /// What limits the time of the motion, that of the longest time first.
+    /// What limits the time of the motion; what does for the longest comes first.
     pub limited_by: Vec<LimitedBy>,
     /// How many times slower the motion is than its limits ask for, because the resin of the ply takes its time; `None` if it is not.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -47,7 +47,7 @@ pub struct LimitedBy {
     pub name: Name,
     /// For how long (s).
     pub time_s: f64,
-    /// The gripper with which it is that for the longest; none of the frame of a tool.
+    /// The gripper that is nearest to the limit for the longest; `None` of the frame of a tool.
     pub gripper: Option<GripperId>,
 }
 

@@ -132,10 +132,6 @@ impl<'a> SearchState<'a> {
         self.journal.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn journal(&self) -> MutexGuard<'_, Journal> {
-        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// The drapes that ranked a candidate: those in the journal, or else the ones that `drape` makes.
     ///
     /// # Errors
@@ -145,33 +141,33 @@ impl<'a> SearchState<'a> {
         key: u64,
         drape: impl FnOnce() -> Result<Drapes, E>,
     ) -> Result<Drapes, E> {
-        let known = self.journal().ranked(key);
+        let known = lock(&self.journal).ranked(key);
         if let Some(known) = known {
             return Ok(known);
         }
         self.repeats.store(false, Ordering::Relaxed);
         let drapes = drape()?;
         if !self.is_stopped() {
-            self.journal().rank(key, &drapes);
+            lock(&self.journal).rank(key, &drapes);
         }
         Ok(drapes)
     }
 
     /// The score of a candidate, if the journal has nothing else; it is counted then.
     pub fn scored(&self, key: u64) -> Option<f64> {
-        let score = self.journal().score(key)?;
+        let score = lock(&self.journal).score(key)?;
         self.candidates.fetch_add(1, Ordering::Relaxed);
         Some(score)
     }
 
     /// Keeps of a candidate its score alone.
     pub fn keep_score(&self, key: u64, score: f64) {
-        self.journal().keep_score(key, score);
+        lock(&self.journal).keep_score(key, score);
     }
 
     /// How a plan was decided on, if the journal has it.
     pub fn decided(&self, key: u64) -> Option<Known> {
-        let known = self.journal().decided(key);
+        let known = lock(&self.journal).decided(key);
         if known.is_none() {
             self.repeats.store(false, Ordering::Relaxed);
         }
@@ -181,7 +177,7 @@ impl<'a> SearchState<'a> {
     /// Keeps how a plan was decided on.
     pub fn keep_decision(&self, key: u64, known: &Known) {
         if !self.is_stopped() {
-            self.journal().decide(key, known);
+            lock(&self.journal).decide(key, known);
         }
     }
 
@@ -191,7 +187,7 @@ impl<'a> SearchState<'a> {
         let before = from.map_or(0, |checkpoint| checkpoint.evaluations);
         let evaluations = before + self.candidates() + self.decisions();
         let checkpoint = Checkpoint::new(scene, evaluations, *strategy, positions.clone());
-        Some(checkpoint.cut_off(scene, from, self.journal().clone()))
+        Some(checkpoint.cut_off(scene, from, lock(&self.journal).clone()))
     }
 
     /// Candidates that have been draped; of the stepwise planner, steps.
@@ -206,12 +202,12 @@ impl<'a> SearchState<'a> {
 
     /// Cells with errors by which candidates are ranked.
     pub fn cells(&self) -> Vec<usize> {
-        self.cells.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        lock(&self.cells).clone()
     }
 
     /// One more of them: a cell that refused a plan that was decided on.
     pub fn add_cell(&self, cell: usize) {
-        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut cells = lock(&self.cells);
         if cells.len() < TUNING.most_cells && !cells.contains(&cell) {
             cells.push(cell);
         }
@@ -252,7 +248,7 @@ impl<'a> SearchState<'a> {
 
     /// Begins a stage of the search; returns the one before.
     pub fn begin(&self, stage: &'static str) -> &'static str {
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut best = lock(&self.best);
         let before = std::mem::replace(&mut best.stage, stage);
         drop(best);
         let _ = self.report();
@@ -261,7 +257,7 @@ impl<'a> SearchState<'a> {
 
     /// Says how long the decision that begins will take, or that it has ended.
     pub fn set_forecast(&self, forecast: Option<Forecast>) {
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut best = lock(&self.best);
         (best.forecast, best.step, best.began) = (forecast, None, Instant::now());
         drop(best);
         let _ = self.report();
@@ -276,12 +272,12 @@ impl<'a> SearchState<'a> {
 
     /// How fast the sheets of this search were draped.
     pub fn pace(&self) -> Pace {
-        self.best.lock().unwrap_or_else(PoisonError::into_inner).pace
+        lock(&self.best).pace
     }
 
     /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank, one that is
     /// accepted better than all that are not. One that was broken off because the search shall end does not count. `plan` is what was draped;
-    /// none of one that is draped once more.
+    /// `None` of a plan that is draped once more.
     pub fn record(
         &self,
         drape: &Judged,
@@ -294,7 +290,7 @@ impl<'a> SearchState<'a> {
         }
         let count = if decides { &self.decisions } else { &self.candidates };
         count.fetch_add(1, Ordering::Relaxed);
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut best = lock(&self.best);
         if let Some(effort) = drape.effort {
             best.pace.add(effort);
         }
@@ -348,4 +344,9 @@ impl<'a> SearchState<'a> {
         }
         flow
     }
+}
+
+/// Locks a mutex, also one whose holder has panicked.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -66,7 +66,7 @@ impl Scene {
 fn meshes(ply: &Ply, mold: &Mold) -> [usize; 2] {
     let widest = match mold {
         Mold::Plane(_) => f64::INFINITY,
-        _ => MESH * shorter_side(ply),
+        _ => MESH * ply.shorter_side(),
     };
     let [low, high] = ply.held_bounds();
     [0, 1].map(|n| {
@@ -75,11 +75,6 @@ fn meshes(ply: &Ply, mold: &Mold) -> [usize; 2] {
         let odd = ((high[n] - low[n]) / ply.cell[n]).round() as usize % 2 == 1;
         if odd { least.next_multiple_of(2) } else { least }
     })
-}
-
-/// Shorter side of a cell (m), of a strip its length.
-fn shorter_side(ply: &Ply) -> f64 {
-    if ply.cell[1] > 0.0 { ply.cell[0].min(ply.cell[1]) } else { ply.cell[0] }
 }
 
 /// Positions of the grippers (m) at the start unless a scene says others: level above the middle of an ideal drape with u along its
@@ -102,7 +97,7 @@ pub fn start_above(ply: &Ply, net: &Net) -> Vec<Point> {
                     [i * (CLOSER * ply.cell[0]), j * (CLOSER * ply.cell[1])]
                 }
             };
-            let z = top + CLEAR * shorter_side(ply);
+            let z = top + CLEAR * ply.shorter_side();
             [x + u * cos + v * -sin, y + u * sin + v * cos, z]
         };
         (0..ply.grippers()).map(position).collect()

@@ -9,7 +9,7 @@
 use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
-use super::friction::{Anchor, Hold, penalty};
+use super::friction::{Anchor, FrictionLaw, penalty};
 use super::pads::Pads;
 use super::system::{System, add};
 use super::tuning::SheetTuning;
@@ -76,7 +76,7 @@ impl Point {
 pub struct Contact<'a> {
     mold: &'a Mold,
     /// What holds nodes along the mold.
-    hold: Hold,
+    friction: FrictionLaw,
     /// Distance (m) at which an anchor is lost.
     release: f64,
     points: Vec<Point>,
@@ -126,7 +126,7 @@ impl<'a> Contact<'a> {
         });
         Contact {
             mold,
-            hold: Hold::new(sheet, tuning),
+            friction: FrictionLaw::new(sheet, tuning),
             release: tuning.release * sheet.pitch,
             points: points.collect(),
             switched: true,
@@ -148,7 +148,7 @@ impl<'a> Contact<'a> {
             if point.rubs && !closest.beyond && closest.distance <= self.release {
                 let pressure = point.pressure(-closest.distance);
                 point.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
-                point.bound = self.hold.bound(pressure, point.area);
+                point.bound = self.friction.bound(pressure, point.area);
             }
         }
     }
@@ -156,7 +156,7 @@ impl<'a> Contact<'a> {
     /// Finds where the mold presses nodes, and which of them slip, with the nodes at `x` (m). Nodes for which `skips` holds
     /// stay where they are.
     pub fn find(&mut self, x: &[[f64; 3]], skips: impl Fn(usize) -> bool) {
-        let Contact { mold, hold, points, switched, .. } = self;
+        let Contact { mold, friction, points, switched, .. } = self;
         *switched = false;
         for point in points {
             let x = x[point.node];
@@ -165,8 +165,8 @@ impl<'a> Contact<'a> {
             }
             let slips = point
                 .anchor
-                .is_some_and(|anchor| hold.spring(anchor, x, point.area, point.bound).slips);
-            let lasts = hold.lasts() && point.anchor.is_some();
+                .is_some_and(|anchor| friction.spring(anchor, x, point.area, point.bound).slips);
+            let lasts = friction.lasts() && point.anchor.is_some();
             let press = if point.is_clear(x) { None } else { point.look(mold, x, lasts) };
             *switched |= (press.is_some(), slips) != (point.press.is_some(), point.slips);
             (point.press, point.slips) = (press, slips);
@@ -183,12 +183,12 @@ impl<'a> Contact<'a> {
             }
             let closest = self.mold.closest_point(x);
             let depth = if closest.beyond { f64::NEG_INFINITY } else { -closest.distance };
-            point.bound = self.hold.bound(point.pressure(depth), point.area);
+            point.bound = self.friction.bound(point.pressure(depth), point.area);
             point.anchor = match point.anchor {
-                Some(anchor) if self.hold.lasts() => Some(anchor),
+                Some(anchor) if self.friction.lasts() => Some(anchor),
                 Some(_) if depth < -self.release => None,
                 Some(anchor) => {
-                    Some(self.hold.follow(self.mold, anchor, x, point.area, point.bound))
+                    Some(self.friction.follow(self.mold, anchor, x, point.area, point.bound))
                 }
                 None if depth >= 0.0 && point.rubs => {
                     Some(Anchor { point: closest.point, normal: closest.normal })
@@ -227,7 +227,7 @@ impl<'a> Contact<'a> {
 
     /// Whether an anchor stays where it is as long as its node touches.
     pub fn sticks(&self) -> bool {
-        self.hold.sticks()
+        self.friction.sticks()
     }
 
     /// The nodes that stay on the mold by themselves, if all of their neighbors stay: those that are anchored and pressed,
@@ -244,7 +244,7 @@ impl<'a> Contact<'a> {
             let k = point.stiffness;
             // what the mold has to carry: the pressure of now, and what is out of balance
             let normal = (-k * dot(off, anchor.normal)).max(0.0) + dot(total, anchor.normal);
-            let pressed = point.press.is_some() && normal > 0.0 || self.hold.lasts();
+            let pressed = point.press.is_some() && normal > 0.0 || self.friction.lasts();
             pressed && norm(total) <= most * k
         };
         self.points.iter().filter(lies).map(|point| point.node)
@@ -260,9 +260,9 @@ impl Energy for Contact<'_> {
     fn value(&self, now: &Configuration) -> f64 {
         let energy = |point: &Point| {
             let x = now.x[point.node];
-            let spring = |anchor| self.hold.spring(anchor, x, point.area, point.bound).energy();
+            let spring = |anchor| self.friction.spring(anchor, x, point.area, point.bound).energy();
             let spring = point.anchor.map_or(0.0, spring);
-            if point.is_clear(x) || self.hold.lasts() && point.anchor.is_some() {
+            if point.is_clear(x) || self.friction.lasts() && point.anchor.is_some() {
                 return spring;
             }
             let depth = self.mold.closest_point(x).distance.min(0.0);
@@ -278,8 +278,8 @@ impl Energy for Contact<'_> {
                 continue;
             }
             if let Some(anchor) = point.anchor {
-                let spring = self.hold.spring(anchor, now.x[node], point.area, point.bound);
-                if let Some((gradient, k)) = self.hold.derivatives(&spring, anchor) {
+                let spring = self.friction.spring(anchor, now.x[node], point.area, point.bound);
+                if let Some((gradient, k)) = self.friction.derivatives(&spring, anchor) {
                     add(&mut system.gradient[node], 1.0, gradient);
                     system.stiffen(node, &k);
                 }

@@ -50,8 +50,8 @@ pub fn drape(
     drape_from(layup, tuning, low, None, stop, see)
 }
 
-/// As [`drape`], from a ply of the same fabric in the air that has come to a step of nearly the same motion, if there is one: it hangs over to where the
-/// grippers of this layup are in that step, comes to rest there, and goes on. [`Drape::status`] is [`Status::NotInTheAir`] if it does not
+/// As [`drape`], from a ply of the same fabric in the air that has come to a step of nearly the same motion, if there is one: the grippers go
+/// to where those of this layup are in that step, the ply comes to rest there, and goes on. [`Drape::status`] is [`Status::NotInTheAir`] if it does not
 /// rest clear of the mold there, and nothing is seen of it then.
 ///
 /// # Errors

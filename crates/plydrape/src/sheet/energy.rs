@@ -115,8 +115,7 @@ impl<'a> Energies<'a> {
     pub fn potential(&self, phase: Phase) -> impl Iterator<Item = &dyn Energy> {
         let Energies { weight, stretch, shear, bending, mounts, .. } = self;
         let elastic: [&dyn Energy; 4] = [weight, stretch, shear, bending];
-        let contact = self.contact.as_ref().filter(|_| phase != Phase::Hang);
-        let contact = contact.map(|contact| contact as &dyn Energy);
+        let contact = self.acting_contact(phase).map(|contact| contact as &dyn Energy);
         let table = self.table.as_ref().map(|table| table as &dyn Energy);
         elastic.into_iter().chain(contact).chain([mounts as &dyn Energy]).chain(table)
     }

@@ -272,14 +272,18 @@ impl Fabric {
             lines: whole.lines,
             length_factor: 1.0,
         };
-        fabric.boundary = outline.rings().map(|ring| fabric.along(ring)).collect();
+        fabric.boundary = outline.rings().map(|ring| fabric.boundary_along(ring)).collect();
         fabric
     }
 
     /// The points at which a ring (m) crosses lines of nodes, and its corners; those in cells that are left out are left out.
     #[must_use]
-    pub fn along(&self, ring: &[[f64; 2]]) -> Vec<BoundaryPoint> {
+    pub fn boundary_along(&self, ring: &[[f64; 2]]) -> Vec<BoundaryPoint> {
         let mut out = Vec::new();
+        // a strip is a line without cells
+        if self.cells.is_empty() {
+            return out;
+        }
         for n in 0..ring.len() {
             let (from, to) = (ring[n], ring[(n + 1) % ring.len()]);
             let mut shares = vec![0.0];
@@ -314,8 +318,8 @@ impl Fabric {
         Some(BoundaryPoint { place, nodes, weights: bilinear(low, high, place) })
     }
 
-    /// The same lines on a fabric that is larger by a factor along u and v alike: fabric coordinates stay, and lengths,
-    /// widths, spacings and areas in the flat grow.
+    /// This fabric, larger by a factor along u and v alike: the lines keep their fabric coordinates, and lengths, widths, spacings and
+    /// areas in the flat grow.
     #[must_use]
     pub fn enlarged(mut self, factor: f64) -> Self {
         self.length_factor *= factor;
@@ -440,13 +444,22 @@ mod tests {
     fn lines_meet_what_they_must() {
         let meet = vec![0.3, 0.0, 0.1, 0.1 + 1e-13, 0.115, 0.085];
         let found = lines(meet.clone(), 0.01);
-        for at in meet {
-            assert!(found.iter().any(|line| (line - at).abs() < 1e-12), "{at}");
+        for coordinate in meet {
+            let is_met = found.iter().any(|line| (line - coordinate).abs() < 1e-12);
+            assert!(is_met, "{coordinate}");
         }
         assert!(
             found.windows(2).all(|pair| pair[1] - pair[0] <= 0.01 + 1e-12 && pair[1] > pair[0])
         );
         assert_eq!(lines(vec![0.0, 0.3], 0.01).len(), 31);
+    }
+
+    /// A strip is one line of nodes without cells, so no ring has points in them.
+    #[test]
+    fn a_strip_has_no_boundary() {
+        let strip = Fabric::rectangle([lines(vec![0.0, 0.3], 0.1), vec![0.0]], 0.1);
+        let ring = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.1], [0.0, 0.1]];
+        assert!(strip.boundary_along(&ring).is_empty());
     }
 
     /// A rectangle that is cut out along lines of nodes is that rectangle, whatever lies beyond it.

@@ -22,7 +22,7 @@ pub struct Anchor {
 
 /// How nodes of an area are held along the mold.
 #[derive(Debug, Clone)]
-pub struct Hold {
+pub struct FrictionLaw {
     friction: Friction,
     /// Shear stress per way along the mold (Pa/m).
     stiffness: f64,
@@ -60,15 +60,15 @@ impl Spring {
     }
 }
 
-impl Hold {
-    /// How a sheet is held.
+impl FrictionLaw {
+    /// How the nodes of a sheet are held along its mold.
     pub fn new(sheet: &Sheet, tuning: &SheetTuning) -> Self {
         let share = match sheet.friction {
             Friction::Coulomb(_) => tuning.slip,
             Friction::Stick | Friction::StickForEver => tuning.contact_depth,
         };
         let (friction, tack) = (sheet.friction, sheet.tack);
-        Hold { friction, stiffness: penalty(sheet, share), tack }
+        FrictionLaw { friction, stiffness: penalty(sheet, share), tack }
     }
 
     /// Largest force (N) of the spring of a node with its area (m²) under a pressure (Pa).

@@ -15,7 +15,7 @@ pub struct Gripper {
     pub radius: f64,
     /// Stiffness of its mount along x, y and z (N/m); `None` if rigid.
     pub mount: Option<[f64; 3]>,
-    /// Largest load along the ply that its pad holds (N); beyond it the fabric slides. None if it never does.
+    /// Largest load along the ply that its pad holds (N); beyond it the fabric slides. `None` if it never does.
     pub slip_force: Option<f64>,
     /// Largest tilt of its pad (rad).
     pub max_tilt: f64,

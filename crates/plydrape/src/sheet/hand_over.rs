@@ -223,7 +223,7 @@ impl View<'_> {
             return (before, 0.0);
         }
         let reach = TILT_REACH * self.sheet.pitch;
-        let around = surroundings(&self.sheet.fabric, &state.positions, gripper.place, reach);
+        let around = frame_around(&self.sheet.fabric, &state.positions, gripper.place, reach);
         let Some((normal, along)) = around else {
             return (continued(pad.quaternion(), before), pad.tilt());
         };
@@ -264,7 +264,7 @@ fn normals(fabric: &Fabric, x: &[Point]) -> Vec<Option<Point>> {
 /// within `reach` (m) of it along u and v. The area vector depends on the boundary of that patch alone and so hardly on the mesh. `None`
 /// without cells.
 #[must_use]
-pub(super) fn surroundings(
+pub(super) fn frame_around(
     fabric: &Fabric,
     x: &[Point],
     place: [f64; 2],

@@ -224,8 +224,8 @@ impl<'a> March<'a> {
         Some(time)
     }
 
-    /// Holds the grippers at places (m) until nothing moves any more; returns whether that is so. A ply that may fall (`falls`) goes no farther in a time step than it
-    /// is from the mold.
+    /// Holds the grippers at places (m) until nothing moves any more; returns whether that is so. A ply that may fall (`falls`) goes no farther
+    /// in a time step than it is from the mold.
     pub fn rest(&mut self, places: &[[f64; 3]], falls: bool) -> bool {
         let tolerance = self.tuning.rest_tolerance * self.sheet.mesh;
         // as long as what moves it takes to end: gravity, and resin

@@ -6,7 +6,8 @@
 //!
 //! - The energy is a sum of terms with one interface (`energy`), each of them a file: yarn segments between neighbors along a
 //!   line stretch (`stretch`), three nodes in a row bend (`bending`), four around a cell shear (`shear`); the mold carries what
-//!   touches it (`contact`) and friction holds it (`friction`), before that a `table` on which the ply lies; pads are on mounts (`mount`); nodes have `weight` and `inertia`.
+//!   touches it (`contact`) and friction holds it (`friction`), before that a `table` on which the ply lies; pads are on mounts
+//!   (`mount`); nodes have `weight` and `inertia`.
 //! - An implicit time step is solved by Newton's method in numbered stages (`newton`). Pads move with their grippers (`pads`),
 //!   nodes that lie are left out (`resting`), and what is left are the unknowns (`unknowns`) of a linear system (`system`,
 //!   [`block_cholesky`]). `cloth` has all of these together, in a `configuration`.
@@ -28,7 +29,7 @@ mod gripper;
 mod hand_over;
 mod inertia;
 mod march;
-mod matrix3;
+pub(crate) mod matrix3;
 mod model;
 mod mount;
 mod newton;

@@ -86,7 +86,8 @@ impl Cloth<'_> {
         self.energies.stretch.start(&self.now.x);
 
         // 3. gradient and stiffness of all terms
-        self.linearize(stiffness);
+        self.find_contacts();
+        self.assemble(stiffness, Parts::All);
 
         // 4. nodes that lie are no unknowns
         self.leave_out();
@@ -171,13 +172,7 @@ impl Cloth<'_> {
         }
     }
 
-    /// Gradient and stiffness of the incremental potential (19g), in the linear system.
-    fn linearize(&mut self, stiffness: Stiffness) {
-        self.find_contacts();
-        self.assemble(stiffness, Parts::All);
-    }
-
-    /// Assembles the system with the contacts that were found last, or its gradient alone.
+    /// Assembles gradient and stiffness of the incremental potential (19g) with the contacts that were found last, or the gradient alone.
     fn assemble(&mut self, stiffness: Stiffness, parts: Parts) {
         self.system.begin(&self.now, parts);
         for term in self.energies.incremental(self.phase) {

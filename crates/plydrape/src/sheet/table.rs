@@ -1,7 +1,8 @@
 //! The table on which the ply lies before it is lifted: ½ k · area · d² of a depth d below it, a term of eq. (19) of
 //! `docs/theory/sheet.md`.
 //!
-//! Nothing holds the ply along the table. Once all of the ply is clear of it, the table is gone: what is below the ply from then on is the mold.
+//! Nothing holds the ply along the table. Once all of the ply is clear of it, the table is gone: what is below the ply from then on is
+//! the mold.
 
 use super::Sheet;
 use super::configuration::Configuration;

@@ -9,7 +9,7 @@ pub struct SheetTuning {
     /// Stiffness of contact under a pad whose mount gives along its axis, as a multiple of that of the mount: so a pad sinks in by
     /// a hundredth of what its mount yields.
     pub mount_contact: f64,
-    /// Way (of the pitch) along the mold in which Coulomb's friction under the ply's own weight builds up: as long as a step
+    /// Way along the mold (of the pitch) in which Coulomb's friction under the ply's own weight builds up: as long as a step
     /// tolerance, because Newton's iteration cannot see shorter ways; 0.01 mm of 100 mm. Stick has no such bound and is as
     /// stiff as contact.
     pub slip: f64,
@@ -22,27 +22,27 @@ pub struct SheetTuning {
     pub step_tolerance: f64,
     /// Largest step of Newton's iteration at which the drape ends (of the mesh).
     pub rest_tolerance: f64,
-    /// Safety with which a step of the iteration is taken to go with the square of the one before, where it tells that the next
-    /// one is below the tolerance.
+    /// Factor of safety on the size of the next step of the iteration, which is predicted to go with the square of the last one. The
+    /// iteration ends where that prediction, made larger by this factor, is below the tolerance.
     pub next_step: f64,
-    /// Iterations after which a time step in which the ply buckles, so that its matrix is not positive definite, is solved with
-    /// steps that are this many times as large as otherwise.
+    /// Iterations after which a time step in which the ply buckles, so that its matrix is not positive definite, may end with a
+    /// larger last step, see `creep`.
     pub creep_iterations: usize,
-    /// How many times as large.
+    /// Multiple of the tolerance that the last step of the iteration may have in a time step in which the ply buckles.
     pub creep: f64,
     /// Largest turn of a segment in one step of the iteration (rad): a linear step of an inextensible line is wrong by the
     /// square of it.
     pub turn: f64,
     /// Turn (of the largest one) to which a time step is shortened whose first step of the iteration turns a segment farther.
     pub turn_margin: f64,
-    /// Least share of such a time step that is tried next.
+    /// Least share of a time step that is tried next, where its first step of the iteration turns a segment too far.
     pub turn_retry: f64,
-    /// Most iterations of a time step before it is halved.
+    /// Most iterations of a time step; one that needs more is halved.
     pub iterations: usize,
     /// Iterations of full steps; in those that follow, half of each step in which contact or slip switched is taken, which
     /// ends cycles of contact.
     pub full_iterations: usize,
-    /// A time step that took no more than these is followed by one twice as long.
+    /// Iterations up to which a time step was easy, and is followed by one that is twice as long.
     pub easy_iterations: usize,
     /// Way (of the pitch) that a node may go in the time step in which it comes to the mold: it is held where it is at the
     /// end of this step. A time step is no longer than that in which every free node goes this way or its distance from the
@@ -50,9 +50,9 @@ pub struct SheetTuning {
     pub contact_way: f64,
     /// Largest movement in a time step (of the mesh) of a node that lies on the mold.
     pub lying_movement: f64,
-    /// Time steps for which it has not moved more, before it is left out of the linear systems.
+    /// Time steps for which a node has moved no more than `lying_movement`, before it is left out of the linear systems.
     pub lying_steps: u32,
-    /// Largest force (of its own weight) that is out of balance at such a node where the mold does not press it.
+    /// Largest force (of the weight of a node) that is out of balance at a node that is left out where the mold does not press it.
     pub lying_force: f64,
     /// Rings of nodes around one that moves beyond the tolerance in a linear step, which stay unknowns with it: two, because a
     /// second difference reaches as far.
@@ -73,7 +73,7 @@ pub struct SheetTuning {
     /// Stiffness that holds a pad within its tilt limit, as a multiple of the weight of a pitch by a pitch times the pitch,
     /// per radian.
     pub tilt_stiffness: f64,
-    /// Stiffness against the turn of any pad, in the same unit, so small that it acts only where nothing else does.
+    /// Stiffness against the turn of any pad, in the unit of `tilt_stiffness`, so small that it acts only where nothing else does.
     pub turn_stiffness: f64,
 }
 

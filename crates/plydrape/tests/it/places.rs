@@ -11,15 +11,10 @@ use std::ops::ControlFlow;
 
 fn ply() -> Ply {
     let material = Material {
-        name: "any".into(),
-        source: "made up".into(),
         section: Section::Line { mass: 0.3, flexural_rigidity: 1e-4 },
         shear_curve: None,
         tension: None,
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
+        ..Material::woven("any", 0.3, 1e-4, 1e6, 5.0)
     };
     Ply::of_array(Grid { nu: 3, nv: 2 }, [0.1, 0.1], material)
 }

@@ -2,7 +2,7 @@
 
 use plydrape::bodies::{Bodies, Body, Mount, Obstacle, Shape};
 use plydrape::layup::{Layup, Model};
-use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
+use plydrape::material::Material;
 use plydrape::measure::{Name, Scope, Verdict};
 use plydrape::mold::{Face, Mold, Pose, Sphere};
 use plydrape::outcome::{Status, Summary, judge};
@@ -14,17 +14,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 fn ply(nu: usize, nv: usize) -> Ply {
-    let material = Material {
-        name: "paper".into(),
-        source: "Krogh et al. 2018, per area".into(),
-        section: Section::Areal { mass: 3.143, warp_rigidity: 9e-5, weft_rigidity: 9e-5 },
-        shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0] }),
-        tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
-    };
+    let material = Material::woven("paper", 3.143, 9e-5, 1e6, 5.0);
     Ply::of_array(Grid { nu, nv }, [0.1; 2], material)
 }
 

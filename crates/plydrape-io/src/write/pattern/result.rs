@@ -78,7 +78,7 @@ fn lines(result: &ResultFile) -> Result<Vec<PatternLine>, Error> {
     }
     let outline = outline(result);
     let rings = outline.rings().enumerate().map(|(n, ring)| {
-        let boundary = fabric.along(ring);
+        let boundary = fabric.boundary_along(ring);
         PatternLine {
             name: if n == 0 { "boundary".into() } else { format!("hole {n}") },
             points: boundary.iter().map(|point| point.interpolate(&state.positions)).collect(),

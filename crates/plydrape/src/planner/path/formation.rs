@@ -146,7 +146,7 @@ fn layup(scene: &Scene, strategy: &Strategy) -> Option<Placement> {
     let [origin, high] = scene.layup.ply.held_bounds();
     let divisions = TUNING.front.divisions as f64;
     let size = [0, 1].map(|n| high[n] - origin[n]);
-    // a whole number of meshes, of which so many are a cell
+    // a whole number of meshes, of which at least this many make a cell
     let cells = [0, 1].map(|n| size[n] / scene.layup.ply.cell[n]);
     let parts = cells.map(|cells| (cells * divisions * (1.0 - 1e-9)).ceil().max(0.0));
     let mesh = [0, 1].map(|n| match parts[n] {

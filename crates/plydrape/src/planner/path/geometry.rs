@@ -17,10 +17,10 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
         let tilt = tilt(&scene.layup.ply, &neighbors, step, scene.layup.stems(step))
             / limits.most(Name::Tilt);
         let workspace =
-            limits.workspace.and_then(|box_| outside_workspace(step, box_, scene.layup.ply.cell));
+            limits.workspace.and_then(|sides| outside_workspace(step, sides, scene.layup.ply.cell));
         let workspace = if workspace.is_some_and(|w| w.value > 0.0) { f64::INFINITY } else { 0.0 };
         let near = closest_grippers(step)
-            .map_or(0.0, |c| limits.most(Name::GripperDistance) * 1e3 / c.value);
+            .map_or(0.0, |c| limits.least(Name::GripperDistance) * 1e3 / c.value);
         tilt.max(workspace).max(near)
     };
     positions.iter().map(worst_ratio).fold(0.0, f64::max)

@@ -17,12 +17,12 @@ use crate::planner::decision::Decision;
 use crate::planner::evaluation::{Bias, Drapes, Mesh, first_mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::journal::{self, Known};
-use crate::planner::search_state::SearchState;
+use crate::planner::search_state::{SearchState, lock};
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
 use std::cmp::Ordering;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 
 /// A strategy and the score of the drape that it leads to.
 #[derive(Debug, Clone)]
@@ -320,8 +320,9 @@ impl Search<'_, '_> {
     /// The best candidates first, and no more of them than can matter.
     fn rank(&mut self) {
         self.candidates.sort_by(|a, b| {
-            let key = |c: &Candidate| (c.score, c.strategy.to_unit());
-            key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
+            let [first, second] = [a, b].map(|candidate| candidate.strategy.to_unit());
+            let by_strategy = first.partial_cmp(&second).unwrap_or(Ordering::Equal);
+            a.score.total_cmp(&b.score).then(by_strategy)
         });
         let kept = TUNING.search.kept.min(self.candidates.len());
         for dropped in self.candidates.drain(kept..) {
@@ -442,8 +443,4 @@ impl Shared<'_, '_> {
         let unranked = drapes.as_ref().map(|_| key);
         Candidate { strategy, positions, drapes, score, unranked }
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

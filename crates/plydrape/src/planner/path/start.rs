@@ -1,7 +1,7 @@
 //! A start that is too low: the ply would hang into the mold before anything moves.
 //!
-//! What touches in the first step sticks where it must not lie, and no way of the grippers undoes that. So a plan begins higher, with the ply as far from the
-//! mold as while it is carried. Whether it touches is seen of the ply itself, hung without a mold, and not of a bound. What hangs beside the
+//! What touches in the first step sticks where it must not lie, and no way of the grippers undoes that. So a plan begins higher, with the
+//! ply as far from the mold as while it is carried. Whether it touches is seen of the ply itself, hung without a mold, and not of a bound. What hangs beside the
 //! cups does not count: it may lie on the mold first, which keeps it from folding under the ply.
 
 use super::transport::is_surely_clear;
@@ -28,7 +28,7 @@ pub struct LowStart {
 }
 
 impl LowStart {
-    /// That of a scene whose sheet decides; `None` where the ply hangs clear, or lies on a table first.
+    /// The low start of a scene whose sheet decides; `None` where the ply hangs clear, or lies on a table first.
     #[must_use]
     pub fn find(scene: &Scene) -> Option<Self> {
         let layup = &scene.layup;
@@ -93,7 +93,7 @@ fn between_cups<'a>(ply: &Ply, places: &'a [[f64; 2]]) -> impl Iterator<Item = u
     })
 }
 
-/// Least distance of points (m) from the mold if they were higher by so much (m); infinite where no mold is above or below any of them.
+/// Least distance of points (m) from the mold if they were higher by `raise` (m); infinite where no mold is above or below any of them.
 fn clear(mold: &Mold, points: &[Point], raise: f64) -> f64 {
     let over = points.iter().filter(|[x, y, _]| mold.highest_point([*x, *y]).is_some());
     over.map(|[x, y, z]| mold.signed_distance([*x, *y, z + raise])).fold(f64::INFINITY, f64::min)

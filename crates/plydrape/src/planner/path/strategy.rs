@@ -41,7 +41,7 @@ fn is_zero(share: &f64) -> bool {
 /// Ratio of a front's axes from which on it counts as a line.
 const LINE: f64 = 100.0;
 
-/// Of these, how many count for grippers on mounts alone.
+/// Numbers, the last of those that a search varies, that count for grippers on mounts alone.
 pub const MOUNTED: usize = 2;
 
 /// Numbers that a search varies at most.
@@ -118,14 +118,14 @@ impl Strategy {
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
-            let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
-            let harder = |of: &Strategy| Strategy { press: (2.0 * of.press).min(1.0), ..*of };
+            let looser = |base: &Strategy| Strategy { pull: 0.4 * base.pull, ..*base };
+            let harder = |base: &Strategy| Strategy { press: (2.0 * base.press).min(1.0), ..*base };
             // a ply that is stiff in shear does not stay flat where a steep front shears it
-            let flatter = |of: &Strategy| Strategy { slope: 0.5 * of.slope, ..*of };
+            let flatter = |base: &Strategy| Strategy { slope: 0.5 * base.slope, ..*base };
             // what is stretched when it lands bridges a hollow
-            let softer = |of: &Strategy| Strategy { pretension: 0.25 * of.pretension, ..*of };
+            let softer = |base: &Strategy| Strategy { pretension: 0.25 * base.pretension, ..*base };
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
-            let rounder = |of: &Strategy| Strategy { curvature: 0.5 * of.curvature, ..*of };
+            let rounder = |base: &Strategy| Strategy { curvature: 0.5 * base.curvature, ..*base };
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
             let round: Vec<Strategy> = flat.iter().map(rounder).collect();
             let flattest: Vec<Strategy> = flat.iter().map(flatter).collect();
@@ -141,10 +141,10 @@ impl Strategy {
         let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
             return shapes;
         };
-        let flatter = |share: f64, of: Strategy| Strategy { slope: share * of.slope, ..of };
-        let loose = |of: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..of };
-        let tauter = |of: Strategy| Strategy { pretension: 2.0 * of.pretension, ..of };
-        let softer = |of: Strategy| Strategy { pretension: 0.5 * of.pretension, ..of };
+        let flatter = |share: f64, base: Strategy| Strategy { slope: share * base.slope, ..base };
+        let loose = |base: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..base };
+        let tauter = |base: Strategy| Strategy { pretension: 2.0 * base.pretension, ..base };
+        let softer = |base: Strategy| Strategy { pretension: 0.5 * base.pretension, ..base };
         // where a cell is in the middle, both starts are one
         let [low, high] = scene.layup.ply.held_bounds();
         let cells = |n: usize| ((high[n] - low[n]) / scene.layup.ply.cell[n]).round();

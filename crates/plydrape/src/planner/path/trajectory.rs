@@ -11,7 +11,7 @@ use crate::motion::farthest;
 use crate::scene::Scene;
 
 /// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target, beyond which
-/// grippers on mounts are commanded. None without a mold or a target.
+/// grippers on mounts are commanded. `None` without a mold or a target.
 #[must_use]
 pub fn trajectory(
     scene: &Scene,
@@ -52,7 +52,7 @@ fn between(from: &[Point], to: &[Point], t: f64) -> Vec<Point> {
     from.iter().zip(to).map(|(a, b)| vector::between(*a, *b, t)).collect()
 }
 
-/// The same path in steps whose longest moves are equal.
+/// A path in steps whose longest moves are equal.
 fn evened(fine: &[Vec<Point>], steps: usize) -> Vec<Vec<Point>> {
     let mut lengths = vec![0.0];
     for pair in fine.windows(2) {

@@ -27,10 +27,10 @@ pub struct Transport {
     /// Halvings of the distance between two of these points that find the boundary of the mold between them, which may be
     /// upright.
     pub boundary_halvings: usize,
-    /// Length of the way between two places at which it is measured (cells); several in a step, because corners of the
+    /// Length of the way between two places at which the distance is measured (cells); several in a step, because corners of the
     /// way are rounded within two steps.
     pub sampling: f64,
-    /// Most places at which it is measured on a way.
+    /// Most places at which the distance is measured on a way, and most lines along each axis that look for the boundary of the mold.
     pub most_samples: usize,
     /// How often the distance between these places is halved around the worst of them.
     pub halvings: usize,

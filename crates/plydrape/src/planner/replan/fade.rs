@@ -5,7 +5,7 @@
 //! over the length of the fade. So the fade takes all of the transport that it may take, and no constant chooses where it is.
 
 /// The share of each step of a path with these parameters at the steps (m): 1 up to step `clear`, 0 from the one before `last_free` on (both from
-/// 0), so that the path is the planned one from `last_free` on. None where there is no step between.
+/// 0), so that the path is the planned one from `last_free` on. `None` where there is no step between.
 #[must_use]
 pub fn weights(parameter: &[f64], clear: usize, last_free: usize) -> Option<Vec<f64>> {
     let end = last_free.checked_sub(1)?;

@@ -65,7 +65,7 @@ pub struct Replanner<'a> {
     /// The motion of the drape alone, and with all that comes before it and after it.
     motion: TimedMotion,
     whole: TimedMotion,
-    /// The positions that stand for the steps of the motion, one list a step.
+    /// The control points of the path that the steps of the motion pass (m), one list a step.
     path: Vec<Vec<[f64; 3]>>,
     /// The middle of the grippers in each step (m).
     middles: Vec<[f64; 2]>,
@@ -189,7 +189,7 @@ impl<'a> Replanner<'a> {
             false => {
                 let times = [motion.times()[last_free], motion.duration()];
                 let attitudes = attitudes(&steps).map_err(Error::ReplanMotion)?;
-                let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+                let least = scene.limits.least(Name::Clearance);
                 // the arm keeps the configuration of the plan
                 let arm = summary.tool.as_ref().and_then(|tool| tool.arm);
                 Nearest::of_motion_within(
@@ -314,7 +314,7 @@ impl<'a> Replanner<'a> {
         record::times(&mut steps, &motion);
         let attitudes = attitudes(&steps).map_err(Error::ReplanMotion)?;
         record::places(&mut steps, &moved, self.last_free);
-        let outcome = record::Outcome {
+        let corrected = record::CorrectedMotion {
             motion: &motion,
             attitudes: &attitudes,
             longer,
@@ -325,7 +325,7 @@ impl<'a> Replanner<'a> {
             landing: self.landing,
             last_free: self.last_free,
         };
-        let summary = outcome.summary(self.plan(), &mut steps, &moved);
+        let summary = corrected.summary(self.plan(), &mut steps, &moved);
         let picked_up = PickedUp { offset, residual, weights: self.weights.clone() };
         // what limited the plan need not limit this motion
         let limited_by = Vec::new();

@@ -89,22 +89,22 @@ pub fn places(steps: &mut [Step], moved: &[Moved], last_free: usize) {
     }
 }
 
-/// What an outcome is judged by.
+/// A corrected motion, with all by which its outcome is judged.
 #[derive(Debug)]
-pub struct Outcome<'a> {
-    /// The corrected motion.
+pub struct CorrectedMotion<'a> {
+    /// The motion.
     pub motion: &'a TimedMotion,
     /// How its grippers are turned.
     pub attitudes: &'a Attitudes,
-    /// How many times as long it takes.
+    /// How many times as long as the planned one it takes.
     pub longer: f64,
-    /// When the drape begins in it (s), for how long the pads stand on the ply before that (s), and when the drape ends (s).
+    /// When the drape begins in it (s).
     pub begins: f64,
-    /// See [`Self::begins`].
+    /// For how long the pads stand on the ply before the drape begins (s).
     pub grip: f64,
-    /// See [`Self::begins`].
+    /// When the drape ends in it (s).
     pub ends: f64,
-    /// The rates of the tool along it.
+    /// The rates of the tool along it; `None` where each gripper moves by itself.
     pub tool: Option<ToolPeaks>,
     /// The nearest bodies of the planned motion from the last free step on.
     pub landing: Option<Nearest>,
@@ -112,7 +112,7 @@ pub struct Outcome<'a> {
     pub last_free: usize,
 }
 
-impl Outcome<'_> {
+impl CorrectedMotion<'_> {
     /// The outcome along the steps.
     pub fn summary(&self, plan: KnownPlan, steps: &mut [Step], moved: &[Moved]) -> Summary {
         let scene = plan.scene;
@@ -148,7 +148,7 @@ impl Outcome<'_> {
             tool: self.tool.as_ref(),
             rate: self.motion.fitting_rate(scene.plan.rate),
         };
-        // no verdict on the planned motion stands for this one
+        // no verdict on the planned motion is one on this motion
         summary.limits.retain(|verdict| verdict.name.measure().scope() != Scope::Motion);
         summary.judge_also(whole.verdicts());
         if let Some(tool) = &scene.layup.tool {
@@ -174,7 +174,7 @@ impl Outcome<'_> {
         // only what is nearer than the landing is looked for on the way
         let below = landing.map_or(f64::INFINITY, |nearest| nearest.distance);
         let times = [0.0, until];
-        let least = scene.limits.get(Name::Clearance).unwrap_or(0.0);
+        let least = scene.limits.least(Name::Clearance);
         let arm = self.tool.and_then(|peaks| peaks.arm_record);
         let way = Nearest::of_motion_within(
             &scene.layup.beginning_as(arm.as_ref()),

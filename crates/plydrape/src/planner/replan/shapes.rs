@@ -43,7 +43,7 @@ struct Series {
     sites: Sites,
     /// Steps, from 0, and where the points are (m).
     states: Vec<(usize, Vec<Point>)>,
-    /// Between each two of them: a distance from the mold (m) that the way of each point does not fall short of.
+    /// Between each two of them a lower bound of the distance from the mold (m) on the way of each point.
     least: Vec<Vec<f64>>,
 }
 
@@ -134,7 +134,7 @@ impl Shapes {
             boxes.iter().any(|(pose, [low, high])| {
                 let p = pose.local(*point);
                 let off = [0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0));
-                norm(off) < scene.limits.most(Name::Clearance)
+                norm(off) < scene.limits.least(Name::Clearance)
             })
         };
         let clear = |series: &Series| {
@@ -153,11 +153,11 @@ impl Shapes {
     pub fn measure(&mut self, scene: &Scene) {
         let Some(mold) = &scene.layup.mold else { return };
         for Series { states, least, .. } in &mut self.series {
-            let shortfalls = |pair: &[(usize, Vec<Point>)]| -> Vec<f64> {
+            let bounds = |pair: &[(usize, Vec<Point>)]| -> Vec<f64> {
                 let ways = pair[0].1.iter().zip(&pair[1].1);
-                ways.map(|(a, b)| falls_short_of(mold, *a, *b, self.tolerance)).collect()
+                ways.map(|(a, b)| least_distance(mold, *a, *b, self.tolerance)).collect()
             };
-            *least = states.par_windows(2).map(shortfalls).collect();
+            *least = states.par_windows(2).map(bounds).collect();
         }
     }
 
@@ -208,8 +208,9 @@ fn distance_from(mold: &Mold, p: Point) -> (f64, bool) {
     (found.distance, !found.beyond)
 }
 
-/// A distance from the mold (m) that no point of a straight way falls short of, to half of the best one; parts up to `resolution` (m) count by their ends.
-fn falls_short_of(mold: &Mold, a: Point, b: Point, resolution: f64) -> f64 {
+/// A lower bound of the distance of all points of a straight way from the mold (m), half of the best one or more; parts up to `resolution` (m)
+/// count by their ends.
+fn least_distance(mold: &Mold, a: Point, b: Point, resolution: f64) -> f64 {
     let (ends, mut least) = ([a, b].map(|p| distance_from(mold, p).0), f64::INFINITY);
     let mut best = ends[0].min(ends[1]);
     let mut open = vec![([a, b], ends)];

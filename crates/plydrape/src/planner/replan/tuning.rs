@@ -10,8 +10,8 @@ pub struct ReplanTuning {
     pub passed: f64,
     /// Largest change of the distance of two neighboring grippers in a step, as a share of it: a tenth of the usual limit of overstretch.
     pub rigid: f64,
-    /// Share of the smallest distance found along a straight way that is good enough as a bound of what no point of it falls short
-    /// of: the search for a better one costs more than it saves.
+    /// Share of the smallest distance found along a straight way that is good enough as a lower bound of the distances of all its
+    /// points: the search for a better bound costs more than it saves.
     pub loose: f64,
 }
 

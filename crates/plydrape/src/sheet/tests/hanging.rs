@@ -1,6 +1,6 @@
 //! Sheets and strips that hang, against printed figures, the elastica and closed forms.
 
-use super::super::hand_over::{TILT_REACH, surroundings};
+use super::super::hand_over::{TILT_REACH, frame_around};
 use super::*;
 use crate::elastica::{Bending, Cantilever};
 use crate::geometry::vector::angle_between;
@@ -14,8 +14,7 @@ fn a_net_of_pins_hangs_as_an_independent_simulator_has_it() {
         (0.2, [-23.77, -21.24, -8.57, -8.92, -6.18, -8.68]),
         (2.0, [-19.30, -18.21, -8.91, -9.09, -8.70, -8.68]),
     ];
-    let held: Vec<[f64; 2]> =
-        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    let held = pins();
     for (shear, figures) in figures {
         let mut sheet = sheet([even(0.3, 36), even(0.1, 12)], &held);
         sheet.areal_mass = 0.3143;
@@ -47,8 +46,7 @@ fn a_net_of_pins_hangs_as_an_independent_simulator_has_it() {
 /// alone these two differ by 1.5°.
 #[test]
 fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
-    let held: Vec<[f64; 2]> =
-        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    let held = pins();
     let tilts = [5, 10, 20].map(|parts| {
         let mut sheet = sheet([even(0.3, 3 * parts), even(0.1, parts)], &held);
         sheet.mesh = 0.1 / parts as f64;
@@ -57,15 +55,18 @@ fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
         bring(&mut cloth, &to, 20, 0.1);
         let reach = TILT_REACH * sheet.pitch;
         let tilt = |place: &[f64; 2]| {
-            let around = surroundings(&sheet.fabric, &cloth.now.x, *place, reach);
+            let around = frame_around(&sheet.fabric, &cloth.now.x, *place, reach);
             angle_between(around.expect("cells").0, [0.0, 0.0, 1.0]).to_degrees()
         };
         held.iter().map(tilt).collect::<Vec<_>>()
     });
     for n in 0..held.len() {
-        let of = tilts.each_ref().map(|tilts| tilts[n]);
-        let [coarse, fine] = [of[0], of[1]].map(|tilt| (tilt - of[2]).abs());
-        assert!(of[2] > 10.0 && coarse < 2.0 && fine < 1.0, "gripper {n}: {of:?}°");
+        let [fifth, tenth, finest] = tilts.each_ref().map(|tilts| tilts[n]);
+        let [coarse, fine] = [fifth, tenth].map(|tilt| (tilt - finest).abs());
+        assert!(
+            finest > 10.0 && coarse < 2.0 && fine < 1.0,
+            "gripper {n}: {fifth} {tenth} {finest}"
+        );
     }
 }
 

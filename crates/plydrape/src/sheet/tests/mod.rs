@@ -60,6 +60,11 @@ fn even(length: f64, spacings: usize) -> Vec<f64> {
     (0..=spacings).map(|n| length * n as f64 / spacings as f64).collect()
 }
 
+/// Fabric coordinates (m) of 4 × 2 grippers at the corners of cells of 100 mm.
+fn pins() -> Vec<[f64; 2]> {
+    (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect()
+}
+
 /// The sheet flat at a height (m), where its fabric coordinates are x and y.
 fn flat(sheet: &Sheet, z: f64) -> Cloth<'_> {
     let lifted = |[u, v]: [f64; 2]| [u, v, z];

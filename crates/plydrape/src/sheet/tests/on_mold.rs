@@ -75,8 +75,7 @@ fn an_isometric_roll_leaves_nothing() {
     let radius = 0.5;
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     let cylinder = Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside });
-    let held: Vec<[f64; 2]> =
-        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    let held = pins();
     for (mold, radius) in [(plane(0.0), f64::INFINITY), (cylinder, radius)] {
         let mut sheet = sheet([even(0.3, 15), even(0.1, 5)], &held);
         sheet.mesh = 0.02;
@@ -124,8 +123,7 @@ fn an_isometric_roll_leaves_nothing() {
 /// unknowns all the time; the nodes that were left out before are lifted too.
 #[test]
 fn nodes_that_were_left_out_are_lifted() {
-    let held: Vec<[f64; 2]> =
-        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    let held = pins();
     for friction in [Friction::Stick, Friction::StickForEver] {
         let mut sheet = sheet([even(0.3, 18), even(0.1, 6)], &held);
         sheet.mesh = 0.1 / 6.0;

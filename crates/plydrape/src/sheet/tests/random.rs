@@ -47,19 +47,13 @@ fn layup(seed: u64) -> Layup {
     let slope = r.choice(&[0.0, 0.1, 5.0, 1e4]);
     let table = TensionLaw::Table { strain: vec![0.0, 0.002, 0.01], force: vec![0.0, 5.0, 2e3] };
     let material = Material {
-        name: "random".into(),
-        source: "made up".into(),
         section: Section::Areal {
             mass: r.choice(&[0.05, 0.5, 3.0]),
             warp_rigidity: r.choice(&[0.0, 1e-5, 1e-2]),
             weft_rigidity: r.choice(&[1e-6, 1e-4]),
         },
-        shear_curve: Some(linear(slope)),
         tension: Some(r.choice(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
+        ..Material::woven("random", 3.0, 1e-5, 1e6, slope)
     };
     let ply = Ply::of_array(grid, cell, material);
     let side = cell[0].min(cell[1]);

@@ -3,7 +3,7 @@
 use super::hanging::cantilever;
 use super::*;
 use crate::layup::{Layup, Model, Release, ReleaseOrder, Settings};
-use crate::material::{Material, Section};
+use crate::material::Material;
 use crate::measure::{Judge, Limits, Name};
 use crate::mold::distance;
 use crate::motion::Motion;
@@ -23,17 +23,7 @@ pub(super) const GRID: Grid = Grid { nu: 4, nv: 2 };
 
 /// The ply of [`GRID`] where its grippers take the places (m) of each step, a second apart.
 pub(super) fn layup(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Layup {
-    let material = Material {
-        name: "paper".into(),
-        source: "Krogh et al. 2018, per area".into(),
-        section: Section::Areal { mass: 3.143, warp_rigidity: 9e-5, weft_rigidity: 9e-5 },
-        shear_curve: Some(linear(5.0)),
-        tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
-        locking_angle: None,
-        shear_rate: None,
-        moment: Default::default(),
-        scatter: Default::default(),
-    };
+    let material = Material::woven("paper", 3.143, 9e-5, 1e6, 5.0);
     let ply = Ply::of_array(GRID, [0.1; 2], material);
     let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
     settings.sheet.mesh = Some(0.02);
@@ -255,8 +245,7 @@ fn a_strip_whose_end_is_let_go_hangs_as_a_cantilever() {
 #[test]
 fn the_mold_bears_the_weight_of_a_ply_without_pads() {
     // eight grippers, as points on a level and on an inclined mold, and as pads on mounts
-    let held: Vec<[f64; 2]> =
-        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    let held = pins();
     for (angle, radius) in [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02)] {
         let mut sheet = sheet([even(0.34, 17), even(0.14, 7)], &[]);
         sheet.grippers = held

@@ -47,7 +47,7 @@ struct Carried<'a> {
     /// Where they are mounted, at the start.
     start: Poses,
     /// Distance to keep (m).
-    wanted: f64,
+    required: f64,
     /// Their distance at the start (m), as far as it is less than that.
     own: f64,
     /// Height of the highest obstacle (m).
@@ -62,24 +62,24 @@ impl<'a> Carried<'a> {
             return None;
         }
         let poses = Poses::by_neighbors(&scene.layup, &scene.layup.ply.neighbors(), start);
-        let wanted = scene.limits.most(Name::Clearance) + margin;
-        let own = from_obstacles(&scene.layup, &poses, wanted).unwrap_or(wanted);
+        let required = scene.limits.least(Name::Clearance) + margin;
+        let own = from_obstacles(&scene.layup, &poses, required).unwrap_or(required);
         let top = |obstacle: &Obstacle| obstacle.bounds()[1][2];
         let highest = obstacles.iter().map(top).fold(f64::NEG_INFINITY, f64::max);
-        Some(Carried { scene, start: poses, wanted, own, highest })
+        Some(Carried { scene, start: poses, required, own, highest })
     }
 
     /// By how much the array must be higher at most to keep the distance (m), with its center at a place (m) and turned; `from` is
     /// its center at the start (m), and it has `moved` so far (m).
     fn shortfall(&self, from: Point, center: Point, rotation: &Rotation, moved: f64) -> f64 {
-        let wanted = self.wanted.min(self.own + moved);
+        let required = self.required.min(self.own + moved);
         let poses = self.start.carried(from, center, rotation);
-        match from_obstacles(&self.scene.layup, &poses, wanted) {
+        match from_obstacles(&self.scene.layup, &poses, required) {
             // over all that stands there, and no less than the distance lacks: the way is lowered again as far as it may
-            Some(distance) if distance < wanted => {
+            Some(distance) if distance < required => {
                 let lowest = poses.stems.iter().map(|pose| pose.position[2]);
                 let lowest = lowest.fold(f64::INFINITY, f64::min);
-                (wanted - distance).max(self.highest + wanted - lowest)
+                (required - distance).max(self.highest + required - lowest)
             }
             _ => f64::NEG_INFINITY,
         }
@@ -147,12 +147,12 @@ impl<'a> Clearance<'a> {
         over_table.max(self.shortfall_over_mold(center, rotation))
     }
 
-    /// By how much it is too low over the mold and the obstacles (m), the table that it was picked up from left out. It shall keep the margin; where it has hardly moved, as much as it
-    /// had at the start and the distance that it has moved.
+    /// By how much it is too low over the mold and the obstacles (m), the table that it was picked up from left out. It shall keep the
+    /// margin; where it has hardly moved, as much as it had at the start and the distance that it has moved.
     pub fn shortfall_over_mold(&self, center: Point, rotation: &Rotation) -> f64 {
-        let wanted = self.margin.min(self.own + self.moved(center, rotation));
+        let required = self.margin.min(self.own + self.moved(center, rotation));
         let places = self.points.iter().map(|p| along(center, 1.0, turned(rotation, *p)));
-        let over_mold = wanted - self.over_mold(&places.collect::<Vec<Point>>());
+        let over_mold = required - self.over_mold(&places.collect::<Vec<Point>>());
         match &self.bodies {
             None => over_mold,
             Some(bodies) => {
@@ -227,10 +227,13 @@ fn boundary(mold: &Mold, [mut on, mut off]: [Point; 2]) -> Option<Point> {
     found
 }
 
-/// Height of the highest boundary of a mold within ranges of x and y, as lines so far apart meet it (m); minus infinity
-/// where they meet none.
+/// Height of the highest boundary of a mold within ranges of x and y, as lines `pitch` apart meet it (m); minus infinity where they
+/// meet none.
 fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
-    let [nx, ny] = ranges.map(|[low, high]| ((high - low) / pitch).ceil().max(1.0) as usize);
+    // a very long way has no more of these lines than samples
+    let most = TUNING.transport.most_samples;
+    let [nx, ny] =
+        ranges.map(|[low, high]| (((high - low) / pitch).ceil().max(1.0) as usize).min(most));
     let node = |i: usize, j: usize| {
         let [x, y] = [(0, i, nx), (1, j, ny)].map(|(n, k, count)| {
             let [low, high] = ranges[n];
@@ -323,8 +326,8 @@ fn sag(ply: &Ply, places: &[Point]) -> f64 {
         let way = [q[0] - p[0], q[1] - p[1]];
         let (chord, length) = (distance(a, b), ply.length_factor * way[0].hypot(way[1]));
         let sag = (0.375 * chord * (length - chord).max(0.0)).sqrt();
-        let of = &mut largest[usize::from(way[1].abs() > way[0].abs())];
-        *of = of.max(sag);
+        let most = &mut largest[usize::from(way[1].abs() > way[0].abs())];
+        *most = most.max(sag);
     }
     largest[0] + largest[1]
 }

@@ -25,7 +25,7 @@ use forming::formed;
 use turn::center;
 
 /// Positions (m) from the scene's start to a formation of the grippers, of a plan with this many steps; the formation itself
-/// is the next step. None without a mold or a start.
+/// is the next step. `None` without a mold or a start.
 #[must_use]
 pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec<Vec<Point>>> {
     let start = scene.layup.start();

@@ -4,9 +4,11 @@
 use crate::geometry::Point;
 use crate::geometry::vector::{along, cross, dot, norm, sub, unit};
 use crate::ply::{Ply, directions};
+pub use crate::sheet::matrix3::times as turned;
+use crate::sheet::matrix3::{Matrix3, product, transposed};
 
 /// A rotation as the rows of its matrix.
-pub type Rotation = [[f64; 3]; 3];
+pub type Rotation = Matrix3;
 
 /// Rounds of Newton's method for the best rotation; from the right heading it takes five to ten.
 const ROUNDS: usize = 50;
@@ -59,11 +61,6 @@ impl Turn {
 pub fn center(places: &[Point]) -> Point {
     let sum = places.iter().fold([0.0; 3], |sum, p| along(sum, 1.0, *p));
     sum.map(|c| c / places.len() as f64)
-}
-
-/// A vector after a rotation.
-pub fn turned(rotation: &Rotation, v: Point) -> Point {
-    rotation.map(|row| dot(row, v))
 }
 
 /// The rotation R that makes Σ |R (a − ā) − (b − b̄)|² smallest.
@@ -137,15 +134,6 @@ fn rotation_about(vector: Point) -> Rotation {
         [0, 1, 2].map(|k| cos * e[k] + sin * side[k] + (1.0 - cos) * axis[n] * axis[k])
     };
     transposed(&[column(0), column(1), column(2)])
-}
-
-fn product(a: &Rotation, b: &Rotation) -> Rotation {
-    let columns = transposed(b);
-    a.map(|row| columns.map(|column| dot(row, column)))
-}
-
-fn transposed(a: &Rotation) -> Rotation {
-    [0, 1, 2].map(|r| [0, 1, 2].map(|c| a[c][r]))
 }
 
 /// The solution of three equations by Cramer's rule; `None` if they are singular.
