@@ -330,8 +330,8 @@ fn smoothed(x: &[f64], y: &[f64], at: f64) -> f64 {
     line(&near).map_or_else(|| near[0][1], |(value, _)| value)
 }
 
-/// Coefficients of γ, γ², γ³ by least squares, and their standard errors; `None` of fewer points.
-fn polynomial(points: &[[f64; 2]]) -> Option<[[f64; 2]; POWERS]> {
+/// Coefficients of γ, γ², γ³ by least squares, and their standard errors; `None` of fewer than three points.
+pub(super) fn polynomial(points: &[[f64; 2]]) -> Option<[[f64; 2]; POWERS]> {
     let rows = points.len();
     if rows < POWERS {
         return None;
