@@ -29,6 +29,7 @@ TOGETHER = {
     "test_notebook.py": "notebook",
     "test_ros2.py": "ROS 2",
     "test_sheet_peer.py": "MuJoCo",
+    "test_unseen.py": "unseen",
     "test_vtk.py": "VTK",
 }
 
