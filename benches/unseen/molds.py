@@ -91,7 +91,10 @@ class Pose:
                 surface = local(u, v)
                 if not math.isfinite(surface):
                     return surface
+                before = z
                 z -= (w - surface) / self.axes[2][2]
+                if z == before:  # as every further step would leave it
+                    break
             return z
 
         return height

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,11 @@ if TYPE_CHECKING:
 # Before NumPy is loaded: many small solves are slower on several threads.
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
+
+# An image of a container often forbids compiled modules. Then each of the hundreds of processes
+# that tests start would compile SciPy, pandas and the like once more, which takes seconds.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # A shell that runs the tests in the background ignores Ctrl-C for them and all that they start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -29,6 +35,7 @@ TOGETHER = {
     "test_notebook.py": "notebook",
     "test_ros2.py": "ROS 2",
     "test_sheet_peer.py": "MuJoCo",
+    "test_unseen.py": "unseen",
     "test_vtk.py": "VTK",
 }
 

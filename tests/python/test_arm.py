@@ -99,6 +99,11 @@ def exported(plan: Path, kind: str, folder: Path) -> Path:
     return folder / kind
 
 
+def read(path: Path) -> Any:
+    """A YAML file, by the reader in C: the one in Python takes seconds for a trajectory."""
+    return yaml.load(path.read_text(), yaml.CSafeLoader)
+
+
 def wide(folder: Path) -> tuple[Array, list[Array]]:
     """Times, and the flange in the frame of the mold, as ``*_wide.csv`` has them."""
     (path,) = folder.glob("*_wide.csv")
@@ -129,7 +134,7 @@ def test_one_trajectory_of_arm_and_axes_brings_the_flange_to_its_poses(
     """
     arm = Arm(ROBOTS / f"{ARM}.urdf")
     times, poses = wide(exported(plan, "rapid", tmp_path))
-    trajectory = yaml.safe_load((exported(plan, "ros2", tmp_path) / "trajectory.yaml").read_text())
+    trajectory = read(exported(plan, "ros2", tmp_path) / "trajectory.yaml")
     names = [joint.attrib["name"] for joint in arm.moving()]
     assert trajectory["joint_names"][:6] == names
     assert len(trajectory["joint_names"]) == 6 + 36
@@ -153,15 +158,15 @@ def test_the_description_brings_the_tool_to_its_place(plan: Path, tmp_path: Path
     folder = exported(plan, "ros2", tmp_path)
     arm = Arm(folder / "array.urdf", "ply_foot", "ply_tool")
     _, poses = wide(exported(plan, "rapid", tmp_path))
-    points = yaml.safe_load((folder / "trajectory.yaml").read_text())["points"]
+    trajectory = read(folder / "trajectory.yaml")
+    points, names = trajectory["points"], trajectory["joint_names"]
     world = frame(turn(np.array([0.0, 0.0, 1.0]), WORLD["yaw"]), np.array(WORLD["position"]))
     # of the example: 300 mm above the frame, looking down on it
     flange = frame(turn(np.array([1.0, 0.0, 0.0]), np.pi), np.array([0.0, 0.0, 0.3]))
     for n in (0, len(points) // 2, len(points) - 1):
         found = arm.flange(np.array(points[n]["positions"][:6]))
         np.testing.assert_allclose(found, world @ poses[n] @ np.linalg.inv(flange), atol=2e-7)
-    controllers = yaml.safe_load((folder / "controllers.yaml").read_text())
-    names = yaml.safe_load((folder / "trajectory.yaml").read_text())["joint_names"]
+    controllers = read(folder / "controllers.yaml")
     assert controllers["ply_controller"]["ros__parameters"]["joints"] == names
 
 

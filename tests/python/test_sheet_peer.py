@@ -156,7 +156,7 @@ def test_what_touches_a_ball_sticks_to_its_tangents(peer: Any) -> None:
 
 def test_with_little_friction_the_straight_path_ends_flat(peer: Any) -> None:
     """At a coefficient of 0.3 the fabric slides out, as in other programs."""
-    ply = peer.paper_ply(6, 3.143, 5.0)
+    ply = peer.paper_ply(5, 3.143, 5.0)
     places = peer.straight()[21:]
     states = peer.drape(ply, peer.GRIPPERS, places, peer.Plane(), friction=0.3, seconds=0.6)
     assert np.abs(states[-1, :, 2]).max() < 2e-5

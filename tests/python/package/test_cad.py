@@ -75,6 +75,15 @@ def quiet() -> Any:
     return _occ.quiet()
 
 
+@pytest.fixture
+def within(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files are read within this process: to start one that loads OpenCASCADE takes a second.
+
+    That a process of its own reads the same is seen by the patch, the command, and bad input.
+    """
+    monkeypatch.setattr(_occ, "read", _occ.read_here)
+
+
 def sampled(found: cad.Triangles) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Middles of triangles and of their sides (N, 3), and the areas of the triangles."""
     a, b, c = (found.points[found.triangles[:, k]] for k in range(3))
@@ -96,6 +105,7 @@ def ways(found: cad.Triangles) -> Counter[int]:
     return Counter(np.unique(edges, axis=0, return_counts=True)[1].tolist())
 
 
+@pytest.mark.usefixtures("within")
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 2e-5])
 def test_a_cap_from_step_lies_on_its_sphere_within_the_tolerance(
     tmp_path: Path, tolerance: float
@@ -128,6 +138,7 @@ def test_a_patch_from_iges_lies_on_its_cylinder_within_the_tolerance(tmp_path: P
     assert np.ptp(found.points[:, 1]) == pytest.approx(0.3, abs=1e-9)
 
 
+@pytest.mark.usefixtures("within")
 def test_the_angle_divides_what_the_tolerance_leaves_coarse(tmp_path: Path) -> None:
     """Two triangles that meet on a circle of n chords differ by 360 deg / n."""
     path = step(tmp_path / "patch.stp", patch(-TILT, TILT))
@@ -141,6 +152,7 @@ def test_the_angle_divides_what_the_tolerance_leaves_coarse(tmp_path: Path) -> N
     assert counts[0] < counts[1] < counts[2]
 
 
+@pytest.mark.usefixtures("within")
 @pytest.mark.parametrize("unit", ["MM", "M", "INCH"])
 def test_the_unit_of_the_file_is_read(tmp_path: Path, unit: str) -> None:
     """The same part written in mm, m and inches is the same in m."""
@@ -152,6 +164,7 @@ def test_the_unit_of_the_file_is_read(tmp_path: Path, unit: str) -> None:
         assert width == pytest.approx(2e-3 * RADIUS * sin(TILT), rel=1e-3), path.name
 
 
+@pytest.mark.usefixtures("within")
 def test_a_wrong_unit_can_be_replaced(tmp_path: Path) -> None:
     """A file that says mm and holds inches is 25.4 times as large, one that holds m 1000 times."""
     for path in (step(tmp_path / "cap.step", cap()), iges(tmp_path / "cap.iges", cap())):
@@ -161,6 +174,7 @@ def test_a_wrong_unit_can_be_replaced(tmp_path: Path) -> None:
             assert np.ptp(found.points, axis=0) == pytest.approx(factor * said, rel=1e-6)
 
 
+@pytest.mark.usefixtures("within")
 def test_faces_that_meet_share_their_corners(tmp_path: Path) -> None:
     """A solid box is closed: each edge has two triangles, and the outside is outside."""
     box = BRepPrimAPI_MakeBox(gp_Pnt(70, -20, 30), 100.0, 200.0, 300.0).Solid()
@@ -172,6 +186,7 @@ def test_faces_that_meet_share_their_corners(tmp_path: Path) -> None:
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(0.1 * 0.2 * 0.3)
 
 
+@pytest.mark.usefixtures("within")
 def test_curved_faces_that_meet_have_no_crack(tmp_path: Path) -> None:
     """A box with a cap fused on it: the circle between plane and sphere is divided once."""
     box = BRepPrimAPI_MakeBox(gp_Pnt(-300, -300, -100), 600.0, 600.0, 60.0).Solid()
@@ -183,6 +198,7 @@ def test_curved_faces_that_meet_have_no_crack(tmp_path: Path) -> None:
     assert found.points[:, 2].max() == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.usefixtures("within")
 def test_faces_that_lie_side_by_side_are_joined(tmp_path: Path) -> None:
     """IGES holds faces without what joins them: a cylinder in three patches is one surface."""
     angles = [-TILT, -0.2, 0.3, TILT]
@@ -199,6 +215,7 @@ def test_faces_that_lie_side_by_side_are_joined(tmp_path: Path) -> None:
     plydrape.Mold.triangles(found.points, found.triangles)
 
 
+@pytest.mark.usefixtures("within")
 @pytest.mark.parametrize("reverse", [False, True])
 def test_a_surface_is_turned_up(tmp_path: Path, reverse: bool) -> None:
     """Whichever side of the cap the file calls its front."""
@@ -207,6 +224,7 @@ def test_a_surface_is_turned_up(tmp_path: Path, reverse: bool) -> None:
     assert (np.cross(b - a, c - a)[:, 2] > 0.0).all()
 
 
+@pytest.mark.usefixtures("within")
 def test_the_default_tolerance_follows_the_size(tmp_path: Path) -> None:
     """A 5000th of the diagonal of the box of the part."""
     found = cad.read(step(tmp_path / "cap.step", cap()), angle_deg=45.0)
@@ -252,6 +270,7 @@ def halfway(line: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.array([np.interp(along[-1] / 2, along, line[:, c]) for c in range(3)])
 
 
+@pytest.mark.usefixtures("within")
 @pytest.mark.parametrize("ending", [".stl", ".obj"])
 def test_a_converted_mold_drapes_as_the_exact_one(tmp_path: Path, ending: str) -> None:
     """A flat dome: grippers and fabric end where those on the formula do, within the tolerance."""
@@ -283,6 +302,7 @@ def test_a_converted_mold_drapes_as_the_exact_one(tmp_path: Path, ending: str) -
     assert here == pytest.approx(there, abs=0.1)
 
 
+@pytest.mark.usefixtures("within")
 def test_a_mold_is_made_without_a_file(tmp_path: Path) -> None:
     """Heights of the cap over the plan."""
     mold = cad.mold(step(tmp_path / "cap.step", cap()), tolerance="0.02 mm")
@@ -292,6 +312,7 @@ def test_a_mold_is_made_without_a_file(tmp_path: Path) -> None:
     assert np.isnan(mold.heights([[0.19, 0.0]])).all()
 
 
+@pytest.mark.usefixtures("within")
 def test_both_formats_hold_the_same_triangles(tmp_path: Path) -> None:
     """An STL has single precision, an OBJ all digits; both are in mm."""
     path = step(tmp_path / "cap.step", cap())
@@ -310,6 +331,7 @@ def test_both_formats_hold_the_same_triangles(tmp_path: Path) -> None:
     assert (facets["normal"][:, 2] > 0).all()
 
 
+@pytest.mark.usefixtures("within")
 def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     """What was there stays when the input is bad; no draft is left behind."""
     out = tmp_path / "mold.stl"

@@ -59,7 +59,7 @@ radius = "0.8 m"
 position = [0, 0, "-0.8 m"]
 
 [grippers]
-pad_radius = "15 mm"
+pad_radius = "20 mm"
 spacing = ["98 mm", "98 mm"]
 height = "30 mm"
 origin = "centered"
@@ -73,7 +73,7 @@ kind = "straight"
 steps = 3
 
 [sheet]
-mesh = "20 mm"
+mesh = "25 mm"
 """
 
 AIR = """

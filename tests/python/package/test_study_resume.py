@@ -25,6 +25,11 @@ from studies import study, write
 
 SAMPLES = 240
 RUN = "import sys, plydrape.study as s; s.run(sys.argv[1], workers=2, every=0.05, progress=False)"
+# The command, which writes a part twenty times a second: three parts are there at once.
+OFTEN = (
+    "import functools, sys; from plydrape.study import __main__ as command; "
+    "command.run = functools.partial(command.run, every=0.05); sys.exit(command.main())"
+)
 
 
 def workers_of(client: subprocess.Popen[bytes]) -> list[int]:
@@ -334,7 +339,7 @@ def test_a_damaged_part_is_named(tmp_path: Path) -> None:
 def test_an_interrupted_study_keeps_what_is_finished(tmp_path: Path, how: str) -> None:
     """Exit code 130, a word on how to go on, no worker left, nothing half; going on works."""
     path = write(tmp_path, 3000)
-    command = [sys.executable, "-m", "plydrape.study", str(path), "--workers", "2"]
+    command = [sys.executable, "-c", OFTEN, str(path), "--workers", "2"]
     client = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
     results = tmp_path / "study.results"
     deadline = time.monotonic() + 30
