@@ -6,8 +6,9 @@
 //!
 //! and the time is `∫ dτ/√b`. Bounds of q̇ and q̈ are convex in b, and so is the time (Verscheure et al. 2009). A bound of q⃛ is the
 //! difference of two convex functions, `|b q''' + 3/2 b' q'' + ½ b'' q'| ≤ J/√b`: its right side is replaced by its tangent, which
-//! lies below it, and the program is solved again from where it came to. So each solution keeps the bounds, and none takes longer
-//! than the one before. The motion itself is b = 1. It begins and ends at rest, and at any pace it still does.
+//! lies below it, and the program is solved again from where it came to. So each solution keeps the bounds of its program, and with
+//! the same bounds none takes longer than the one before. The motion itself is b = 1. It begins and ends at rest, and at any pace it
+//! still does.
 //!
 //! 1. `pace`: b as a spline of parabolas;
 //! 2. `program`: one convex program;
