@@ -105,8 +105,9 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
     }
     let is_stiffness = |tension: f64| tension > 0.0 && tension.is_finite();
     if let Some(tension) = options.tension.filter(|tension| !is_stiffness(*tension)) {
-        let message = format!("a tension stiffness of {tension} N/m is none");
-        return Err(Error::not_possible(message, "give a number above 0, such as 2e4"));
+        let message =
+            format!("the tension stiffness is {tension} N/m, which is not a number above 0");
+        return Err(Error::not_possible(message, "give a number above 0, e.g. 2e4"));
     }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
