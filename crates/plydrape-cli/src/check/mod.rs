@@ -114,7 +114,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         lines.extend(shear::shear(&scene, factor)?);
     }
     let files = match arguments.html {
-        true => whole(|| page(&scene, arguments, &lines, &warnings))?,
+        true => page(&scene, arguments, &lines, &warnings)?,
         false => Vec::new(),
     };
     if arguments.json {
@@ -151,7 +151,7 @@ fn page(
     let drape = model::drape(&held, model, folder.stage(), &Interrupt::never(), true)?;
     let result = ResultFile::new(&held, held.input.clone(), drape);
     let html = page::look_html(scene, result, lines, warnings)?;
-    Ok(folder.write(&[(PAGE, &html.as_bytes() as &dyn Content)])?)
+    Ok(whole(|| folder.write(&[(PAGE, &html.as_bytes() as &dyn Content)]))?)
 }
 
 /// The nouns of a scene, each in a line.

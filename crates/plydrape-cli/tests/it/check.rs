@@ -1,7 +1,7 @@
 //! `plydrape check` as a user reads it: where the ply starts and shall end, and warnings of what can hardly be meant.
 
 use crate::common::{command, example, one_line, text};
-use std::process::Output;
+use std::process::{Command, Output};
 
 /// Grippers over a flat mold, all numbers in a unit of length to come.
 const SCENE: &str = "\
@@ -126,6 +126,25 @@ fn a_page_shows_a_scene_before_it_is_draped() {
     assert_eq!(again.status.code(), Some(2), "{}", text(&again.stdout));
     let kept = std::fs::read_to_string(folder.path().join("scene.check/check.html")).unwrap();
     assert_eq!(kept, "mine");
+}
+
+/// A sheet of some 28 000 nodes hangs for long: a signal ends the drape, because nothing is being written yet.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_drape_of_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    std::fs::write(&file, format!("{CUT}[sheet]\nmesh = \"4 mm\"\n")).unwrap();
+    let mut check = command();
+    let mut child = check.args(["-q", "check", "--html"]).arg(&file).spawn().unwrap();
+    let out = folder.path().join("scene.check");
+    while !out.exists() {
+        assert_eq!(child.try_wait().unwrap(), None, "it ended before it claimed its folder");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").arg(child.id().to_string()).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!out.join("check.html").exists());
 }
 
 /// Fabric far beyond the cups on a mold that sticks, rows of cups that make a fine mesh, an obstacle in the mold, bodies that meet
