@@ -18,7 +18,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<SummaryLine> {
     for name in Name::ALL {
         let measure = name.measure();
         let other = measure.description().model.is_some_and(|only| only != layup.settings.model);
-        let Some(limit) = measure.limit(layup, limits).filter(|_| !other) else { continue };
+        let Some(limit) = name.limit(layup, limits).filter(|_| !other) else { continue };
         let side = if measure.sense() == Sense::AtLeast { "at least " } else { "" };
         let text = match (name, limits.workspace) {
             (Name::Workspace, Some(sides)) => workspace(sides),

@@ -21,7 +21,7 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     let motion = Motion { times: Vec::new(), positions: Vec::new() };
     let layup = Layup { motion, ..result.layup() };
     Name::ALL.iter().find_map(|name| {
-        let limit = name.measure().limit(&layup, &result.scene.limits)?;
+        let limit = name.limit(&layup, &result.scene.limits)?;
         limit_fault(
             result,
             *name,

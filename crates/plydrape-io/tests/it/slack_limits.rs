@@ -75,23 +75,19 @@ fn a_preset_sets_its_figures_and_no_other_limit() {
         let scene = scene(&format!("preset = \"{}\"", preset.name()));
         assert_eq!(scene.limits.preset, Some(*preset));
         for figure in preset.figures() {
-            let measure = figure.name.measure();
-            let unit = match measure.unit().recorded {
+            let unit = match figure.name.measure().unit().recorded {
                 "mm" => 1e-3,
                 "deg" => 1_f64.to_radians(),
                 other => panic!("{other}"),
             };
-            near(
-                measure.limit(&scene.layup, &scene.limits).expect("a limit"),
-                figure.value / unit,
-                1e-12,
-            );
+            let limit = figure.name.limit(&scene.layup, &scene.limits).expect("a limit");
+            near(limit, figure.value / unit, 1e-12);
             assert!(!figure.source.is_empty());
         }
         for name in Name::ALL.iter().filter(|name| preset.value(**name).is_none()) {
             // the slack ratio of a slack angle is the same limit in another unit
             if *name != Name::SlackRatio || preset.value(Name::SlackAngle).is_none() {
-                let limit = |limits: &Limits| name.measure().limit(&scene.layup, limits);
+                let limit = |limits: &Limits| name.limit(&scene.layup, limits);
                 assert_eq!(limit(&scene.limits), limit(&usual), "{preset:?} {name:?}");
             }
         }

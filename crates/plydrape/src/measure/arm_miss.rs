@@ -14,7 +14,7 @@ impl Measure for ArmMiss {
         Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         Some(1e3 * layup.tool.as_ref()?.arm.as_ref()?.allowed_miss())
     }
 

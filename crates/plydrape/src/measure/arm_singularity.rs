@@ -19,7 +19,7 @@ impl Measure for ArmSingularity {
         Description { sense: Sense::AtLeast, scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         layup.tool.as_ref()?.arm.as_ref().map(|arm| arm.singular)
     }
 

@@ -13,7 +13,7 @@ impl Measure for AxisSpeed {
         Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         // a tool may have no axes
         layup.tool.as_ref().filter(|tool| !tool.axes.is_empty()).map(|_| 1.0)
     }

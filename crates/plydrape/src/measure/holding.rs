@@ -15,7 +15,7 @@ impl Measure for Holding {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
         layup.settings.pad.holding_force.map(|force| force / limits.grip_safety)
     }
 

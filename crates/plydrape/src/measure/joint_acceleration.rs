@@ -18,7 +18,7 @@ impl Measure for JointAcceleration {
         Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         layup.tool.as_ref()?.arm.as_ref()?.acceleration.map(f64::to_degrees)
     }
 

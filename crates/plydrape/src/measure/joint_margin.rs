@@ -18,7 +18,7 @@ impl Measure for JointMargin {
         true
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         layup.tool.as_ref()?.arm.as_ref().map(|arm| arm.margin.to_degrees())
     }
 

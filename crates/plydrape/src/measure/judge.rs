@@ -46,13 +46,12 @@ impl<'a> Judge<'a> {
 
     /// The limit of a measure that a drape is judged by.
     fn limit(&self, name: Name) -> Option<f64> {
-        let measure = name.measure();
-        let judged = match measure.scope() {
+        let judged = match name.measure().scope() {
             Scope::EveryStep | Scope::End => true,
             Scope::Time => self.timed,
             Scope::Motion | Scope::Whole => false,
         };
-        measure.limit(self.layup, self.limits).filter(|_| judged)
+        name.limit(self.layup, self.limits).filter(|_| judged)
     }
 
     /// Evaluates the limits of a step; `last` if no other follows.

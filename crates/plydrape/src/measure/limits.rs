@@ -133,7 +133,7 @@ impl Limits {
             let set = self.get(*name).filter(|bound| !is_usual(*bound));
             let own = set.map(|bound| bound / measure.unit().si);
             let of_motion =
-                || measure.limit(layup, self).filter(|_| measure.scope() == Scope::Motion);
+                || name.limit(layup, self).filter(|_| measure.scope() == Scope::Motion);
             Some((*name, own.or_else(of_motion)?))
         };
         Name::ALL.iter().filter_map(limit).collect()
@@ -201,7 +201,7 @@ mod tests {
     fn a_limit_is_in_the_unit_of_its_measure_where_it_applies() {
         let mut layup = sample::layup();
         let limits = Limits::usual(&layup);
-        let limit = |layup: &Layup, name: Name| name.measure().limit(layup, &limits);
+        let limit = |layup: &Layup, name: Name| name.limit(layup, &limits);
         assert_eq!(limit(&layup, Name::Penetration), Some(0.2));
         assert_eq!(limit(&layup, Name::LandingGripper), Some(0.5));
         assert_eq!(limit(&layup, Name::Slip), None);

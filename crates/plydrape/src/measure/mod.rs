@@ -281,10 +281,9 @@ pub trait Measure: Sync {
         true
     }
 
-    /// The limit that applies to a layup, in the measure's own unit; `None` if none does.
-    fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
-        let name = Name::ALL.iter().find(|name| name.measure().name() == self.name())?;
-        limits.get(*name).filter(|_| self.applies(layup)).map(|limit| limit / self.unit().si)
+    /// The limit that follows from pads, tool, workspace or another limit, in the measure's own unit; `None` if none does.
+    fn derived_limit(&self, _layup: &Layup, _limits: &Limits) -> Option<f64> {
+        None
     }
 
     /// The worst value in the ply of one step and where that is; `None` if the model of the ply cannot evaluate it, or it has no meaning
@@ -391,6 +390,15 @@ impl Name {
     /// The measures that a scene may bound, and how.
     pub fn bounded() -> impl Iterator<Item = (Name, Bound)> {
         Name::ALL.iter().filter_map(|name| Some((*name, name.measure().bound()?)))
+    }
+
+    /// The limit that applies to a layup, in the measure's own unit; `None` if none does.
+    #[must_use]
+    pub fn limit(self, layup: &Layup, limits: &Limits) -> Option<f64> {
+        let measure = self.measure();
+        let own = || limits.get(self).filter(|_| measure.applies(layup));
+        let derived = measure.derived_limit(layup, limits);
+        derived.or_else(|| own().map(|own| own / measure.unit().si))
     }
 
     /// The measure that had a name before version 0.1.0; such names are read until version 0.2.0.

@@ -29,7 +29,7 @@ impl Measure for Sensitivity {
         Name::Height.measure().applies(layup)
     }
 
-    fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
-        Some(SHARE * Name::Height.measure().limit(layup, limits)?)
+    fn derived_limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
+        Some(SHARE * Name::Height.limit(layup, limits)?)
     }
 }

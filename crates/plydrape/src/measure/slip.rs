@@ -13,7 +13,7 @@ impl Measure for Slip {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, limits: &Limits) -> Option<f64> {
         // fabric that may slide does so at the slip force
         let force = layup.settings.pad.slip_force?;
         limits.get(Name::SlipLength).is_none().then_some(force / limits.grip_safety)

@@ -16,7 +16,7 @@ impl Measure for TableGap {
         true
     }
 
-    fn limit(&self, layup: &Layup, _: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _: &Limits) -> Option<f64> {
         // a ply that still touches drags along the table
         layup.pick_up.filter(|pick_up| pick_up.lift_steps > 0).map(|_| 0.0)
     }

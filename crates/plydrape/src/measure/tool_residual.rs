@@ -17,7 +17,7 @@ impl Measure for ToolResidual {
         Description { scope: Scope::Whole, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         Some(1e3 * layup.tool.as_ref()?.residual?)
     }
 }

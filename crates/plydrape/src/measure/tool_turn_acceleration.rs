@@ -17,7 +17,7 @@ impl Measure for ToolTurnAcceleration {
         Description { scope: Scope::Motion, worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, layup: &Layup, _limits: &Limits) -> Option<f64> {
         layup.tool.as_ref().map(|tool| tool.turn_acceleration.to_degrees())
     }
 

@@ -123,9 +123,8 @@ impl WholeMotion<'_> {
     #[must_use]
     pub fn verdicts(&self) -> Vec<Verdict> {
         let verdict = |name: &Name| {
-            let measure = name.measure();
-            let limit = measure.limit(self.layup, self.limits)?;
-            let (found, time) = measure.evaluate_motion(self)?;
+            let limit = name.limit(self.layup, self.limits)?;
+            let (found, time) = name.measure().evaluate_motion(self)?;
             let step = time.map(|time| self.step(time));
             Some(Verdict::new(*name, Worst::new(&found, self.layup), limit, step))
         };

@@ -15,7 +15,7 @@ impl Measure for Workspace {
         Description { worth: Worth::Kept, ..own }
     }
 
-    fn limit(&self, _layup: &Layup, limits: &Limits) -> Option<f64> {
+    fn derived_limit(&self, _layup: &Layup, limits: &Limits) -> Option<f64> {
         limits.workspace.map(|_| 0.0)
     }
 

@@ -78,7 +78,7 @@ impl Summary {
         self.worst = worst_numbers(steps.iter().map(|step| &step.measures));
         self.last = last_numbers(steps.last().map(|step| &step.measures));
         for name in names {
-            let Some(limit) = name.measure().limit(layup, limits) else { continue };
+            let Some(limit) = name.limit(layup, limits) else { continue };
             let Some(again) = worst_verdict(*name, steps, limit) else { continue };
             match self.limits.iter_mut().find(|verdict| verdict.name == *name) {
                 Some(verdict) => *verdict = again,

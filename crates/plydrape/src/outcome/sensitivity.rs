@@ -33,7 +33,7 @@ pub(super) fn judge_sensitivity(
     flight: Option<&Flight>,
     stop: &(dyn Fn() -> bool + Sync),
 ) {
-    let limit = |name: Name| name.measure().limit(layup, limits);
+    let limit = |name: Name| name.limit(layup, limits);
     let [Some(least), Some(highest)] = [Name::Sensitivity, Name::Height].map(limit) else { return };
     let Some(own) = height(&summary.limits) else { return };
     // a motion gets its least time after it was decided on

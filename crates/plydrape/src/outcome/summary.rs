@@ -165,7 +165,7 @@ impl Summary {
     /// scene limits that.
     pub fn follow_tool(&mut self, scene: &Scene, record: ToolRecord) {
         self.limits.retain(|verdict| verdict.name != Name::ToolResidual);
-        if let Some(limit) = Name::ToolResidual.measure().limit(&scene.layup, &scene.limits) {
+        if let Some(limit) = Name::ToolResidual.limit(&scene.layup, &scene.limits) {
             let at = Site::Gripper(record.gripper).label(&scene.layup);
             let worst = crate::measure::Worst { value: record.residual_mm, at, place: None };
             self.judge_also([Verdict::new(Name::ToolResidual, worst, limit, Some(record.step))]);

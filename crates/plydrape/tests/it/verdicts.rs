@@ -71,7 +71,7 @@ fn applying(scene: &Scene, scopes: &[Scope]) -> BTreeSet<Name> {
     let applies = |name: &Name| {
         let measure = name.measure();
         let follows = measure.description().model.is_none_or(|own| own == layup.settings.model);
-        follows && scopes.contains(&measure.scope()) && measure.limit(layup, limits).is_some()
+        follows && scopes.contains(&measure.scope()) && name.limit(layup, limits).is_some()
     };
     Name::ALL.iter().copied().filter(applies).collect()
 }
