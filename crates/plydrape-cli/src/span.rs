@@ -113,8 +113,6 @@ const WEIGHTS: [f64; 2] = [1e-9, 1e9];
 const RIGIDITIES: [f64; 2] = [1e-18, 1e12];
 /// Steepest slope and chord.
 const STEEPEST: f64 = 1000.0;
-/// Error of the length, as a share of it, beyond which a span counts as not solved.
-const LARGEST_RESIDUAL: f64 = 1e-6;
 /// Places that the table and the JSON object list.
 const STATIONS: usize = 11;
 
@@ -305,14 +303,10 @@ impl Solved {
     /// Solves a span, or says that no force gives it its length.
     fn new(span: Span, at_rest: bool) -> Result<Solved, Failure> {
         let root = span.solve(None);
-        let shape = match root.force {
-            Some(force) => SpanShape::Small(Box::new(Profile::new(&span, force))),
-            None => SpanShape::Straight,
-        };
-        let solved = Solved { span, root, shape, at_rest };
-        let is_finite = |s: Station| s.z.is_finite() && s.moment.is_finite();
-        if root.residual <= LARGEST_RESIDUAL && solved.stations().all(is_finite) {
-            return Ok(solved);
+        if span.is_solved_by(&root) {
+            let small = |force| SpanShape::Small(Box::new(Profile::new(&span, force)));
+            let shape = root.force.map_or(SpanShape::Straight, small);
+            return Ok(Solved { span, root, shape, at_rest });
         }
         Err(Failure::NoSolution {
             message: "no horizontal force gives this span its length".into(),

@@ -337,7 +337,7 @@ impl Span {
             return Ok(Span { span, exact, profile: None, shape: Some(shape), state });
         }
         let root = span.solve(None);
-        if root.residual > 1e-8 {
+        if !span.is_solved_by(&root) {
             let text = format!(
                 "no force gives the span its length: an error of {:.1e} of it is left",
                 root.residual

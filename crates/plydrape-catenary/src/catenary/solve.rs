@@ -135,6 +135,17 @@ impl Span {
         }
         Root { force: Some(force), state, evaluations: TUNING.evaluations, residual }
     }
+
+    /// Whether a root gives this span its length, in a shape of finite numbers.
+    #[must_use]
+    pub fn is_solved_by(&self, root: &Root) -> bool {
+        let is_finite = |force: f64| {
+            let profile = Profile::new(self, force);
+            let stations = [0.0, 0.5, 1.0].map(|share| profile.station(share * self.run));
+            stations.iter().all(|station| station.z.is_finite() && station.moment.is_finite())
+        };
+        root.residual <= TUNING.length_error && root.force.is_none_or(is_finite)
+    }
 }
 
 /// A force well above `force`.

@@ -32,6 +32,9 @@ pub(crate) struct CatenaryTuning {
     pub slack: f64,
     /// Evaluations of the arc length after which the search for H gives up; bisection alone needs about 60.
     pub evaluations: usize,
+    /// Error of the length, as a share of it, up to which a span counts as solved. A root that is found has 1e-9 or less; 1e-6 is a
+    /// micrometer in a meter.
+    pub length_error: f64,
     /// Relative step of H below which the next error is lost in rounding: it is the square of the step.
     pub small_step: f64,
 }
@@ -53,5 +56,6 @@ pub(crate) const TUNING: CatenaryTuning = CatenaryTuning {
     panels: 256.0,
     slack: 1e-13,
     evaluations: 100,
+    length_error: 1e-6,
     small_step: 1e-9,
 };
