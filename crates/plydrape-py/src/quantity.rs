@@ -15,16 +15,25 @@ pub enum Amount {
 }
 
 impl Amount {
-    /// The value in SI units, infinity included, a plain number near what is usual; `name` is that of the argument.
+    /// The value in SI units, a plain number near what is usual; `name` is that of the argument. It is finite, but a force may be infinite.
     pub fn si(&self, name: &str, measured: Measured, usual: &Usual) -> PyResult<f64> {
         let text = match self {
-            Amount::Number(value) if !value.is_finite() => return Ok(*value),
-            Amount::Number(value) => &value.to_string(),
+            Amount::Number(value) => &value.to_string().to_lowercase(),
             Amount::Text(text) => text,
         };
-        quantity(text, measured, usual).map_err(|refused| {
+        let value = quantity(text, measured, usual).map_err(|refused| {
             PyValueError::new_err(format!("{name}: {}; {}", refused.message(), refused.help()))
-        })
+        })?;
+        match value.is_finite() || measured == Measured::Force {
+            true => Ok(value),
+            false => Err(refused(name, value, "a finite number")),
+        }
+    }
+
+    /// As [`Amount::si`], and above zero.
+    pub fn positive(&self, name: &str, measured: Measured, usual: &Usual) -> PyResult<f64> {
+        let value = self.si(name, measured, usual)?;
+        if value > 0.0 { Ok(value) } else { Err(refused(name, value, "a positive number")) }
     }
 
     /// As a scene file has it.
@@ -34,6 +43,10 @@ impl Amount {
             Amount::Text(text) => serde_json::Value::from(text.as_str()).to_string(),
         }
     }
+}
+
+fn refused(name: &str, value: f64, expected: &str) -> PyErr {
+    PyValueError::new_err(format!("{name} is {value}; expected {expected}"))
 }
 
 /// A quantity in SI units, for what is written in Python: an angle (rad) or a length (m).

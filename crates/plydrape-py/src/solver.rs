@@ -86,9 +86,9 @@ impl Solver {
         max_tilt: Amount,
     ) -> PyResult<Self> {
         let axial_stiffness =
-            axial_stiffness.si("axial_stiffness", Measured::Force, &usual::Axial::USUAL)?;
-        let gravity = gravity.si("gravity", Measured::Acceleration, &usual::Gravity::USUAL)?;
-        let max_tilt = max_tilt.si("max_tilt", Measured::Angle, &usual::AnyAngle::USUAL)?;
+            axial_stiffness.positive("axial_stiffness", Measured::Force, &usual::Axial::USUAL)?;
+        let gravity = gravity.positive("gravity", Measured::Acceleration, &usual::Gravity::USUAL)?;
+        let max_tilt = max_tilt.positive("max_tilt", Measured::Angle, &usual::AnyAngle::USUAL)?;
         let slopes = match slopes {
             "moment-balance" => SlopeRule::MomentBalance,
             "min-force" => SlopeRule::MinForce,
@@ -98,16 +98,9 @@ impl Solver {
                 return Err(PyValueError::new_err(text));
             }
         };
-        for (name, value, most) in [
-            ("axial_stiffness", axial_stiffness, f64::INFINITY),
-            ("gravity", gravity, f64::MAX),
-            ("max_tilt", max_tilt, FRAC_PI_2 * (1.0 - f64::EPSILON)),
-        ] {
-            if !(value > 0.0 && value <= most) {
-                let below = if name == "max_tilt" { " below π/2" } else { "" };
-                let text = format!("{name} is {value}; expected a positive number{below}");
-                return Err(PyValueError::new_err(text));
-            }
+        if max_tilt > FRAC_PI_2 * (1.0 - f64::EPSILON) {
+            let text = format!("max_tilt is {max_tilt}; expected a positive number below π/2");
+            return Err(PyValueError::new_err(text));
         }
         let settings =
             Settings { slopes, axial_stiffness, gravity, max_tilt, ..Settings::default() };

@@ -92,9 +92,9 @@ impl Span {
         moment: Option<(Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Self> {
         // all values in SI units
-        let run = run.si("run", Measured::Length, &usual::Span::USUAL)?;
-        let length = length.si("length", Measured::Length, &usual::Span::USUAL)?;
-        let weight = weight.si("weight", Measured::ForcePerLength, &usual::Weight::USUAL)?;
+        let run = run.positive("run", Measured::Length, &usual::Span::USUAL)?;
+        let length = length.positive("length", Measured::Length, &usual::Span::USUAL)?;
+        let weight = weight.positive("weight", Measured::ForcePerLength, &usual::Weight::USUAL)?;
         let flexural_rigidity = flexural_rigidity.si(
             "flexural_rigidity",
             Measured::FlexuralRigidity,
@@ -102,7 +102,7 @@ impl Span {
         )?;
         let rise = rise.si("rise", Measured::Length, &usual::Span::USUAL)?;
         let axial_stiffness = axial_stiffness
-            .map(|ea| ea.si("axial_stiffness", Measured::Force, &usual::Axial::USUAL))
+            .map(|ea| ea.positive("axial_stiffness", Measured::Force, &usual::Axial::USUAL))
             .transpose()?;
 
         // a strip of the exact theory does not stretch, and may have a moment curve
@@ -136,32 +136,21 @@ impl Span {
         }
         let flexural_rigidity = curve.as_ref().map_or(flexural_rigidity, MomentCurve::rigidity);
 
-        // lengths, weight and stiffness are positive; the stiffness may be infinite
-        let positive = [
-            ("run", run, run.is_finite()),
-            ("length", length, length.is_finite()),
-            ("weight", weight, weight.is_finite()),
-            ("axial_stiffness", axial_stiffness, true),
-        ];
-        let fault = |text: String| Err(PyValueError::new_err(text));
-        for (name, value, finite) in positive {
-            if !(value > 0.0 && finite) {
-                return fault(format!("{name} is {value}; expected a positive number"));
-            }
-        }
-        if !(flexural_rigidity >= 0.0 && flexural_rigidity.is_finite()) {
-            return fault(format!("flexural_rigidity is {flexural_rigidity}; expected 0 or more"));
+        if flexural_rigidity < 0.0 {
+            return Err(PyValueError::new_err(format!(
+                "flexural_rigidity is {flexural_rigidity}; expected 0 or more"
+            )));
         }
 
         // a limp strip can prescribe no slopes
         let given = [slopes.0, slopes.1];
         if flexural_rigidity == 0.0 && given.iter().any(Option::is_some) {
-            return fault(
-                "slopes are prescribed; without flexural_rigidity they must be free".into(),
-            );
+            return Err(PyValueError::new_err(
+                "slopes are prescribed; without flexural_rigidity they must be free",
+            ));
         }
-        if !(rise.is_finite() && given.iter().flatten().all(|slope| slope.is_finite())) {
-            return fault("rise and slopes must be finite".into());
+        if !given.iter().flatten().all(|slope| slope.is_finite()) {
+            return Err(PyValueError::new_err("slopes must be finite"));
         }
 
         let ends = given.map(|slope| slope.map_or(EndCondition::Free, EndCondition::Slope));
