@@ -49,26 +49,37 @@ pub(crate) struct Apart {
 impl Solid {
     pub fn new(shape: &Shape) -> Self {
         let ball = shape.ball();
-        let shifted = |translation: [f64; 3]| ParryPose::from_translation(vector(translation));
         let (parry, local) = match shape {
             Shape::Cylinder { radius, from, to } => {
                 let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
                 let local = ParryPose::from_parts(vector(ball.0), upright);
                 (SharedShape::new(Cylinder::new(0.5 * (to - from), *radius)), local)
             }
-            Shape::Box { .. } => {
+            Shape::Box { size, at } => {
                 let [low, high] = shape.bounds();
                 let corner = |n: usize| {
                     vector([0, 1, 2].map(|c| if n >> c & 1 == 1 { high[c] } else { low[c] }))
                 };
                 let corners: Vec<Vector> = (0..8).map(corner).collect();
-                let hull = SharedShape::convex_hull(&corners);
-                (hull.unwrap_or_else(|| SharedShape::ball(0.0)), shifted([0.0; 3]))
+                match SharedShape::convex_hull(&corners) {
+                    Some(hull) => (hull, ParryPose::IDENTITY),
+                    // too thin for its hull
+                    None => {
+                        let [x, y, z] = size.map(|side| 0.5 * side);
+                        (SharedShape::cuboid(x, y, z), ParryPose::from_translation(vector(*at)))
+                    }
+                }
             }
             Shape::Mesh { vertices, triangles } => {
                 let corners = vertices.iter().map(|p| vector(*p)).collect();
                 let mesh = TriMesh::with_flags(corners, triangles.clone(), TriMeshFlags::ORIENTED);
-                (mesh.map_or_else(|_| SharedShape::ball(0.0), SharedShape::new), shifted([0.0; 3]))
+                match mesh {
+                    Ok(mesh) => (SharedShape::new(mesh), ParryPose::IDENTITY),
+                    // without triangles: the ball around its corners
+                    Err(_) => {
+                        (SharedShape::ball(ball.1), ParryPose::from_translation(vector(ball.0)))
+                    }
+                }
             }
         };
         let (point, closed) = match shape {

@@ -72,6 +72,18 @@ fn over(mold: &Mold, shape: &Shape, pose: Pose, resolution: f64) -> f64 {
     over.apart(&Solid::new(shape), &Surface::new(shape), &pose, resolution).distance
 }
 
+/// A foil of a picometer, of which no hull can be made, and corners without triangles keep things off as the solid bodies around them do.
+#[test]
+fn a_body_without_a_hull_is_where_it_stands() {
+    let foil = Shape::Box { size: [1.0, 1.0, 1e-12], at: [2.0, 0.0, 0.0] };
+    let found = apart(&foil, Pose::ORIGIN, &cube(0.02), posed([2.2, 0.1, 0.1], [0.0; 3]));
+    assert!((found - 0.09).abs() < 1e-9, "{found}");
+    let vertices = vec![[2.0, 0.0, -0.1], [2.0, 0.0, 0.1]];
+    let corners = Shape::Mesh { vertices, triangles: Vec::new() };
+    let found = apart(&corners, Pose::ORIGIN, &cube(0.02), posed([2.2, 0.0, 0.0], [0.0; 3]));
+    assert!((found - 0.09).abs() < 1e-9, "{found}");
+}
+
 /// Face to face, a vertical edge to a face, and a depth: cubes of 20 mm that are turned about z by 45° reach 10√2 mm along x.
 #[test]
 fn turned_boxes_are_as_far_apart_as_their_edges() {
