@@ -57,6 +57,16 @@ pub enum Error {
         /// What there is instead.
         others: String,
     },
+    /// A triangle of a mesh has a vertex that there is not.
+    #[error("triangle {triangle} has vertex {vertex}, and the mesh has {vertices} vertices")]
+    MeshVertex {
+        /// Which triangle, counted from 1.
+        triangle: usize,
+        /// Its index of a vertex, counted from 0.
+        vertex: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// No triangle of a mesh has an area.
     #[error("none of the {triangles} triangles has an area; the mesh spans {size:.4} m")]
     MeshNoArea {
@@ -419,6 +429,7 @@ impl Error {
     pub fn remedy(&self) -> String {
         match self {
             Error::MeshEmpty { .. } => "export the mold as a surface mesh".into(),
+            Error::MeshVertex { .. } => "number the vertices from 0".into(),
             Error::MeshNoArea { .. } => "check the coordinates".into(),
             Error::MeshSize { .. } => "state the unit that the file is written in".into(),
             Error::MeshScale { .. } => "give the meters of one unit of the file".into(),

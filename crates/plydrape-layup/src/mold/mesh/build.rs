@@ -18,7 +18,7 @@ impl Mesh {
     /// A mold of triangles: corners (m), and the three of each triangle. Its faces are not stitched.
     ///
     /// # Errors
-    /// If the triangles are no mold: [`Error::MeshEmpty`], [`Error::MeshNoArea`], [`Error::MeshSize`],
+    /// If the triangles are no mold: [`Error::MeshVertex`], [`Error::MeshEmpty`], [`Error::MeshNoArea`], [`Error::MeshSize`],
     /// [`Error::MeshBranching`], [`Error::MeshOneSided`] or [`Error::MeshSideways`].
     pub fn of_triangles(
         vertices: Vec<[f64; 3]>,
@@ -37,15 +37,14 @@ impl Mesh {
         tolerance: f64,
     ) -> Result<(Self, MeshReport), Error> {
         let mut soup = Soup::new("triangle");
-        let most = vertices.len();
-        if triangles.as_flattened().iter().any(|n| *n as usize >= most) {
-            let others = " of the vertices it has".to_owned();
-            return Err(Error::MeshEmpty { noun: "triangle", others });
-        }
-        soup.points = vertices;
         for (n, corners) in triangles.iter().enumerate() {
+            if let Some(vertex) = corners.iter().find(|vertex| **vertex as usize >= vertices.len()) {
+                let (triangle, vertex, vertices) = (n + 1, *vertex, vertices.len());
+                return Err(Error::MeshVertex { triangle, vertex, vertices });
+            }
             soup.push(corners, n as u64 + 1);
         }
+        soup.points = vertices;
         Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]), tolerance)
     }
 
