@@ -710,7 +710,7 @@ class Mold:
         high : sequence of float or str
             Highest x and y (m, or texts with a unit).
         most : int, default 20000
-            About how many triangles at most.
+            About how many triangles at most; a mold that is no mesh is sampled in a million at most.
 
         Returns
         -------
@@ -742,7 +742,7 @@ class Mold:
         high : sequence of float or str
             Highest x and y (m, or texts with a unit).
         most : int, default 20000
-            About how many triangles at most.
+            About how many triangles at most; a mold that is no mesh is sampled in a million at most.
 
         Returns
         -------
@@ -1437,7 +1437,7 @@ class Result:
         Parameters
         ----------
         most : int, default 20000
-            About how many triangles at most.
+            About how many triangles at most; a mold that is no mesh is sampled in a million at most.
 
         Returns
         -------
@@ -1603,7 +1603,7 @@ class Result:
         Raises
         ------
         SceneError
-            If offset or points are none.
+            If offset or points cannot be read.
         PlanError
             If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
 

@@ -217,7 +217,7 @@ impl Mold {
     /// high : sequence of float or str
     ///     Highest x and y (m, or texts with a unit).
     /// most : int, default 20000
-    ///     About how many triangles at most.
+    ///     About how many triangles at most; a mold that is no mesh is sampled in a million at most.
     ///
     /// Returns
     /// -------
@@ -257,7 +257,7 @@ impl Mold {
     /// high : sequence of float or str
     ///     Highest x and y (m, or texts with a unit).
     /// most : int, default 20000
-    ///     About how many triangles at most.
+    ///     About how many triangles at most; a mold that is no mesh is sampled in a million at most.
     ///
     /// Returns
     /// -------

@@ -573,7 +573,7 @@ impl Result {
     /// Parameters
     /// ----------
     /// most : int, default 20000
-    ///     About how many triangles at most.
+    ///     About how many triangles at most; a mold that is no mesh is sampled in a million at most.
     ///
     /// Returns
     /// -------
@@ -619,7 +619,7 @@ impl Result {
     /// Raises
     /// ------
     /// SceneError
-    ///     If offset or points are none.
+    ///     If offset or points cannot be read.
     /// PlanError
     ///     If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
     ///

@@ -15,8 +15,11 @@ pub struct Triangles {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// The mold over the rectangle of the plan from `low` to `high` (m), in about `most` triangles or fewer; empty
-/// where there is nothing of it.
+/// Most triangles that a mold is sampled in.
+const MOST_SAMPLED: usize = 1_000_000;
+
+/// The mold over the rectangle of the plan from `low` to `high` (m), in about `most` triangles or fewer; empty where there is nothing of
+/// it. A mold of triangles that are no more has these; any other is sampled in a million at most.
 #[must_use]
 pub fn patch(mold: &Mold, low: [f64; 2], high: [f64; 2], most: usize) -> Triangles {
     if let Mold::Mesh(mesh) = mold {
@@ -57,8 +60,9 @@ fn sampled(
     most: usize,
 ) -> Triangles {
     let wide = [0, 1].map(|c| high[c] - low[c]);
-    let side = (2.0 * wide[0] * wide[1] / most.max(2) as f64).sqrt();
-    let count = wide.map(|w| ((w / side).floor() as usize).clamp(1, most.max(2) / 2));
+    let most = most.clamp(2, MOST_SAMPLED);
+    let side = (2.0 * wide[0] * wide[1] / most as f64).sqrt();
+    let count = wide.map(|w| ((w / side).floor() as usize).clamp(1, most / 2));
     let plan = |[i, j]: [usize; 2]| {
         [(0, i), (1, j)].map(|(c, k)| low[c] + wide[c] * k as f64 / count[c] as f64)
     };
@@ -138,6 +142,13 @@ mod tests {
         assert!(patch.vertices.iter().all(|p| ball().signed_distance(*p).abs() < 1e-9));
         let disc = std::f64::consts::PI * 0.04;
         assert!((area(&patch) / disc - 1.0).abs() < 2e-3, "{}", area(&patch) / disc);
+    }
+
+    /// However many are asked for, there is room for what comes.
+    #[test]
+    fn a_sampled_mold_has_a_million_triangles_at_most() {
+        let patch = patch(&ball(), [-0.1, -1e-4], [0.1, 1e-4], usize::MAX);
+        assert!((500_000..=MOST_SAMPLED).contains(&patch.triangles.len()));
     }
 
     /// No more triangles than asked for, and the whole rectangle all the same.
