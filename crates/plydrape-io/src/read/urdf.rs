@@ -273,7 +273,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut before = Pose::ORIGIN;
         if up.last() != Some(&foot) {
             let from_foot = self.chain(foot, "")?;
-            let common = from_foot.iter().find(|(link, _)| up.contains(link));
+            let met: BTreeSet<&str> = up.iter().copied().collect();
+            let common = from_foot.iter().find(|(link, _)| met.contains(link));
             let Some((common, pose)) = common else {
                 let message =
                     format!("{} joins the links {foot} and {flange} by no joints", self.file);
@@ -288,7 +289,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         let mut joints: Vec<Joint> = Vec::new();
         // the frame of a link in that of the turning joint before it
-        let mut frames: BTreeMap<&str, (usize, Pose)> = BTreeMap::new();
+        let mut frames: BTreeMap<&'a str, (usize, Pose)> = BTreeMap::new();
         if let Some(first) = up.last() {
             frames.insert(*first, (0, before));
         }
@@ -316,7 +317,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             let message = format!("{} has {count} turning joints from {foot} to {flange}, and arms of {JOINTS} are known", self.file);
             Error::file(self.file, message, "name the links at the foot and at the flange of an arm of six turning joints")
         })?;
-        Ok(Urdf { name: name.into(), joints, flange: before, bodies: self.bodies(&frames)? })
+        Ok(Urdf { name: name.into(), joints, flange: before, bodies: self.bodies(frames)? })
     }
 
     fn turning(&self, joint: &AnyJoint, pose: Pose) -> Result<Joint, Error> {
@@ -360,26 +361,33 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// The shapes of all links that are on the way or fixed to it.
-    fn bodies(&self, frames: &BTreeMap<&str, (usize, Pose)>) -> Result<Vec<UrdfBody>, Error> {
+    fn bodies(&self, frames: BTreeMap<&'a str, (usize, Pose)>) -> Result<Vec<UrdfBody>, Error> {
         let mut bodies = Vec::new();
+        // links that are seen; `None` of those that are not fixed to the arm
+        let mut frames: BTreeMap<&str, _> =
+            frames.into_iter().map(|(link, frame)| (link, Some(frame))).collect();
         for node in children(self.document.root_element(), "link") {
             let name = node.attribute("name").unwrap_or("link");
-            let (mut now, mut pose) = (name, Pose::ORIGIN);
-            let mut left = self.carried.len();
-            while !frames.contains_key(now) && left > 0 {
+            let (mut now, mut fixed) = (name, Vec::new());
+            while !frames.contains_key(now) {
+                frames.insert(now, None);
                 let Some(joint) = self.carried.get(now).filter(|joint| joint.kind == "fixed")
                 else {
                     break;
                 };
-                pose = joint.origin.compose(&pose);
+                fixed.push((now, joint));
                 now = joint.parent;
-                left -= 1;
             }
-            let Some((link, frame)) = frames.get(now) else { continue };
+            let mut frame = frames[now];
+            for (link, joint) in fixed.into_iter().rev() {
+                frame = frame.map(|(index, pose)| (index, pose.compose(&joint.origin)));
+                frames.insert(link, frame);
+            }
+            let Some((link, frame)) = frame else { continue };
             for collision in children(node, "collision") {
-                let pose = frame.compose(&pose).compose(&self.origin(collision)?);
+                let pose = frame.compose(&self.origin(collision)?);
                 let Some(shape) = self.shape(collision)? else { continue };
-                bodies.push(UrdfBody { name: name.into(), link: *link, pose, shape });
+                bodies.push(UrdfBody { name: name.into(), link, pose, shape });
             }
         }
         Ok(bodies)
@@ -471,6 +479,29 @@ mod tests {
         assert!(arm.joints[4].range[1] > 100.0);
         let links: Vec<usize> = arm.bodies.iter().map(|body| body.link).collect();
         assert_eq!(links, [1, 1, 2, 3, 4, 5, 6, 6]);
+    }
+
+    /// A chain of links, each fixed to the one before, and listed from its end: all are bodies of what carries the first one, and none if
+    /// that is a loose joint.
+    #[test]
+    fn a_chain_of_fixed_links_is_carried_by_its_first_joint() {
+        for (kind, bodies) in [("floating", 6), ("fixed", 306)] {
+            let link = |n: usize| {
+                let parent = if n == 0 { "base".into() } else { format!("f{}", n - 1) };
+                let kind = if n == 0 { kind } else { "fixed" };
+                format!(
+                    "<link name=\"f{n}\"><collision><geometry><box size=\"1 1 1\"/></geometry></collision></link>\
+                     <joint name=\"f{n}\" type=\"{kind}\"><origin xyz=\"0 0 1\"/><parent link=\"{parent}\"/>\
+                     <child link=\"f{n}\"/></joint>"
+                )
+            };
+            let chain: String = (0..300).rev().map(link).collect();
+            let text = robot(&["revolute"; 6]).replace("</robot>", &format!("{chain}</robot>"));
+            let found = parse("r.urdf", &text, None, Some("l5")).unwrap().bodies;
+            assert_eq!(found.len(), bodies);
+            let place = found.iter().find(|body| body.name == "f299").map(|body| body.pose.position);
+            assert_eq!(place, (kind == "fixed").then_some([0.0, 0.0, 300.0]));
+        }
     }
 
     /// What is no arm of six turning joints, or no URDF, is refused with what it is and what to do.
