@@ -8,8 +8,8 @@
 use plydrape::ply::{Outline, Ply};
 use plydrape::sheet::fabric::lines;
 
-/// Side of an element that is aimed at (m). Half of it changes the sag of the paper's ply by one percent.
-const SIDE: f64 = 0.010;
+/// Elements on the shorter side of a cell that are aimed at. Twice as many change the sag of the paper's ply by one percent.
+const AIM: f64 = 10.0;
 /// Fewest elements on the side of a cell.
 const FEWEST: usize = 4;
 /// Most elements of a ply, short of [`FEWEST`] in each cell.
@@ -35,7 +35,7 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    /// Elements of about 10 mm, or larger where the ply would have more than 20 000.
+    /// Elements of about a tenth of the shorter side of a cell, or larger where the ply would have more than 20 000.
     pub fn new(ply: &Ply) -> Mesh {
         match &ply.cut {
             None => Mesh::between_grippers(ply),
@@ -48,7 +48,7 @@ impl Mesh {
         // a strip is one cell wide
         let cells = [ply.grid.nu, ply.grid.nv].map(|grippers| grippers.saturating_sub(1).max(1));
         let area = (0..2).map(|c| cells[c] as f64 * ply.cell[c]).product::<f64>();
-        let aim = SIDE.max((area / MOST).sqrt());
+        let aim = (ply.shorter_side() / AIM).max((area / MOST).sqrt());
         // `as` saturates: a cell of a kilometer has as many elements as a large one
         let parts = ply.cell.map(|side| ((side / aim).round() as usize).clamp(FEWEST, 1000));
         let strip = ply.grid.nv <= 1;
@@ -63,7 +63,8 @@ impl Mesh {
     /// What is within an outline.
     fn within(ply: &Ply, outline: &Outline) -> Mesh {
         let [low, high] = outline.bounds();
-        let aim = SIDE.max((outline.area() / MOST).sqrt()).min(ply.shorter_side() / FEWEST as f64);
+        let side = ply.shorter_side();
+        let aim = (side / AIM).max((outline.area() / MOST).sqrt()).min(side / FEWEST as f64);
         let grippers: Vec<[f64; 2]> = (0..ply.grippers()).map(|n| ply.place(n)).collect();
         let along = [0, 1].map(|c| {
             let places = grippers.iter().map(|place| place[c]);
@@ -178,12 +179,15 @@ mod tests {
         [ply(4, 2, [0.1, 0.1]), ply(3, 4, [0.05, 0.083]), ply(2, 1, [0.1, 0.07])]
     }
 
-    /// 4 × 2 grippers on cells of 100 mm: 30 × 10 squares of 10 mm, and the sides and middles by Euler's formula.
+    /// 4 × 2 grippers, whatever their pitch: 30 × 10 squares of a tenth of it, and the sides and middles by Euler's formula.
     #[test]
-    fn the_paper_s_ply_has_elements_of_ten_millimeters() {
+    fn elements_are_a_tenth_of_the_pitch() {
+        for pitch in [0.1, 0.004, 3.0] {
+            let mesh = Mesh::new(&ply(4, 2, [pitch; 2]));
+            assert_eq!(mesh.count(), 300);
+            assert!(mesh.side.iter().all(|side| (side - 0.1 * pitch).abs() < 1e-12 * pitch));
+        }
         let [mesh, ..] = plies().map(|ply| Mesh::new(&ply));
-        assert_eq!(mesh.count(), 300);
-        assert!(mesh.side.iter().all(|side| (side - 0.01).abs() < 1e-15));
         let (corners, sides) = (31 * 11, 30 * 11 + 31 * 10);
         assert_eq!(mesh.nodes(), corners + sides);
     }
@@ -232,7 +236,7 @@ mod tests {
             }
         }
         let strip = Mesh::new(&plies()[2]);
-        assert_eq!(strip.gripper([0.1, 0.0]).len(), 2 * 7 + 1);
+        assert_eq!(strip.gripper([0.1, 0.0]).len(), 2 * 10 + 1);
     }
 
     /// 400 grippers would make 36 100 elements of 10 mm: they become larger instead.
