@@ -54,7 +54,7 @@ def figure(
     chosen = _chosen(result.measures, names, limits)
     across = columns or (3 if wide > 120.0 else 2)
     if across < 1:
-        raise ValueError(f"{columns} columns are none; choose 1 or more")
+        raise ValueError(f"there cannot be {columns} columns; choose 1 or more")
     across = min(across, len(chosen))
     rows = -(-len(chosen) // across)
     x = np.arange(1, len(result.times) + 1, dtype=float) if against == "step" else result.times

@@ -47,7 +47,7 @@ def figure(
     most = 1 if wide < 120.0 and len(chosen) < 4 else 2 if wide < 120.0 else 3
     across = min(len(chosen), most if columns is None else columns)
     if across < 1:
-        raise ValueError(f"{columns} columns are none; choose 1 or more")
+        raise ValueError(f"there cannot be {columns} columns; choose 1 or more")
     rows = -(-len(chosen) // across)
 
     # One frame for all panels: its projected size says how high a panel is.

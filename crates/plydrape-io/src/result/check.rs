@@ -126,10 +126,10 @@ pub(super) fn ply_fault(scene: &SceneEcho) -> Option<String> {
             .iter()
             .all(|value| (0.0..=FARTHEST).contains(value));
         if !(lengths && height.abs() <= FARTHEST && lift_steps < MOST_STEPS) {
-            return Some("its pick-up has a number that none has".into());
+            return Some("its pick-up has an impossible number".into());
         }
         if table.is_some_and(|n| n >= scene.bodies.obstacles().len()) {
-            return Some("the table of its pick-up is none of its obstacles".into());
+            return Some("the table of its pick-up is not among its obstacles".into());
         }
     }
 
@@ -184,7 +184,7 @@ fn cut_fault(ply: &Ply) -> Option<String> {
     let cut = ply.cut.as_ref()?;
     let numbers = [cut.angle, cut.turn].into_iter().chain(cut.origin);
     if !numbers.into_iter().all(|x| x.abs() <= FARTHEST) {
-        return Some("the place of its drawing is none".into());
+        return Some("its drawing has no place".into());
     }
     if cut.held.is_empty() {
         return None;

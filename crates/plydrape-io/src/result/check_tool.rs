@@ -18,14 +18,14 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
         return Some(format!("its tool carries {} grippers, not {grippers}", tool.mounts.len()));
     }
     if !is_sound(tool) {
-        return Some("the axes and rates of its tool are none".into());
+        return Some("its tool has an impossible axis or rate".into());
     }
     if let Some(arm) = &tool.arm {
         let finite = |angles: &[f64; 6]| angles.iter().all(|angle| angle.is_finite());
         let starts =
             arm.start.iter().chain(record.and_then(|r| r.arm.as_ref()).map(|a| &a.start_deg));
         if !(is_whole(arm) && starts.into_iter().all(finite)) {
-            return Some("the joints of its arm are none".into());
+            return Some("its arm has an impossible joint".into());
         }
     }
     let record = record?;

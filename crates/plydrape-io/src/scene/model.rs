@@ -54,7 +54,7 @@ impl<'a> Models<'a> {
         let stepwise = matches!(self.file.plan.method, Some(MethodKey::Stepwise));
         let sheet = "drape and plan it with the sheet, as kind = \"sheet\" in [model] and method = \"path\" in [plan] do";
         if stepwise && lines.whole_array().is_none() {
-            let what = "the stepwise planner follows catenaries between the cups of a whole array along the yarns, and the cups that hold this ply are none";
+            let what = "the stepwise planner follows catenaries between the cups of a whole array along the yarns, and the cups that hold this ply are no such array";
             return Err(self.error(self.file.grippers_span(), what, sheet));
         }
         if !lines.is_empty() {

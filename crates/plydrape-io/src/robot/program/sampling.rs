@@ -53,7 +53,7 @@ impl Tolerance {
     pub fn check(&self) -> Result<(), Error> {
         for (what, value) in [("way", self.least_way), ("time", self.least_time)] {
             if !(value.is_finite() && value >= 0.0) {
-                let message = format!("a least {what} of {value} between points is none");
+                let message = format!("the least {what} between points cannot be {value}");
                 return Err(Error::not_possible(message, "give 0 or a number above it"));
             }
         }
