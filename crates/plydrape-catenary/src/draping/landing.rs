@@ -2,7 +2,7 @@
 
 use super::spans::Point;
 use super::tuning::TUNING;
-use crate::geometry::vector::{cross, dot, norm, sub, unit};
+use crate::geometry::vector::{cross, direction, dot, norm, sub};
 use crate::layup::Layup;
 use crate::mold::distance;
 use crate::ply::ContactSegment;
@@ -37,8 +37,8 @@ pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Opti
     let fiber_angle = (catenary < layup.ply.lines().edges()).then(|| {
         let ([from, to], [a, b]) = (contact.arc(), contact.point());
         let landed =
-            unit(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
-        let ideal = unit(sub(place(to)?, place(from)?))?;
+            direction(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
+        let ideal = direction(sub(place(to)?, place(from)?))?;
         // the arctangent of sine and cosine is exact for small angles, where the cosine alone is not
         let angle = norm(cross(landed, ideal)).atan2(dot(landed, ideal));
         Some((angle, [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))))

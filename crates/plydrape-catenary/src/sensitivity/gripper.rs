@@ -2,8 +2,8 @@
 
 use super::tuning::TUNING;
 use super::{Quantity, Row, Sensitivity};
-use crate::geometry::vector::{sub, unit};
-use crate::ply::{Grid, shear, tangent_shares};
+use crate::geometry::vector::{direction, sub};
+use crate::ply::{Grid, Shares, shear, tangent_shares};
 use num_dual::{Dual64, DualNum};
 use std::collections::BTreeSet;
 
@@ -37,7 +37,7 @@ impl Sensitivity<'_> {
     pub fn separation(&self, a: usize, b: usize) -> Quantity {
         let way = sub(self.positions[b], self.positions[a]);
         let mut gradient = Row::default();
-        let direction = unit(way).unwrap_or([0.0; 3]);
+        let direction = direction(way).unwrap_or([0.0; 3]);
         gradient.add_from(3 * a, -1.0, direction);
         gradient.add_from(3 * b, 1.0, direction);
         Quantity { value: way.iter().map(|c| c * c).sum::<f64>().sqrt(), gradient }
@@ -56,7 +56,11 @@ impl Sensitivity<'_> {
         for neighbor in [0, 1].map(|d| lines.neighbors(gripper, d)).as_flattened() {
             columns.extend(3 * neighbor..3 * neighbor + 3);
         }
-        for (neighbor, _) in self.neighbor_shares(gripper).into_iter().flatten().flatten() {
+        for (neighbor, _) in match &self.neighbor_shares(gripper) {
+            Some(Shares::Both(both)) => both.concat(),
+            Some(Shares::Line(shares, _)) => shares.clone(),
+            None => Vec::new(),
+        } {
             columns.extend(3 * neighbor..3 * neighbor + 3);
         }
         columns.extend(3 * gripper..3 * gripper + 3);
@@ -67,7 +71,7 @@ impl Sensitivity<'_> {
 
     /// What says how a gripper is tilted along u and v where no fiber line runs through it in one of them; see
     /// [`crate::draping::attitude::attitude`].
-    fn neighbor_shares(&self, gripper: usize) -> Option<[Vec<(usize, f64)>; 2]> {
+    fn neighbor_shares(&self, gripper: usize) -> Option<Shares> {
         let ply = &self.layup.ply;
         let is_by_lines =
             ply.grid != Grid::NONE || self.slopes[gripper].iter().all(Option::is_some);
@@ -87,14 +91,27 @@ impl Sensitivity<'_> {
             (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))
         };
         let (one, zero) = (Dual64::from(1.0), Dual64::from(0.0));
-        let shares = self.neighbor_shares(gripper);
-        let by_neighbors = |d: usize| {
-            let shares = shares.as_ref().map(|shares| &shares[d]).filter(|way| !way.is_empty())?;
-            Some([0, 1, 2].map(|axis| {
+        let toward = |shares: &[(usize, f64)]| {
+            [0, 1, 2].map(|axis| {
                 let here = position(gripper, axis);
                 let way = shares.iter().map(|(n, share)| (position(*n, axis) - here) * *share);
                 way.fold(zero, |sum, way| sum + way)
-            }))
+            })
+        };
+        let by_neighbors = match self.neighbor_shares(gripper) {
+            None => [None; 2],
+            Some(Shares::Both(both)) => both.map(|shares| Some(toward(&shares))),
+            Some(Shares::Line(shares, [cos, sin])) => {
+                let [x, y, z] = toward(&shares);
+                let level = x * x + y * y;
+                let (length, level_length) = ((level + z * z).sqrt(), level.sqrt());
+                // across the line it is level
+                let axes = [[x, y, z].map(|c| c / length), [-y, x, zero].map(|c| c / level_length)];
+                [[cos, -sin], [sin, cos]].map(|[a, b]| {
+                    let along = [0, 1, 2].map(|n| axes[0][n] * a + axes[1][n] * b);
+                    (level.re > 0.0).then_some(along)
+                })
+            }
         };
         let by_line = |d: usize| {
             let slope = self.slopes[gripper][d].as_ref()?;
@@ -105,7 +122,7 @@ impl Sensitivity<'_> {
                 Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.value_at(c))),
             ])
         };
-        let [u, v] = [0, 1].map(|d| by_line(d).or_else(|| by_neighbors(d)));
+        let [u, v] = [0, 1].map(|d| by_line(d).or(by_neighbors[d]));
         // across a single line it is level
         let u = u.or_else(|| v.map(|[x, y, _]| [y, -x, zero])).unwrap_or([one, zero, zero]);
         let v = v.unwrap_or([-u[1], u[0], zero]);

@@ -9,7 +9,7 @@ use super::{Quantity, Row, Sensitivity};
 use crate::catenary::{Graded, Profile};
 use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};
-use crate::geometry::vector::{along, dot, sub, unit};
+use crate::geometry::vector::{along, direction, dot, sub, unit};
 
 /// A point with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +61,7 @@ impl Sensitivity<'_> {
         let mut gradient = Row::default();
         let contact = self.contacts[span.catenary].as_ref();
         let [a, b] = span.ends;
-        let mut chord = unit(sub(b, a)).unwrap_or([0.0; 3]);
+        let mut chord = direction(sub(b, a)).unwrap_or([0.0; 3]);
         if let Some(contact) = contact {
             // behind the contact the path grows along the tangent out of it
             let sense = if span.segment == 0 { -1.0 } else { 1.0 };

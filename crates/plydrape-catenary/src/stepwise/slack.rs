@@ -11,7 +11,7 @@ use super::step::target_stretch;
 use super::tuning::TUNING;
 use crate::draping::spans::{Equilibrium, Point};
 use crate::draping::{Draping, lying_segments, misfit};
-use crate::geometry::vector::{along, norm, sub, unit};
+use crate::geometry::vector::{along, direction, norm, sub};
 use crate::mold::SurfaceCurve;
 use crate::sensitivity::Row;
 
@@ -50,7 +50,7 @@ fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
         0 => sub(points[0], *points.get(1)?),
         _ => sub(points[last], points[last.checked_sub(1)?]),
     };
-    unit(way).filter(|_| norm(way) > least)
+    direction(way).filter(|_| norm(way) > least)
 }
 
 fn free_segments(task: &Task, draping: &Draping, shape: &Equilibrium) -> Vec<FreeSegment> {
@@ -91,7 +91,7 @@ fn free_segments(task: &Task, draping: &Draping, shape: &Equilibrium) -> Vec<Fre
     // segments that hang beside a gripper, and spans that bridge a hollow
     for span in shape.spans.iter().filter(|span| span.catenary < lines.edges()) {
         let (Some(_), Some(way)) =
-            (&draping.contacts[span.catenary], unit(sub(span.ends[1], span.ends[0])))
+            (&draping.contacts[span.catenary], direction(sub(span.ends[1], span.ends[0])))
         else {
             continue;
         };

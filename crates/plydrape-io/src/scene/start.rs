@@ -175,10 +175,8 @@ fn middle(points: &[[f64; 3]]) -> [f64; 2] {
 /// Mean heading of the lines of grippers along u (rad).
 fn heading_of(points: &[[f64; 3]], ply: &Ply) -> f64 {
     if ply.grid == Grid::NONE {
-        let [u, v] = directions(ply, points);
-        // across a single line u is at a right angle to v
-        let along = u.or(v.map(|[x, y, z]| [y, -x, z])).unwrap_or([1.0, 0.0, 0.0]);
-        return along[1].atan2(along[0]);
+        let [[x, y, _], _] = directions(ply, points);
+        return y.atan2(x);
     }
     let grid = ply.grid;
     let across = |n: usize| -> f64 {

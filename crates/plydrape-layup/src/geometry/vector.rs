@@ -58,7 +58,14 @@ pub fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The unit vector along `a`; `None` if `a` has (all but) no length.
+/// The unit vector along a vector in any unit; `None` if its length is zero.
+#[must_use]
+pub fn direction(a: [f64; 3]) -> Option<[f64; 3]> {
+    let length = norm(a);
+    (length > 0.0).then(|| a.map(|x| x / length))
+}
+
+/// The unit vector along a sum or product of unit vectors; `None` if that is zero but for rounding.
 #[must_use]
 pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let length = norm(a);

@@ -12,7 +12,7 @@
 //! the fourth order of the mesh width on others: c·Δn is its normal curvature times c², to second order.
 
 use super::surface_point::SurfacePoint;
-use crate::geometry::vector::{along, cross, dot, norm, sub, unit};
+use crate::geometry::vector::{along, cross, direction, dot, norm, sub, unit};
 
 /// How the fabric between two neighboring nodes is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,7 +43,7 @@ impl EdgeRule {
     /// Direction at `a` in which the fabric leaves for `b`: along the bar, or a unit tangent of the mold.
     pub(super) fn leaving(self, a: &SurfacePoint, b: &SurfacePoint) -> [f64; 3] {
         match self {
-            EdgeRule::Chord => unit(sub(b.point, a.point)).unwrap_or([0.0; 3]),
+            EdgeRule::Chord => direction(sub(b.point, a.point)).unwrap_or([0.0; 3]),
             EdgeRule::Along => straightest(a, b),
         }
     }

@@ -9,7 +9,7 @@ use super::edge::EdgeRule;
 use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use crate::Error;
-use crate::geometry::vector::{along, between, cross, distance, dot, norm, sub, unit};
+use crate::geometry::vector::{along, between, cross, direction, distance, dot, norm, sub, unit};
 use crate::mold::Mold;
 
 /// A target boundary: a closed line on the mold.
@@ -234,7 +234,7 @@ fn beside(
         1.0 => curve[(n + 1) % curve.len()],
         _ => curve[n],
     };
-    let course = |[a, b]: [SurfacePoint; 2]| unit(sub(b.point, a.point)).unwrap_or([0.0; 3]);
+    let course = |[a, b]: [SurfacePoint; 2]| direction(sub(b.point, a.point)).unwrap_or([0.0; 3]);
     // an open curve ends here
     let joined = [other[0].point, other[1].point].contains(&near.point) || share.fract() != 0.0;
     let other = if joined { other } else { curve[n] };

@@ -188,7 +188,7 @@ impl Ply {
 }
 
 /// Unit tangents of u and v at a gripper, from the ways to its neighbors at positions (m), by least squares; across a
-/// single line of grippers the horizontal direction at a right angle to it.
+/// single line of grippers the ply is level.
 #[must_use]
 pub fn tangents(
     ply: &Ply,
@@ -196,19 +196,8 @@ pub fn tangents(
     positions: &[[f64; 3]],
     gripper: usize,
 ) -> [[f64; 3]; 2] {
-    let [u, v] = tangent_shares(ply, neighbors, gripper).map(|shares| {
-        let ways = shares
-            .iter()
-            .map(|(other, share)| sub(positions[*other], positions[gripper]).map(|c| share * c));
-        unit(ways.fold([0.0; 3], |sum, way| along(sum, 1.0, way)))
-    });
-    let left = |way: [f64; 3]| unit([-way[1], way[0], 0.0]);
-    match [u, v] {
-        [Some(u), Some(v)] => [u, v],
-        [Some(u), None] => [u, left(u).unwrap_or([0.0, 1.0, 0.0])],
-        [None, Some(v)] => [left(v).map_or([1.0, 0.0, 0.0], |way| way.map(|c| -c)), v],
-        [None, None] => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-    }
+    let shares = tangent_shares(ply, neighbors, gripper);
+    shares.tangents(|other| sub(positions[other], positions[gripper]))
 }
 
 /// Orientation (x, y, z, w) of each gripper by the lines to its neighbors at positions (m), whatever the ply between them does.
@@ -221,48 +210,71 @@ pub fn orientations(ply: &Ply, neighbors: &[Neighbors], positions: &[[f64; 3]]) 
     (0..positions.len()).map(orientation).collect()
 }
 
-/// The neighbors of a gripper, each with the share of the way to it in the tangent of u, and the same of v: [`tangents`] are
-/// along the sums. None across a single line of grippers.
+/// How the tangents of u and v at a gripper follow from the ways to its neighbors: [`tangents`] are along the sums.
 #[must_use]
-pub fn tangent_shares(
-    ply: &Ply,
-    neighbors: &[Neighbors],
-    gripper: usize,
-) -> [Vec<(usize, f64)>; 2] {
+pub fn tangent_shares(ply: &Ply, neighbors: &[Neighbors], gripper: usize) -> Shares {
     let beside = neighbors.iter().filter(|pair| pair.grippers.contains(&gripper));
-    let others: Vec<usize> =
-        beside.map(|pair| pair.grippers[usize::from(pair.grippers[0] == gripper)]).collect();
-    let [u, v] = ply.place(gripper);
-    let ways = others.iter().map(|other| ply.place(*other)).map(|[p, q]| [p - u, q - v]);
-    let shares = shares(&ways.collect::<Vec<_>>());
-    shares.map(|shares| others.iter().copied().zip(shares).collect())
+    let others = beside.map(|pair| pair.grippers[usize::from(pair.grippers[0] == gripper)]);
+    Shares::new(ply, others, ply.place(gripper))
 }
 
-/// Unit vectors along u and v of all grippers at positions (m), by least squares; none across a single line of grippers.
+/// Unit vectors along u and v of all grippers at positions (m), by least squares; across a single line of grippers the ply is level.
 #[must_use]
-pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
+pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [[f64; 3]; 2] {
+    let (middle, all) = (mean(positions), 0..positions.len());
     let count = positions.len() as f64;
-    let middle = mean(positions);
-    let places: Vec<[f64; 2]> = (0..positions.len()).map(|n| ply.place(n)).collect();
-    let origin = [0, 1].map(|n| places.iter().map(|place| place[n]).sum::<f64>() / count);
-    let off: Vec<[f64; 2]> =
-        places.iter().map(|place| [place[0] - origin[0], place[1] - origin[1]]).collect();
-    shares(&off).map(|shares| {
-        let ways = shares.iter().zip(positions).map(|(share, p)| (share, sub(*p, middle)));
-        unit(ways.fold([0.0; 3], |sum, (share, way)| along(sum, *share, way)))
-    })
+    let origin = [0, 1].map(|c| all.clone().map(|n| ply.place(n)[c]).sum::<f64>() / count);
+    Shares::new(ply, all, origin).tangents(|n| sub(positions[n], middle))
 }
 
-/// Shares of ways in space in the vectors along u and v that fit them over ways in the fabric (m) best, by least squares and but for
-/// a factor; none for a direction in which there are none.
-fn shares(ways: &[[f64; 2]]) -> [Vec<f64>; 2] {
-    let sum = |term: fn(&[f64; 2]) -> f64| ways.iter().map(term).sum::<f64>();
-    let (uu, uv, vv) = (sum(|[u, _]| u * u), sum(|[u, v]| u * v), sum(|[_, v]| v * v));
-    let each = |share: &dyn Fn([f64; 2]) -> f64| ways.iter().map(|way| share(*way)).collect();
-    if uu * vv - uv * uv > 1e-9 * (uu + vv) * (uu + vv) {
-        return [each(&|[u, v]| vv * u - uv * v), each(&|[u, v]| uu * v - uv * u)];
+/// Grippers, each with its share (1/m) of the way to it in a tangent of the ply, by least squares.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shares {
+    /// Those of u and those of v.
+    Both([Vec<(usize, f64)>; 2]),
+    /// All are on one line of the fabric: those of the direction along it, and its unit vector (u, v).
+    Line(Vec<(usize, f64)>, [f64; 2]),
+}
+
+impl Shares {
+    /// The shares of grippers that are seen from a place in the fabric (m).
+    fn new(ply: &Ply, grippers: impl Iterator<Item = usize>, [u, v]: [f64; 2]) -> Self {
+        let way = |n: usize| (n, [ply.place(n)[0] - u, ply.place(n)[1] - v]);
+        let ways: Vec<(usize, [f64; 2])> = grippers.map(way).collect();
+        let moment = |a: usize, b: usize| ways.iter().map(|(_, way)| way[a] * way[b]).sum::<f64>();
+        let (uu, uv, vv) = (moment(0, 0), moment(0, 1), moment(1, 1));
+        let each = |[a, b]: [f64; 2], over: f64| {
+            ways.iter().map(|(n, [u, v])| (*n, (a * u + b * v) / over)).collect()
+        };
+        let determinant = uu * vv - uv * uv;
+        if determinant > 1e-9 * (uu + vv) * (uu + vv) {
+            return Shares::Both([each([vv, -uv], determinant), each([-uv, uu], determinant)]);
+        }
+        let [a, b] = if uu >= vv { [uu, uv] } else { [uv, vv] };
+        let size = a.hypot(b);
+        let line = if size > 0.0 { [a / size, b / size] } else { [1.0, 0.0] };
+        Shares::Line(each(line, uu + vv), line)
     }
-    if uu >= vv { [each(&|[u, _]| u), Vec::new()] } else { [Vec::new(), each(&|[_, v]| v)] }
+
+    /// Unit tangents of u and v, from the way in space to each gripper (m).
+    fn tangents(&self, way: impl Fn(usize) -> [f64; 3]) -> [[f64; 3]; 2] {
+        let toward = |shares: &[(usize, f64)]| {
+            unit(shares.iter().fold([0.0; 3], |sum, (n, share)| along(sum, *share, way(*n))))
+        };
+        let left = |way: [f64; 3]| unit([-way[1], way[0], 0.0]).unwrap_or([0.0, 1.0, 0.0]);
+        let of = |shares| toward(shares).unwrap_or([1.0, 0.0, 0.0]);
+        match self {
+            Shares::Both([u, v]) => {
+                let u = of(u);
+                [u, toward(v).unwrap_or(left(u))]
+            }
+            Shares::Line(shares, [cos, sin]) => {
+                let line = of(shares);
+                let aside = left(line);
+                [[*cos, -sin], [*sin, *cos]].map(|[a, b]| along(line.map(|c| a * c), b, aside))
+            }
+        }
+    }
 }
 
 /// For each cup the next one that holds along its row and along its column: all rows first.
@@ -350,6 +362,24 @@ mod tests {
             all
         };
         assert_eq!(by_place(&ply(list)), by_place(&ply(array(4, 3, |_| true))));
+    }
+
+    /// Cups on one line of the fabric, in any direction and however close: a level ply has the axes of its pose.
+    #[test]
+    fn a_single_line_of_cups_knows_its_angle_to_the_yarns() {
+        let pose = crate::geometry::Pose::new([0.3, -0.2, 0.4], [0.0, 0.0, 0.4]);
+        for way in [[0.1, 0.0], [0.0, 0.1], [0.1, 0.05], [-0.1, 0.2], [1e-5, 2e-5]] {
+            let held = |n: usize| Held { id: [n, 0], place: way.map(|c| n as f64 * c) };
+            let ply = ply((0..3).map(held).collect());
+            let place = |n: usize| pose.place([ply.place(n)[0], ply.place(n)[1], 0.0]);
+            let positions: Vec<[f64; 3]> = (0..3).map(place).collect();
+            let neighbors = ply.neighbors();
+            for found in [directions(&ply, &positions), tangents(&ply, &neighbors, &positions, 1)] {
+                for (found, axis) in found.iter().zip(pose.axes) {
+                    assert!(crate::geometry::distance(*found, axis) < 1e-9, "{way:?}: {found:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How the flat ply is turned that comes nearest to places of its grippers.
 
 use super::Ply;
-use crate::geometry::vector::{along, cross, dot, mean, sub, unit};
+use crate::geometry::vector::{along, cross, direction, dot, mean, sub, unit};
 
 /// Share of the moments of the fabric coordinates below which they are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -32,11 +32,11 @@ pub fn flat_axes(held: &[[f64; 2]], places: &[[f64; 3]]) -> [[f64; 3]; 3] {
     let level = |u: [f64; 3]| unit(cross([0.0, 0.0, 1.0], u)).unwrap_or([0.0, 1.0, 0.0]);
     // the directions of u and v in space, by least squares
     let [u, v] = if uu * vv - uv * uv > ROUNDING * (uu + vv) * (uu + vv) {
-        [unit(along(by_u, -uv / vv, by_v)), unit(along(by_v, -uv / uu, by_u))]
+        [direction(along(by_u, -uv / vv, by_v)), direction(along(by_v, -uv / uu, by_u))]
     } else {
         // all grippers are on one line of the fabric: its angle from u is known, and across it the ply is level
         let (line, angle) = if uu >= vv { (by_u, uv.atan2(uu)) } else { (by_v, vv.atan2(uv)) };
-        let line = unit(line).unwrap_or([1.0, 0.0, 0.0]);
+        let line = direction(line).unwrap_or([1.0, 0.0, 0.0]);
         let (aside, (sin, cos)) = (level(line), angle.sin_cos());
         [[cos, -sin], [sin, cos]].map(|[a, b]| Some([0, 1, 2].map(|n| a * line[n] + b * aside[n])))
     };

@@ -14,7 +14,7 @@ mod tuning;
 
 pub use crate::gripper::{GripperId, gripper_name, read_gripper_name};
 pub use contact_segment::{ContactSegment, LandedCell};
-pub use cut::{Cut, Held, Neighbors, directions, orientations, tangent_shares, tangents};
+pub use cut::{Cut, Held, Neighbors, Shares, directions, orientations, tangent_shares, tangents};
 pub use flat::flat_axes;
 pub use grid::{Catenary, Grid, Kind};
 pub use lines::{BiasLines, Fibers, FoundLines, LineCell, Lines};

@@ -7,7 +7,7 @@ use super::state::ClothState;
 use super::stretch;
 use crate::geometry::Point;
 use crate::geometry::rotation::{continued, oriented};
-use crate::geometry::vector::{angle_between, cross, norm, sub, unit};
+use crate::geometry::vector::{angle_between, cross, direction, norm, sub};
 use crate::layup::{Layup, Model};
 use crate::mold::{Mold, distance};
 use crate::net::Net;
@@ -242,7 +242,7 @@ fn error(mold: &Mold, ideal: &Net, uv: [f64; 2], place: Point) -> Option<f64> {
 
 /// Unit vectors along the mid-lines of a cell, u and v, by its corners (m); `None` if one has no length.
 fn mid_lines([a, b, c, d]: [Point; 4]) -> Option<[Point; 2]> {
-    let line = |p, q, r, s| unit(sub(middle([p, q]), middle([r, s])));
+    let line = |p, q, r, s| direction(sub(middle([p, q]), middle([r, s])));
     Some([line(b, c, a, d)?, line(c, d, a, b)?])
 }
 
@@ -257,7 +257,7 @@ fn normals(fabric: &Fabric, x: &[Point]) -> Vec<Option<Point>> {
             sums[node] = [0, 1, 2].map(|k| sums[node][k] + normal[k]);
         }
     }
-    sums.into_iter().map(unit).collect()
+    sums.into_iter().map(direction).collect()
 }
 
 /// Unit normal of the fabric around a place, and its direction along u: of the area vector and the mid-lines of the cells whose middles are
@@ -283,7 +283,7 @@ pub(super) fn frame_around(
             along[n] += b[n] + c[n] - a[n] - d[n];
         }
     }
-    Some((unit(area)?, unit(along)?))
+    Some((direction(area)?, direction(along)?))
 }
 
 /// The middle of some points.

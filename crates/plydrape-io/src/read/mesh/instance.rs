@@ -1,6 +1,6 @@
 //! Where an Abaqus instance puts its part: moved, then turned about an axis.
 
-use plydrape::geometry::vector::{along, cross, dot, sub, unit};
+use plydrape::geometry::vector::{along, cross, direction, dot, sub};
 
 /// A translation and, after it, a rotation about the axis from `a` to `b`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -24,7 +24,7 @@ impl Placing {
             (0, &[x, y, z]) => self.translation = [x, y, z],
             (1, &[ax, ay, az, bx, by, bz, angle]) => {
                 let (a, b) = ([ax, ay, az], [bx, by, bz]);
-                let Some(axis) = unit(sub(b, a)) else { return false };
+                let Some(axis) = direction(sub(b, a)) else { return false };
                 self.axis = Some((a, axis));
                 self.angle_deg = angle;
             }

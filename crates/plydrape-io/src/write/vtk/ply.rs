@@ -86,5 +86,5 @@ pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
 
 /// A vector of length one; zero stays zero.
 fn unit(vector: [f64; 3]) -> [f64; 3] {
-    plydrape::geometry::vector::unit(vector).unwrap_or_default()
+    plydrape::geometry::vector::direction(vector).unwrap_or_default()
 }

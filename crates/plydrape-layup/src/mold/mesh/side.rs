@@ -3,7 +3,7 @@
 use super::bounds;
 use super::orient::edges;
 use super::tree::Tree;
-use crate::geometry::vector::{along, distance, dot, sub, unit};
+use crate::geometry::vector::{along, direction, distance, dot, sub, unit};
 use crate::mold::tuning::TUNING;
 
 /// A side of a triangle that has no other triangle beyond it.
@@ -33,7 +33,7 @@ impl Side {
         let corners = triangles[triangle as usize];
         let [a, b, c] = [0, 1, 2].map(|n| corners[(corner + n) % 3]);
         let [p, q, r] = [a, b, c].map(|n| vertices[n as usize]);
-        let direction = unit(sub(q, p)).unwrap_or([0.0; 3]);
+        let direction = direction(sub(q, p)).unwrap_or([0.0; 3]);
         let inward = sub(r, p);
         let inward = along(inward, -dot(inward, direction), direction);
         let outward = unit(inward).unwrap_or([0.0; 3]).map(|x| -x);

@@ -13,7 +13,7 @@
 use super::strategy::Strategy;
 use super::tuning::TUNING;
 use crate::geometry::Point;
-use crate::geometry::vector::{along, between, sub, unit};
+use crate::geometry::vector::{along, between, direction, sub};
 use crate::measure::Name;
 use crate::mold::distance;
 use crate::ply::Neighbors;
@@ -118,7 +118,7 @@ impl<'a> Preload<'a> {
         let beside = self.neighbors.iter().filter(|pair| pair.grippers.contains(&gripper));
         for pair in beside {
             let other = pair.grippers[usize::from(pair.grippers[0] == gripper)];
-            let way = unit(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
+            let way = direction(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
             over_hollow |= hollow;
             let kept = if hollow { 0.0 } else { self.kept };

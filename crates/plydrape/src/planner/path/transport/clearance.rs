@@ -294,8 +294,8 @@ fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
             let own =
                 [0, 1].map(|n| (0..places.len()).map(|k| ply.place(k)[n]).sum::<f64>() / count);
             Box::new(move |u, v| {
-                let p = along(middle, u - own[0], along_u.unwrap_or_default());
-                along(p, v - own[1], along_v.unwrap_or_default())
+                let p = along(middle, u - own[0], along_u);
+                along(p, v - own[1], along_v)
             })
         }
         grid => Box::new(move |u, v| bilinear(grid, places, [u / ply.cell[0], v / ply.cell[1]])),

@@ -99,12 +99,8 @@ fn best_rotation(from: &[Point], to: &[Point]) -> Rotation {
 /// Normal of an array, upwards; of a line of grippers the steepest one.
 fn normal(ply: &Ply, places: &[Point]) -> Point {
     let upwards = [0.0, 0.0, 1.0];
-    let normal = match directions(ply, places) {
-        [Some(u), Some(v)] => unit(cross(u, v)),
-        [Some(line), None] | [None, Some(line)] => unit(along(upwards, -line[2], line)),
-        [None, None] => None,
-    };
-    let normal = normal.unwrap_or(upwards);
+    let [u, v] = directions(ply, places);
+    let normal = unit(cross(u, v)).unwrap_or(upwards);
     if normal[2] < 0.0 { normal.map(|c| -c) } else { normal }
 }
 
