@@ -68,7 +68,7 @@ const SPAN: Span = Span {
 /// One span's length with all first and second derivatives to H and both slopes.
 #[divan::bench]
 fn span_length_with_derivatives(bencher: Bencher) {
-    bencher.bench(|| Profile::new(black_box(&SPAN), black_box(0.4)).length_jet::<3>());
+    bencher.bench(|| Profile::new(black_box(&SPAN), black_box(0.4)).length_and_excess::<3>());
 }
 
 /// One span's length with its derivative to H.

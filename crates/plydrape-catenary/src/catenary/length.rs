@@ -103,15 +103,9 @@ impl Profile {
         (out, Excess { value: excess, to_force: to_h })
     }
 
-    /// Arc length L (m) with derivatives to the first `N` variables.
+    /// Arc length L (m) with derivatives to the first `N` variables, and its excess over the chord per run.
     #[must_use]
-    pub fn length_jet<const N: usize>(&self) -> Jet<N> {
-        self.length_and_excess().0
-    }
-
-    /// Arc length L (m) with derivatives, and its excess over the chord per run.
-    #[must_use]
-    pub(crate) fn length_and_excess<const N: usize>(&self) -> (Jet<N>, Excess) {
+    pub fn length_and_excess<const N: usize>(&self) -> (Jet<N>, Excess) {
         if N == 3 {
             let (jet, excess) = self.length_to_unknowns();
             return (jet.first(), excess);

@@ -151,23 +151,10 @@ impl<'a> Linearization<'a> {
 }
 
 impl Solver {
-    /// Derivative of the last solved state along a direction.
+    /// Prepares the derivatives of the last solved state, for many directions.
     ///
     /// `positions` and `contacts` must be those of the last [`Solver::solve`]. Exact wherever the state is
     /// differentiable: not where a diagonal just begins to shear or a slope just reaches its limit.
-    #[must_use]
-    pub fn tangent(
-        &self,
-        positions: &[[f64; 3]],
-        contacts: &[Option<ContactSegment>],
-        direction: &Direction,
-    ) -> StateTangent {
-        self.linearize(positions, contacts).along(direction)
-    }
-
-    /// Prepares the derivatives of the last solved state, for many directions.
-    ///
-    /// `positions` and `contacts` must be those of the last [`Solver::solve`].
     #[must_use]
     pub fn linearize<'a>(
         &'a self,

@@ -45,7 +45,7 @@ fn length_errors(solver: &Solver) -> f64 {
         let Some(force) = solver.force(n) else { continue };
         let span = solver.span(n);
         let stretch = force * span.chord() / (span.run * span.axial_stiffness);
-        let length = Profile::new(&span, force).length_jet::<3>().value;
+        let length = Profile::new(&span, force).length_and_excess::<3>().0.value;
         worst = worst.max((length - span.length * (1.0 + stretch)).abs() / span.length);
     }
     worst
