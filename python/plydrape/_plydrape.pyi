@@ -2248,11 +2248,10 @@ class Scene:
         >>> tables = dict(ply=dict(grippers=[2, 2], cell=[0.1, 0.1], material="prepreg_warm"))
         >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
         >>> tables |= dict(motion=dict(kind="hold"), tool=dict(world=dict(position=[9, 0, 0])))
+        >>> tables |= dict(model=dict(kind="catenaries"))
         >>> scene = plydrape.Scene(**tables, robot=dict(arm="ur20"))
         >>> [plydrape.simulate(at).limits["arm_miss"].kept for at in (scene, scene.placed())]
         [False, True]
-        >>> scene.placed().to_dict()["tool"]["world"]["position"] == [9, 0, 0]
-        False
         """
     @property
     def ply(self, /) -> Ply:
@@ -3195,7 +3194,7 @@ def plan(
     in the scene's `plan`.
 
     The plan is then judged with errors: by a sample of cells where the scene has `errors`, and what it tolerates is found. That takes
-    those of the sample and some fifty drapes more, which `time` does not bound.
+    those of the sample and some more, forty-six on the dome, which `time` does not bound.
 
     Parameters
     ----------

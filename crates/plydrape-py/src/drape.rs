@@ -154,7 +154,7 @@ pub fn judge_by(
 /// in the scene's `plan`.
 ///
 /// The plan is then judged with errors: by a sample of cells where the scene has `errors`, and what it tolerates is found. That takes
-/// those of the sample and some fifty drapes more, which `time` does not bound.
+/// those of the sample and some more, forty-six on the dome, which `time` does not bound.
 ///
 /// Parameters
 /// ----------
