@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import sys
 import tempfile
 from pathlib import Path
@@ -23,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from plydrape import _occ
+from plydrape._plydrape import _si
 from plydrape.errors import CadError, of_file
 
 if TYPE_CHECKING:
@@ -221,16 +221,12 @@ def convert(
 
 def _length(value: float | str) -> float:
     """A length (m) from a number of meters or a text with a unit."""
-    found: float | None
-    if isinstance(value, str):
-        parts = re.fullmatch(r"\s*([0-9.eE+-]+)\s*([a-z]+)\s*", value)
-        try:
-            found = float(parts[1]) * UNITS[parts[2]] if parts else None
-        except (ValueError, KeyError):
-            found = None
-    else:
-        found = float(value)
-    if found is None or not 0.0 < found < np.inf:
+    has_unit = not isinstance(value, str) or value.rstrip()[-1:].isalpha()
+    try:
+        found = _si(value, "length", "tolerance") if has_unit else 0.0
+    except ValueError:
+        found = 0.0
+    if not found > 0.0:
         text = f'"{value}"' if isinstance(value, str) else f"{value} m"
         raise CadError(f'a tolerance of {text}; expected a length above 0 such as "0.1 mm"')
     return found
