@@ -1,6 +1,7 @@
 //! Numbers as a user reads them.
 
 use plydrape::measure::Unit;
+use plydrape_io::store::shown;
 
 /// A limit in the unit that its measure is recorded in, as it is shown: `0.5 mm`, `3°`, `0.05 %`.
 pub fn shown(value: f64, unit: Unit) -> String {
@@ -33,14 +34,12 @@ pub fn degrees(radians: f64) -> String {
 
 /// Six digits at most, without trailing zeros; very large and small values by powers of ten.
 pub fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    let plain = (1e-3..1e7).contains(&rounded.abs()) || rounded == 0.0 || rounded.is_infinite();
-    if plain { rounded.to_string() } else { format!("{rounded:e}") }
+    shown::short(value, 6, 1e7)
 }
 
 /// A value with three digits.
 pub fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+    shown::rounded(value, 3)
 }
 
 /// Nine decimals; a zero without a sign.

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::scene::{FitTable, Reading, read_fit};
+use crate::store::shown;
 use plydrape::Error as Cause;
 use plydrape::fit::{
     BiasExtension, Estimate, Hang, MomentFit, Overhang, PictureFrame, PointFault, RateFit, Remark,
@@ -401,17 +402,12 @@ fn specimens(count: usize) -> String {
 }
 
 fn name(path: &Path) -> String {
-    crate::store::shown::path(path)
+    shown::path(path)
 }
 
 /// Four digits.
 fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    if rounded != 0.0 && !(1e-3..1e6).contains(&rounded.abs()) {
-        format!("{rounded:e}")
-    } else {
-        format!("{rounded}")
-    }
+    shown::short(value, 4, 1e6)
 }
 
 /// How sure an estimate is, in words; `specimens` are those whose residuals say it.

@@ -1,6 +1,7 @@
 //! What was draped, in a few lines.
 
 use crate::result::ResultFile;
+use crate::store::shown::rounded;
 use plydrape::layup::{Model, SlopeRule};
 use plydrape::material::Section;
 use plydrape::mold::{Face, Mold, Surface};
@@ -144,8 +145,7 @@ fn mold(mold: &Mold) -> String {
 
 /// Four digits, no zeros behind them.
 fn shown(value: f64) -> String {
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    format!("{rounded}")
+    rounded(value, 4).to_string()
 }
 
 #[cfg(test)]

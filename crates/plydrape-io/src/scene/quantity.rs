@@ -6,6 +6,7 @@ use super::units::{self, Dimension};
 use super::usual::{self, Usual};
 use crate::Error;
 use crate::error::Fault;
+use crate::store::shown;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, Visitor};
 use serde_json::{Map, Value};
@@ -583,8 +584,7 @@ impl<M: Measure> Quantity<M> {
 
 /// Three digits, by powers of ten.
 pub(super) fn rounded(value: f64) -> String {
-    let short: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    format!("{short:e}")
+    format!("{:e}", shown::rounded(value, 3))
 }
 
 /// Reads a number or a text of the quantity `name`, as in `example`.

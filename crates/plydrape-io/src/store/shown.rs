@@ -53,6 +53,20 @@ pub fn blanked(text: &str) -> String {
     text.replace("\r\n", " \n").chars().map(plain).collect()
 }
 
+/// A value in this many digits.
+#[must_use]
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
+/// A value in this many digits at most, without trailing zeros; below 0.001, and from `large`, by powers of ten.
+#[must_use]
+pub fn short(value: f64, digits: usize, large: f64) -> String {
+    let rounded = rounded(value, digits);
+    let plain = rounded == 0.0 || (1e-3..large).contains(&rounded.abs());
+    if plain { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
 /// A length (m) in millimeters, with three digits after the point at most.
 #[must_use]
 pub fn millimeters(length: f64) -> String {

@@ -127,7 +127,7 @@ fn rate_in_words(
 
 /// Two digits: an error is known within 9 %.
 fn rounded(value: f64) -> String {
-    significant(format!("{value:.1e}").parse().unwrap_or(value))
+    significant(shown::rounded(value, 2))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The deck's lines: keywords, data of a few numbers a line, comments.
 
+use crate::store::shown::rounded;
 use std::fmt::Write;
 
 /// Most entries of a data line.
@@ -53,9 +54,8 @@ impl Deck {
 
 /// A number in ten digits, which both programs read: a field may be 20 characters wide.
 pub(super) fn number(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     // −0 is 0
-    format!("{:?}", rounded + 0.0)
+    format!("{:?}", rounded(value, 10) + 0.0)
 }
 
 #[cfg(test)]
