@@ -6,7 +6,7 @@ use super::choice::WarpChoice;
 use super::cut::CupArray;
 use super::diagnostic::hint;
 use super::errors::errors;
-use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, RobotTable, SceneKeys};
+use super::file::{ErrorsTable, GrippersTable, MotionKind, PlyTable, SceneKeys};
 use super::limits::{limits, not_measured};
 use super::located::{Count, Fixed, Located, Whole};
 use super::model::Models;
@@ -23,7 +23,7 @@ use crate::Error;
 use crate::read::outline::Drawn;
 use crate::store::shown;
 use crate::store::size;
-use plydrape::layup::{Layup, Release, ReleaseOrder, Target};
+use plydrape::layup::{Layup, Target};
 use plydrape::mold::{MeshReport, Mold};
 use plydrape::motion::Motion;
 use plydrape::ply::{Direction, FoundLines, Grid, Ply};
@@ -79,14 +79,7 @@ pub(super) fn scene(
     places.fits(file.grippers_span(), motion.positions.len())?;
     let sheets = models.check_sheets(&ply, &settings, motion.positions.len())?;
     let plan = plan(&file.plan, ply.grippers(), document)?;
-    let (arm, links) = match &file.robot {
-        Some(table) if file.tool.is_none() => return Err(no_tool(table, document)),
-        Some(table) => {
-            let (arm, links) = robot::robot(table, document, base)?;
-            (Some(arm), links)
-        }
-        None => (None, Vec::new()),
-    };
+    let (arm, links) = robot::robot(file, document, base)?;
     let bodies = bodies(file, links, document, base)?;
     let errors = match (&file.errors, cell.errors) {
         (None, None) => None,
@@ -96,14 +89,7 @@ pub(super) fn scene(
             Some(errors(table, of_cell, &ply, mold.is_some(), document)?)
         }
     };
-    let release = match &file.release {
-        Some(table) => Some(release(table, settings.model, mold.is_some(), document)?),
-        // pads that pick a ply up let go of it at the end
-        None if file.pick_up.is_some() && mold.is_some() => {
-            Some(Release::new(ReleaseOrder::End, 0.0))
-        }
-        None => None,
-    };
+    let release = release(file, settings.model, mold.is_some(), document)?;
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
@@ -143,15 +129,6 @@ pub(super) fn scene(
         notices,
         plan_refusal: unplanned.or(fits.err()).and_then(Error::into_diagnostic),
     })
-}
-
-/// Refuses an arm that carries nothing.
-fn no_tool(table: &Located<RobotTable>, document: &Document) -> Error {
-    document.error(
-        table.span.clone(),
-        "an arm carries the frame of a tool, and each gripper of this scene moves by itself",
-        "say in [tool] how the frame carries the grippers",
-    )
 }
 
 /// As [`scene`], on a mold that a program has made and that is read as one of a file is.

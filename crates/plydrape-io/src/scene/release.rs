@@ -1,20 +1,24 @@
 //! When the pads let go of the ply.
 
-use super::file::{OrderKey, ReleaseTable};
+use super::file::{OrderKey, ReleaseTable, SceneKeys};
 use super::located::Located;
 use super::quantity::read_or;
 use super::source::Document;
 use crate::Error;
 use plydrape::layup::{Model, Release, ReleaseOrder};
 
-/// Checks the table `[release]` of a scene that this model drapes; `on_mold` says whether it has a mold.
+/// Checks the table `[release]` of a scene that this model drapes; `on_mold` says whether it has a mold. Pads that pick a ply up let go of
+/// it at the end, with the table or without it.
 pub(super) fn release(
-    table: &Located<ReleaseTable>,
+    file: &SceneKeys,
     model: Model,
     on_mold: bool,
     document: &Document,
-) -> Result<Release, Error> {
-    let Located { value: ReleaseTable { order, dwell }, span } = table;
+) -> Result<Option<Release>, Error> {
+    let Some(Located { value: ReleaseTable { order, dwell }, span }) = &file.release else {
+        let lets_go = file.pick_up.is_some() && on_mold;
+        return Ok(lets_go.then(|| Release::new(ReleaseOrder::End, 0.0)));
+    };
     if model == Model::Catenaries {
         return Err(document.error(
             span.clone(),
@@ -30,5 +34,5 @@ pub(super) fn release(
         ));
     }
     let dwell = read_or(dwell, 0.0, document)?;
-    Ok(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell))
+    Ok(Some(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell)))
 }

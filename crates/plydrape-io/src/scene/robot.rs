@@ -1,6 +1,6 @@
 //! The arm of a robot, from a shipped file, a URDF file or a table, and the bodies of its links.
 
-use super::file::{DhTable, RobotTable};
+use super::file::{DhTable, RobotTable, SceneKeys};
 use super::located::Located;
 use super::mold::{Purpose, mesh_file};
 use super::quantity::{Read, read_given, read_or};
@@ -22,12 +22,20 @@ const SHIPPED: [(&str, &str); 3] = [
 /// Sides of the prism around a round link.
 const SIDES: u32 = 24;
 
-/// Checks the table `[robot]`; files that it names are relative to `base`.
+/// Checks the table `[robot]`, if the scene has one; files that it names are relative to `base`.
 pub(super) fn robot(
-    table: &Located<RobotTable>,
+    file: &SceneKeys,
     document: &Document,
     base: &Path,
-) -> Result<(Arm, Vec<Body>), Error> {
+) -> Result<(Option<Arm>, Vec<Body>), Error> {
+    let Some(table) = &file.robot else { return Ok((None, Vec::new())) };
+    if file.tool.is_none() {
+        return Err(document.error(
+            table.span.clone(),
+            "an arm carries the frame of a tool, and each gripper of this scene moves by itself",
+            "say in [tool] how the frame carries the grippers",
+        ));
+    }
     let RobotTable { arm, dh, start, joint_margin, singularity, joint_acceleration, .. } =
         &table.value;
     let (name, joints, flange, bodies) = match (arm, dh) {
@@ -58,7 +66,7 @@ pub(super) fn robot(
     let margin = read_or(joint_margin, LEAST_MARGIN, document)?;
     let singular = read_or(singularity, LEAST_SINGULAR, document)?;
     let acceleration = read_given(joint_acceleration, document)?;
-    Ok((Arm { name, joints, flange, start, acceleration, margin, singular }, bodies))
+    Ok((Some(Arm { name, joints, flange, start, acceleration, margin, singular }), bodies))
 }
 
 /// Name, joints, flange in the frame of the last joint, and bodies of an arm.
