@@ -144,18 +144,7 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         }
         Test::Rate { width, length } => {
             let [tables, _] = tables_of(Reading::Timed)?;
-            let mut timed = Vec::with_capacity(tables.len());
-            for (name, table) in &tables {
-                let width = table.measure("width", *width)?;
-                let length = table.measure("length", *length)?;
-                timed.push(TimedSpecimen {
-                    name: name.clone(),
-                    test: BiasExtension { width, length },
-                    points: table.rows.clone(),
-                    times: table.times.clone(),
-                });
-            }
-            fitted.rate = Some(fit_rate(&timed).map_err(|cause| placed(&tables, cause))?);
+            fitted.timed(&tables, *width, *length)?;
             fitted.test = format!("bias extension in time, {}", specimens(tables.len()));
         }
         Test::Frame { side, fabric } => {
@@ -171,57 +160,60 @@ pub fn fit(request: &Request) -> Result<Fitted, Error> {
         Test::Overhang { mass, angle } => {
             let tables = tables_of(Reading::Overhang)?;
             fitted.weigh(&tables, *mass)?;
-            for (n, tables) in tables.iter().enumerate() {
-                let mut rigidities = Vec::new();
-                for (_, table) in tables {
-                    let weight = GRAVITY * table.measure("mass", *mass)?;
-                    let test = Overhang { weight, angle: *angle };
-                    let overhangs: Vec<f64> = table.rows.iter().map(|row| row[0]).collect();
-                    rigidities.extend(test.rigidities(&overhangs)?);
-                }
-                if !rigidities.is_empty() {
-                    let estimate = Estimate::of_specimens(&rigidities);
-                    fitted.bending[n] = Some(BendingFit::Rigidity(estimate, Vec::new()));
-                }
-            }
+            let rigidity = |tables: &[Specimen]| overhanging(tables, *mass, *angle);
+            fitted.bending = [rigidity(&tables[0])?, rigidity(&tables[1])?];
             fitted.test = format!("cantilever, chord at {} deg", short(angle.to_degrees()));
         }
         Test::Hang { mass, length } => {
             let tables = tables_of(Reading::Points)?;
             fitted.weigh(&tables, *mass)?;
-            for (n, tables) in tables.iter().enumerate() {
-                let mut strips = Vec::with_capacity(tables.len());
-                for (name, table) in tables {
-                    let length = table.measure("length", *length)?;
-                    let weight = GRAVITY * table.measure("mass", *mass)?;
-                    strips
-                        .push((name.clone(), Hang { points: table.rows.clone(), length, weight }));
-                }
-                if !strips.is_empty() {
-                    let (whole, each) = fit_hang(&strips).map_err(|cause| placed(tables, cause))?;
-                    let names = strips.into_iter().map(|(name, _)| name);
-                    fitted.bending[n] =
-                        Some(BendingFit::Rigidity(whole, names.zip(each).collect()));
-                }
-            }
+            let rigidity = |tables: &[Specimen]| hanging(tables, *mass, *length);
+            fitted.bending = [rigidity(&tables[0])?, rigidity(&tables[1])?];
             fitted.test = "points of hanging strips, fitted by the exact elastica".into();
         }
         Test::Moments => {
-            let tables = tables_of(Reading::Moment)?;
-            for (n, tables) in tables.iter().enumerate() {
-                if !tables.is_empty() {
-                    let specimens: Vec<_> =
-                        tables.iter().map(|(name, t)| (name.clone(), t.rows.clone())).collect();
-                    let found = fit_moments(&specimens).map_err(|cause| placed(tables, cause))?;
-                    fitted.remark(tables, &found.remarks, &MOMENT);
-                    fitted.reached(tables, &found.reach, &MOMENT);
-                    fitted.bending[n] = Some(BendingFit::Curve(found));
-                }
-            }
+            let [warp, weft] = tables_of(Reading::Moment)?;
+            fitted.bending = [fitted.moments(&warp)?, fitted.moments(&weft)?];
             fitted.test = "moment over curvature, mean of both sides and both ways".into();
         }
     }
     Ok(fitted)
+}
+
+/// The rigidity of strips that hang over an edge, of a mass (kg/m²) unless their files say it, to an angle of the chord (rad).
+fn overhanging(
+    tables: &[Specimen],
+    mass: Option<f64>,
+    angle: f64,
+) -> Result<Option<BendingFit>, Error> {
+    let mut rigidities = Vec::new();
+    for (_, table) in tables {
+        let weight = GRAVITY * table.measure("mass", mass)?;
+        let overhangs: Vec<f64> = table.rows.iter().map(|row| row[0]).collect();
+        rigidities.extend(Overhang { weight, angle }.rigidities(&overhangs)?);
+    }
+    let estimate = || BendingFit::Rigidity(Estimate::of_specimens(&rigidities), Vec::new());
+    Ok((!rigidities.is_empty()).then(estimate))
+}
+
+/// The rigidity of strips by points along them, of a mass (kg/m²) and a length (m) unless their files say them.
+fn hanging(
+    tables: &[Specimen],
+    mass: Option<f64>,
+    length: Option<f64>,
+) -> Result<Option<BendingFit>, Error> {
+    let mut strips = Vec::with_capacity(tables.len());
+    for (name, table) in tables {
+        let length = table.measure("length", length)?;
+        let weight = GRAVITY * table.measure("mass", mass)?;
+        strips.push((name.clone(), Hang { points: table.rows.clone(), length, weight }));
+    }
+    if strips.is_empty() {
+        return Ok(None);
+    }
+    let (whole, each) = fit_hang(&strips).map_err(|cause| placed(tables, cause))?;
+    let names = strips.into_iter().map(|(name, _)| name);
+    Ok(Some(BendingFit::Rigidity(whole, names.zip(each).collect())))
 }
 
 /// A fault of the points of a specimen at its row, and one of its record at its header.
@@ -302,6 +294,41 @@ impl Fitted {
         self.reached(tables, &found.reach, &SHEAR);
         self.shear = Some(found);
         Ok(sizes.join(" and "))
+    }
+
+    /// Fits what resin adds to the shear of specimens, of a width and a length (m) unless their files say them.
+    fn timed(
+        &mut self,
+        tables: &[Specimen],
+        width: Option<f64>,
+        length: Option<f64>,
+    ) -> Result<(), Error> {
+        let mut timed = Vec::with_capacity(tables.len());
+        for (name, table) in tables {
+            let width = table.measure("width", width)?;
+            let length = table.measure("length", length)?;
+            timed.push(TimedSpecimen {
+                name: name.clone(),
+                test: BiasExtension { width, length },
+                points: table.rows.clone(),
+                times: table.times.clone(),
+            });
+        }
+        self.rate = Some(fit_rate(&timed).map_err(|cause| placed(tables, cause))?);
+        Ok(())
+    }
+
+    /// The curve of the moment of specimens, with notes on their records.
+    fn moments(&mut self, tables: &[Specimen]) -> Result<Option<BendingFit>, Error> {
+        if tables.is_empty() {
+            return Ok(None);
+        }
+        let specimens: Vec<_> =
+            tables.iter().map(|(name, table)| (name.clone(), table.rows.clone())).collect();
+        let found = fit_moments(&specimens).map_err(|cause| placed(tables, cause))?;
+        self.remark(tables, &found.remarks, &MOMENT);
+        self.reached(tables, &found.reach, &MOMENT);
+        Ok(Some(BendingFit::Curve(found)))
     }
 
     /// The mass per area of all specimens.
