@@ -167,76 +167,30 @@ impl Fabric {
     pub fn cut(lines: [Vec<f64>; 2], outline: &Outline, least: f64) -> Self {
         let whole = Fabric::rectangle(lines, 0.0);
         let count = whole.places.len();
-        let corner = |cell: &Cell, n: usize| whole.places[cell.nodes[n] as usize];
-        let mut areas = vec![0.0; count];
-        // width of ply beside each pair of neighboring nodes, times their distance
-        let mut strips: HashMap<[u32; 2], f64> = HashMap::new();
-        let mut cells = Vec::new();
-        let columns = whole.lines[0].len() - 1;
-        let inside: Vec<f64> = whole
+        let inside_of = |cell: &Cell| {
+            let [low, high] = whole.corners(cell);
+            outline.area_in(low, high)
+        };
+        let inside: Vec<f64> = whole.cells.iter().map(inside_of).collect();
+        let kept: Vec<bool> = whole
             .cells
             .iter()
-            .map(|cell| outline.area_in(corner(cell, 0), corner(cell, 2)))
+            .zip(&inside)
+            .map(|(cell, area)| *area > 0.0 && *area >= least * cell.area)
             .collect();
-        let is_kept = |n: usize| inside[n] > 0.0 && inside[n] >= least * whole.cells[n].area;
-        for (n, cell) in whole.cells.iter().enumerate() {
-            let (low, high) = (corner(cell, 0), corner(cell, 2));
-            let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
-            let area = inside[n];
-            if !is_kept(n) {
-                // the mass of a sliver goes to the cell beside it that has the most ply
-                let beside = [
-                    (n % columns > 0).then(|| n - 1),
-                    ((n + 1) % columns > 0).then_some(n + 1),
-                    n.checked_sub(columns),
-                    Some(n + columns).filter(|n| *n < inside.len()),
-                ];
-                let kept = beside.into_iter().flatten().filter(|n| is_kept(*n));
-                let most = kept.max_by(|a, b| inside[*a].total_cmp(&inside[*b]));
-                if let Some(other) = most.map(|n| &whole.cells[n]).filter(|_| area > 0.0) {
-                    let (from, to) = (corner(other, 0), corner(other, 2));
-                    let center = outline.center_in(low, high).unwrap_or(middle);
-                    let nearest = [0, 1].map(|n| center[n].clamp(from[n], to[n]));
-                    for (node, weight) in other.nodes.iter().zip(bilinear(from, to, nearest)) {
-                        areas[*node as usize] += weight * area;
-                    }
-                }
-                continue;
-            }
-            let halves = [
-                ([0, 1], low, [high[0], middle[1]]),
-                ([3, 2], [low[0], middle[1]], high),
-                ([0, 3], low, [middle[0], high[1]]),
-                ([1, 2], [middle[0], low[1]], high),
-            ];
-            for (ends, low, high) in halves {
-                let strip = outline.area_in(low, high);
-                if strip > 0.0 {
-                    *strips.entry(ends.map(|n: usize| cell.nodes[n])).or_default() += strip;
-                }
-            }
-            let center = outline.center_in(low, high).unwrap_or(middle);
-            let weights = bilinear(low, high, center);
-            for (node, weight) in cell.nodes.iter().zip(weights) {
-                areas[*node as usize] += weight * area;
-            }
-            cells.push(Cell { area, share: area / cell.area, ..*cell });
-        }
-        let segments: Vec<Segment> = whole
-            .segments
-            .iter()
-            .filter_map(|segment| {
-                let width = strips.get(&segment.nodes)? / segment.length;
-                Some(Segment { width, ..*segment })
-            })
-            .collect();
+        let areas = whole.areas_within(outline, &inside, &kept);
+        let segments = whole.segments_within(outline, &kept);
         let widths: HashMap<[u32; 2], f64> = segments.iter().map(|s| (s.nodes, s.width)).collect();
         let bends = whole.bends.iter().filter_map(|bend| {
             let [a, b, c] = bend.nodes;
             let width = widths.get(&[a, b])?.min(*widths.get(&[b, c])?);
             Some(Bend { width, ..*bend })
         });
-        let bends: Vec<Bend> = bends.collect();
+        let cells: Vec<Cell> = (0..inside.len())
+            .filter(|n| kept[*n])
+            .map(|n| (&whole.cells[n], inside[n]))
+            .map(|(cell, area)| Cell { area, share: area / cell.area, ..*cell })
+            .collect();
 
         // nodes of no cell are left out
         let mut number = vec![None; count];
@@ -257,10 +211,7 @@ impl Fabric {
                 .into_iter()
                 .map(|s| Segment { nodes: s.nodes.map(renumbered), ..s })
                 .collect(),
-            bends: bends
-                .into_iter()
-                .map(|b| Bend { nodes: b.nodes.map(renumbered), ..b })
-                .collect(),
+            bends: bends.map(|b| Bend { nodes: b.nodes.map(renumbered), ..b }).collect(),
             cells: cells
                 .into_iter()
                 .map(|c| Cell { nodes: c.nodes.map(renumbered), ..c })
@@ -274,6 +225,66 @@ impl Fabric {
         };
         fabric.boundary = outline.rings().map(|ring| fabric.boundary_along(ring)).collect();
         fabric
+    }
+
+    /// Lowest and highest corner of a cell of a rectangle (m).
+    fn corners(&self, cell: &Cell) -> [[f64; 2]; 2] {
+        [0, 2].map(|n| self.places[cell.nodes[n] as usize])
+    }
+
+    /// Area of ply (m²) that each node of this rectangle stands for, so that the center of the ply in each cell is where it is. The mass of a
+    /// sliver in a cell that is not `kept` goes to the cell beside it that has the most ply; `inside` is the ply in each cell (m²).
+    fn areas_within(&self, outline: &Outline, inside: &[f64], kept: &[bool]) -> Vec<f64> {
+        let mut areas = vec![0.0; self.places.len()];
+        let columns = self.lines[0].len() - 1;
+        for (n, cell) in self.cells.iter().enumerate().filter(|(n, _)| inside[*n] > 0.0) {
+            let beside = [
+                (n % columns > 0).then(|| n - 1),
+                ((n + 1) % columns > 0).then_some(n + 1),
+                n.checked_sub(columns),
+                Some(n + columns).filter(|n| *n < inside.len()),
+            ];
+            let most = beside.into_iter().flatten().filter(|n| kept[*n]);
+            let most = most.max_by(|a, b| inside[*a].total_cmp(&inside[*b]));
+            let home = if kept[n] { Some(n) } else { most };
+            let Some(home) = home else { continue };
+            let ([low, high], [from, to]) = (self.corners(cell), self.corners(&self.cells[home]));
+            let middle = [0, 1].map(|c| 0.5 * (low[c] + high[c]));
+            let center = outline.center_in(low, high).unwrap_or(middle);
+            let nearest = [0, 1].map(|c| center[c].clamp(from[c], to[c]));
+            let weights = bilinear(from, to, nearest);
+            for (node, weight) in self.cells[home].nodes.iter().zip(weights) {
+                areas[*node as usize] += weight * inside[n];
+            }
+        }
+        areas
+    }
+
+    /// The yarns of this rectangle along the sides of cells that are `kept`, each as wide as the ply beside it in these.
+    fn segments_within(&self, outline: &Outline, kept: &[bool]) -> Vec<Segment> {
+        // width of ply beside each pair of neighboring nodes, times their distance
+        let mut strips: HashMap<[u32; 2], f64> = HashMap::new();
+        for (cell, _) in self.cells.iter().zip(kept).filter(|(_, kept)| **kept) {
+            let [low, high] = self.corners(cell);
+            let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
+            let halves = [
+                ([0, 1], low, [high[0], middle[1]]),
+                ([3, 2], [low[0], middle[1]], high),
+                ([0, 3], low, [middle[0], high[1]]),
+                ([1, 2], [middle[0], low[1]], high),
+            ];
+            for (ends, low, high) in halves {
+                let strip = outline.area_in(low, high);
+                if strip > 0.0 {
+                    *strips.entry(ends.map(|n: usize| cell.nodes[n])).or_default() += strip;
+                }
+            }
+        }
+        let within = |segment: &Segment| {
+            let width = strips.get(&segment.nodes)? / segment.length;
+            Some(Segment { width, ..*segment })
+        };
+        self.segments.iter().filter_map(within).collect()
     }
 
     /// The points at which a ring (m) crosses lines of nodes, and its corners; those in cells that are left out are left out.
