@@ -94,14 +94,11 @@ pub fn fit(
     curvature: Option<String>,
     moment: Option<String>,
 ) -> PyResult<Json> {
-    let si = |amount: Option<Amount>, name: &str, measured: Measured, usual: &usual::Usual| {
-        amount.map(|amount| amount.si(name, measured, usual)).transpose()
-    };
-    let width = si(width, "width", Measured::Length, &usual::Coupon::USUAL)?;
-    let length = si(length, "length", Measured::Length, &usual::Coupon::USUAL)?;
-    let side = si(side, "side", Measured::Length, &usual::Coupon::USUAL)?;
-    let fabric = si(fabric, "fabric", Measured::Length, &usual::Coupon::USUAL)?;
-    let mass = si(mass, "mass", Measured::ArealMass, &usual::PlyMass::USUAL)?;
+    let length_of =
+        |length, name| Amount::given(length, name, Measured::Length, &usual::Coupon::USUAL);
+    let (width, length) = (length_of(width, "width")?, length_of(length, "length")?);
+    let (side, fabric) = (length_of(side, "side")?, length_of(fabric, "fabric")?);
+    let mass = Amount::given(mass, "mass", Measured::ArealMass, &usual::PlyMass::USUAL)?;
     let angle = angle.si("angle", Measured::Angle, &usual::AnyAngle::USUAL)?;
     let (test, titles) = match test {
         "bias" => (Test::Bias { width, length }, [displacement, force]),

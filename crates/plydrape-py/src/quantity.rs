@@ -36,6 +36,16 @@ impl Amount {
         if value > 0.0 { Ok(value) } else { Err(refused(name, value, "a positive number")) }
     }
 
+    /// As [`Amount::si`] of one that may be left out.
+    pub fn given(
+        amount: Option<Self>,
+        name: &str,
+        measured: Measured,
+        usual: &Usual,
+    ) -> PyResult<Option<f64>> {
+        amount.map(|amount| amount.si(name, measured, usual)).transpose()
+    }
+
     /// As a scene file has it.
     pub fn toml(&self) -> String {
         match self {

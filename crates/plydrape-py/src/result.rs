@@ -644,9 +644,8 @@ impl Result {
         far: bool,
     ) -> PyResult<Self> {
         let text = Offset::file(offset, points.map(Points::pairs).transpose()?);
-        let tolerance =
-            tolerance.map(|length| length.si("tolerance", Measured::Length, &usual::Landed::USUAL));
-        let tolerance = tolerance.transpose()?;
+        let landed = &usual::Landed::USUAL;
+        let tolerance = Amount::given(tolerance, "tolerance", Measured::Length, landed)?;
         let result = parallel(py, || {
             let fault = |error: Error| error::plan(&error::text(&error));
             let planned = PlannedResult::new((*self.0).clone()).map_err(fault)?;
@@ -791,16 +790,11 @@ impl Result {
             ("least_way", least_way, length, &mut tolerance.least_way),
             ("least_time", least_time, (Measured::Time, &usual::ANY), &mut tolerance.least_time),
         ] {
-            if let Some(amount) = given {
-                *to = amount.si(name, measured, usual)?;
-            }
+            *to = Amount::given(given, name, measured, usual)?.unwrap_or(*to);
         }
-        let mesh = mesh
-            .map(|length| length.si("mesh", Measured::Length, &usual::Mesh::USUAL))
-            .transpose()?;
-        let tension = tension
-            .map(|value| value.si("tension", Measured::ForcePerLength, &usual::Tension::USUAL))
-            .transpose()?;
+        let mesh = Amount::given(mesh, "mesh", Measured::Length, &usual::Mesh::USUAL)?;
+        let per_length = Measured::ForcePerLength;
+        let tension = Amount::given(tension, "tension", per_length, &usual::Tension::USUAL)?;
 
         // templates are read before anything is written
         let read = |path: &PathBuf| -> PyResult<Template> {
