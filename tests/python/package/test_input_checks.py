@@ -55,6 +55,21 @@ def test_grippers_at_one_place_are_refused_at_every_door() -> None:
         plydrape.batch.equilibria(solver, both)
 
 
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_an_amount_that_is_not_finite_is_refused_at_every_door(value: float) -> None:
+    """By the name of its argument; an axial stiffness alone may be infinite."""
+    scene = plydrape.Scene.read(EXAMPLES / "04_dome" / "scene.toml")
+    assert scene.mold is not None
+    with pytest.raises(ValueError, match="run"):
+        plydrape.Span(run=value, length=0.1, weight=3.0)
+    with pytest.raises(ValueError, match="rise"):
+        plydrape.Span(run=0.09, rise=value, length=0.1, weight=3.0)
+    with pytest.raises(ValueError, match="gravity"):
+        plydrape.Solver(scene.ply, gravity=value)
+    with pytest.raises(ValueError, match="low"):
+        scene.mold.patch((value, 0.0), (0.1, 0.1))
+
+
 def test_the_fault_names_step_gripper_and_value() -> None:
     """Of positions and of times."""
     scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")

@@ -1,6 +1,6 @@
 //! One span against closed forms, printed figures, an independent solver's numbers and its equation.
 
-use plydrape_catenary::catenary::{EndCondition, Profile, Span, SpanState, Variable};
+use plydrape_catenary::catenary::{EndCondition, Profile, Root, Span, SpanState, Variable};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -42,6 +42,18 @@ fn length_by_simpson(profile: &Profile, run: f64, intervals: usize) -> f64 {
         sum += if n % 2 == 1 { 4.0 } else { 2.0 } * speed(n);
     }
     sum / (3.0 * intervals as f64)
+}
+
+/// Neither does a number that is none, which every comparison says no to.
+#[test]
+fn a_root_that_misses_the_length_solves_no_span() {
+    let span = paper_span(0.098, [FREE, FREE]);
+    let root = span.solve(None);
+    assert!(span.is_solved_by(&root));
+    for residual in [2e-6, f64::INFINITY, f64::NAN] {
+        assert!(!span.is_solved_by(&Root { residual, ..root }), "{residual}");
+    }
+    assert!(!span.is_solved_by(&Root { force: Some(f64::NAN), ..root }));
 }
 
 /// Figures of the small-sag theory for 100 mm of the paper's ply, worked out with a different program

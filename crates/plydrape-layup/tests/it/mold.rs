@@ -2,7 +2,7 @@
 
 use plydrape_layup::geometry::vector::{dot, norm, sub};
 use plydrape_layup::mold::{
-    Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus,
+    Cylinder, Face, Graph, Mesh, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -224,4 +224,12 @@ fn beyond_an_open_boundary_there_is_no_mold() {
     assert!(saddle.highest_point([0.2, 0.0]).is_none());
     let line = saddle.lay([0.0; 3], [1.0, 0.0], 1.0);
     assert!((line.end()[0] - 0.1).abs() < 1e-6 && line.length() < 0.103, "{:?}", line.end());
+}
+
+#[test]
+fn a_vertex_that_there_is_not_is_named_with_its_triangle() {
+    let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let error = Mesh::of_triangles(vertices, &[[0, 1, 2], [1, 2, 3]]).unwrap_err();
+    assert_eq!(error.to_string(), "triangle 2 has vertex 3, and the mesh has 3 vertices");
+    assert_eq!(error.remedy(), "number the vertices from 0");
 }
