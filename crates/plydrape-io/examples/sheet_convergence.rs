@@ -8,7 +8,7 @@ use plydrape::measure::{Name, Observation};
 use plydrape::motion::Motion;
 use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
 use plydrape::scene::Scene;
-use plydrape::sheet::{Drape, HandOver, SheetTuning, Status, drape};
+use plydrape::sheet::{HandOver, SheetDrape, SheetTuning, Status, drape};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -54,7 +54,7 @@ fn row(name: &str, varied: &str, scene: &Scene, tuning: SheetTuning) {
     let layup = &scene.layup;
     let low = scene.limits.most(Name::Height);
     let draped = drape(layup, tuning, low, &|| false, |_, _, _| ControlFlow::Continue(()));
-    let Drape { sheet, status, report, last, .. } = match draped {
+    let SheetDrape { sheet, status, report, last, .. } = match draped {
         Ok(draped) => draped,
         Err(error) => return println!("| {name} | {varied} | {error} | | | |"),
     };

@@ -87,7 +87,8 @@ impl Solver {
     ) -> PyResult<Self> {
         let axial_stiffness =
             axial_stiffness.positive("axial_stiffness", Measured::Force, &usual::Axial::USUAL)?;
-        let gravity = gravity.positive("gravity", Measured::Acceleration, &usual::Gravity::USUAL)?;
+        let gravity =
+            gravity.positive("gravity", Measured::Acceleration, &usual::Gravity::USUAL)?;
         let max_tilt = max_tilt.positive("max_tilt", Measured::Angle, &usual::AnyAngle::USUAL)?;
         let slopes = match slopes {
             "moment-balance" => SlopeRule::MomentBalance,

@@ -36,8 +36,8 @@ pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Opti
         .collect();
     let fiber_angle = (catenary < layup.ply.lines().edges()).then(|| {
         let ([from, to], [a, b]) = (contact.arc(), contact.point());
-        let landed =
-            direction(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
+        let landed = direction(sub(b, a))
+            .filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
         let ideal = direction(sub(place(to)?, place(from)?))?;
         // the arctangent of sine and cosine is exact for small angles, where the cosine alone is not
         let angle = norm(cross(landed, ideal)).atan2(dot(landed, ideal));

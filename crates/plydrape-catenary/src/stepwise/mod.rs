@@ -18,7 +18,7 @@ mod task;
 pub(crate) mod tests;
 pub mod tuning;
 
-pub use outcome::{Outcome, PositionError, Stepwise};
+pub use outcome::{PositionError, Stepwise, StepwiseEnd};
 pub use task::{Limits, Task};
 
 use crate::draping::Draping;
@@ -45,7 +45,7 @@ pub fn stepwise(task: &Task, progress: &mut dyn FnMut(usize) -> ControlFlow<()>)
     let count = task.layup.ply.grid.grippers();
     let target = task.layup.target.as_ref().filter(|target| target.grippers.len() == count);
     let Some(target) = target.filter(|_| start.len() == count) else {
-        return Stepwise { positions: vec![start], outcome: Outcome::NoTarget };
+        return Stepwise { positions: vec![start], outcome: StepwiseEnd::NoTarget };
     };
     StepwisePlanner::new(task, &target.grippers, start).run(progress)
 }
@@ -110,14 +110,14 @@ impl<'a> StepwisePlanner<'a> {
             broken = done(&self);
         }
         let outcome = match (self.largest_error(), shortfall) {
-            (error, _) if error.distance == 0.0 => Outcome::Arrived,
-            _ if broken => Outcome::Interrupted,
-            (_, Some(shortfall)) => Outcome::OutOfReach(shortfall),
-            (error, None) => Outcome::OutOfSteps(error),
+            (error, _) if error.distance == 0.0 => StepwiseEnd::Arrived,
+            _ if broken => StepwiseEnd::Interrupted,
+            (_, Some(shortfall)) => StepwiseEnd::OutOfReach(shortfall),
+            (error, None) => StepwiseEnd::OutOfSteps(error),
         };
         for _ in 0..TUNING.slack.moves {
             let room = !broken && self.positions.len() < most;
-            if outcome != Outcome::Arrived || !room || !self.remove_slack() {
+            if outcome != StepwiseEnd::Arrived || !room || !self.remove_slack() {
                 break;
             }
             broken = done(&self);

@@ -9,12 +9,12 @@ pub struct Stepwise {
     /// Positions (m) of each step, the start first, in the order of [`crate::ply::Ply::index`].
     pub positions: Vec<Vec<Point>>,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: StepwiseEnd,
 }
 
 /// How a stepwise plan ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Outcome {
+pub enum StepwiseEnd {
     /// Every gripper stands on its target.
     Arrived,
     /// The steps are used up: the gripper that is farthest from its target.

@@ -123,7 +123,7 @@ pub fn plan(
 
     // the plies are planned in parallel: every worker takes the next one until none is left
     let began = Instant::now();
-    let eyes = Eyes::new(interrupt, book.plies.len(), quiet);
+    let eyes = BookEyes::new(interrupt, book.plies.len(), quiet);
     let count = book.plies.len();
     let planned: Vec<Mutex<Option<Result<Ready, Failure>>>> =
         (0..count).map(|_| Mutex::new(None)).collect();
@@ -223,7 +223,7 @@ fn plan_ply(
     book: &Book,
     index: usize,
     folder: Folder,
-    eyes: &Eyes,
+    eyes: &BookEyes,
     time: Option<Duration>,
 ) -> Result<Ready, Failure> {
     let scene = &book.plies[index].scene;
@@ -259,7 +259,7 @@ fn text(plies: &[PlyRecord], interrupted: bool, time_s: f64) -> String {
 }
 
 /// Who looks on: someone at a terminal sees a bar, others a plain line a minute.
-struct Eyes<'a> {
+struct BookEyes<'a> {
     interrupt: &'a Interrupt,
     bar: ProgressBar,
     lines: SharedLines,
@@ -269,14 +269,14 @@ struct Eyes<'a> {
     failed: AtomicBool,
 }
 
-impl<'a> Eyes<'a> {
+impl<'a> BookEyes<'a> {
     fn new(interrupt: &'a Interrupt, most: usize, quiet: bool) -> Self {
         let bar = bar(most, "planning plies {bar:40} {pos} of {len} planned, {elapsed}", quiet);
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(500));
         }
         let (lines, done) = (SharedLines::new(quiet), AtomicUsize::new(0));
-        Eyes { interrupt, bar, lines, done, most, failed: AtomicBool::new(false) }
+        BookEyes { interrupt, bar, lines, done, most, failed: AtomicBool::new(false) }
     }
 
     /// Whether the search of one ply goes on.

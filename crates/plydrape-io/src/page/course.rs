@@ -7,7 +7,7 @@ use serde::Serialize;
 
 /// A measure over the steps of the page.
 #[derive(Serialize)]
-pub(super) struct Course<'a> {
+pub(super) struct MeasureCourse<'a> {
     pub key: &'static str,
     label: &'static str,
     pub unit: &'static str,
@@ -19,14 +19,14 @@ pub(super) struct Course<'a> {
     least: bool,
 }
 
-impl<'a> Course<'a> {
+impl<'a> MeasureCourse<'a> {
     /// A measure over `count` steps, of which a model has done `steps`, the first ones.
     fn new(name: Name, steps: &[&'a Step], count: usize, judged: &[Verdict]) -> Self {
         let (measure, unit) = (name.measure(), name.measure().unit());
         let worst: Vec<Option<&Worst>> =
             (0..count).map(|k| steps.get(k)?.measures.get(name)).collect();
         let judged = judged.iter().find(|verdict| verdict.name == name);
-        Course {
+        MeasureCourse {
             key: measure.key(),
             label: measure.label(),
             // as in the table of limits
@@ -42,12 +42,16 @@ impl<'a> Course<'a> {
 
 /// Every measure that has a value in some of the steps: first those that are judged, the closest to its limit first, then the others in
 /// the order of [`Name::ALL`].
-pub(super) fn courses<'a>(steps: &[&'a Step], count: usize, judged: &[Verdict]) -> Vec<Course<'a>> {
+pub(super) fn courses<'a>(
+    steps: &[&'a Step],
+    count: usize,
+    judged: &[Verdict],
+) -> Vec<MeasureCourse<'a>> {
     let mut names: Vec<Name> = closest_first(judged).iter().map(|verdict| verdict.name).collect();
     let others = Name::ALL.iter().copied().filter(|name| !names.contains(name));
     names.extend(others.collect::<Vec<_>>());
     names.retain(|name| steps.iter().any(|step| step.measures.get(*name).is_some()));
-    names.into_iter().map(|name| Course::new(name, steps, count, judged)).collect()
+    names.into_iter().map(|name| MeasureCourse::new(name, steps, count, judged)).collect()
 }
 
 /// A recorded value in the unit that it is shown in; one in the same unit keeps its digits.

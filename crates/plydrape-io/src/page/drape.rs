@@ -1,7 +1,7 @@
 //! The drape by one model as the page shows it: its measures over the steps, its grippers, and the ply in the steps that are drawn.
 
 use super::catenaries::{Catenaries, Detail};
-use super::course::{Course, courses};
+use super::course::{MeasureCourse, courses};
 use super::field::Field;
 use super::grippers::Grippers;
 use super::sheet::{KeptStates, Sheet};
@@ -14,13 +14,13 @@ use serde::Serialize;
 
 /// The drape by one model over the steps of the page.
 #[derive(Serialize)]
-pub(super) struct Drape<'a> {
+pub(super) struct PageDrape<'a> {
     model: Model,
     /// Steps in which the ply is drawn.
     pub drawn: Vec<usize>,
     /// For each step of the page that the model has done, which of the drawn ones is the nearest.
     pictures: Vec<usize>,
-    pub measures: Vec<Course<'a>>,
+    pub measures: Vec<MeasureCourse<'a>>,
     pub fields: Vec<Field>,
     grippers: Grippers,
     /// Where bodies are that move with grippers and robot.
@@ -60,7 +60,7 @@ impl<'a> Source<'a> {
         detail: &Detail,
         kept: Option<KeptStates>,
         form: Form,
-    ) -> Result<Drape<'a>, Error> {
+    ) -> Result<PageDrape<'a>, Error> {
         let Source { result, summary, steps: all, decides } = *self;
         let judged = if decides { summary.limits.as_slice() } else { &[] };
         let steps = done(all, numbers);
@@ -83,7 +83,7 @@ impl<'a> Source<'a> {
         };
 
         let pictures = steps.iter().filter_map(|step| nearest(&drawn, step.step)).collect();
-        Ok(Drape {
+        Ok(PageDrape {
             model: summary.model,
             pictures,
             drawn,

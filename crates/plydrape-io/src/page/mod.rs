@@ -5,7 +5,7 @@
 //! surface and the mold in triangles. The page computes no mechanics, and knows no measure by name: which measures and limits there are,
 //! their words, units and senses all come with its data.
 //!
-//! Verdict, limits and charts are those of the model that decides. The other one, where it was draped, is a second `Drape` without a
+//! Verdict, limits and charts are those of the model that decides. The other one, where it was draped, is a second `PageDrape` without a
 //! limit in it.
 //!
 //! 1. `limit`, `course`, `field`: limits, measures over the steps, and what colors tell;
@@ -42,7 +42,7 @@ use crate::text::table::tolerances;
 use block::Block;
 use catenaries::Detail;
 use cell::{Cell, VacuumEvent, cell, events};
-use drape::{Drape, Source};
+use drape::{PageDrape, Source};
 use facts::{Fact, facts};
 use limit::{Limit, limits};
 use look::{Look, look};
@@ -87,9 +87,9 @@ struct Page<'a> {
     /// Every limit of the model that decides, the closest first.
     limits: Vec<Limit<'a>>,
     /// The drape by the model that decides.
-    drape: Drape<'a>,
+    drape: PageDrape<'a>,
     /// The drape by the other model, if it was asked for: it is shown and judges nothing.
-    also: Option<Drape<'a>>,
+    also: Option<PageDrape<'a>>,
     mold: Option<Mold>,
     /// What the grippers carry and what stands in the cell, if the scene says so.
     cell: Option<Cell<'a>>,

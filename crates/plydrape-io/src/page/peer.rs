@@ -11,13 +11,13 @@ pub(super) struct Peer {
     ends: Vec<[String; 3]>,
     /// What the other drape took, in a sentence.
     cost: String,
-    courses: Vec<Course>,
+    courses: Vec<PeerCourse>,
     farthest: Option<Farthest>,
 }
 
 /// Two values over the steps of the page; `None` in steps whose states were not kept.
 #[derive(Serialize)]
-struct Course {
+struct PeerCourse {
     key: &'static str,
     label: &'static str,
     unit: &'static str,
@@ -46,7 +46,7 @@ impl Peer {
             .collect();
         let course = |key, label, unit, name, pair: fn(&Compared) -> Pair| {
             let pairs = || kept.iter().map(|compared| compared.map(pair));
-            Course {
+            PeerCourse {
                 key,
                 label,
                 unit,

@@ -499,7 +499,8 @@ mod tests {
             let text = robot(&["revolute"; 6]).replace("</robot>", &format!("{chain}</robot>"));
             let found = parse("r.urdf", &text, None, Some("l5")).unwrap().bodies;
             assert_eq!(found.len(), bodies);
-            let place = found.iter().find(|body| body.name == "f299").map(|body| body.pose.position);
+            let place =
+                found.iter().find(|body| body.name == "f299").map(|body| body.pose.position);
             assert_eq!(place, (kind == "fixed").then_some([0.0, 0.0, 300.0]));
         }
     }

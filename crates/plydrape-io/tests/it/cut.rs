@@ -20,7 +20,7 @@ fn parse(ply: &str, rest: &str) -> Scene {
 const CYLINDER: &str = "origin = \"centered\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\
     [motion]\nkind = \"straight\"\nsteps = 2\n[target]\nseed = \"middle\"\n";
 
-fn drape(scene: &Scene) -> sheet::Drape {
+fn drape(scene: &Scene) -> sheet::SheetDrape {
     drape_sheet(scene).sheet.unwrap().drape
 }
 

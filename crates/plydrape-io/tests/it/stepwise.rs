@@ -11,7 +11,7 @@ use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
 use plydrape::motion::Motion;
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
 use plydrape::planner::stepwise::tuning::TUNING;
-use plydrape::planner::stepwise::{Outcome, Stepwise, stepwise};
+use plydrape::planner::stepwise::{Stepwise, StepwiseEnd, stepwise};
 use plydrape::ply::{ContactSegment, Grid};
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
@@ -306,7 +306,7 @@ fn the_plan_of_the_flat_sheared_mold_is_accepted() {
             scene.layup.settings.slopes = slopes;
             scene.layup.settings.contact.tolerance = tolerance;
             let plan = plan(&scene);
-            assert_eq!(plan.outcome, Outcome::Arrived);
+            assert_eq!(plan.outcome, StepwiseEnd::Arrived);
             assert_eq!(plan.positions.first(), scene.layup.motion.positions.first());
             let target = scene.layup.target.as_ref().expect("a target");
             assert_eq!(plan.positions.last(), Some(&target.grippers));
@@ -333,7 +333,7 @@ fn a_plan_leaves_a_tenth_of_the_slack_of_straight_paths_on_curved_molds() {
         let scene = cut(name);
         let straight = slack(&common::drape(&scene));
         let plan = plan(&scene);
-        assert_eq!(plan.outcome, Outcome::Arrived, "{name}");
+        assert_eq!(plan.outcome, StepwiseEnd::Arrived, "{name}");
         let result = drape(&scene, &plan);
         let left = slack(&result);
         assert!(left < 0.1 * straight, "{name}: {left} mm after {straight} mm");
@@ -352,7 +352,7 @@ fn moves_keep_to_their_limit_and_nothing_rises_after_the_landing() {
     scene.plan.steps = 100;
     scene.plan.move_limit = Some(4e-3);
     let plan = plan(&scene);
-    assert_eq!(plan.outcome, Outcome::Arrived);
+    assert_eq!(plan.outcome, StepwiseEnd::Arrived);
     assert!(plan.positions.len() <= 100);
     assert_eq!(plan.positions.first(), scene.layup.motion.positions.first());
     let result = drape(&scene, &plan);
@@ -430,7 +430,7 @@ fn a_target_out_of_reach_is_reported_with_the_way_that_is_missing() {
     let starts = &scene.layup.motion.positions[0];
     let far: Vec<f64> = starts.iter().zip(targets).map(|(p, q)| distance(*p, *q)).collect();
     let farthest = (0..8).max_by(|a, b| far[*a].total_cmp(&far[*b])).expect("grippers");
-    let Outcome::OutOfReach(error) = plan.outcome else {
+    let StepwiseEnd::OutOfReach(error) = plan.outcome else {
         panic!("{:?}", plan.outcome);
     };
     assert_eq!(error.gripper, scene.layup.ply.grid.id(farthest));
@@ -447,11 +447,11 @@ fn a_plan_without_a_target_or_broken_off_says_so() {
         reported.push(step);
         if step == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    assert_eq!(broken.outcome, Outcome::Interrupted);
+    assert_eq!(broken.outcome, StepwiseEnd::Interrupted);
     assert_eq!((broken.positions.len(), reported), (5, vec![1, 2, 3, 4, 5]));
     scene.layup.target = None;
     let none = plan(&scene);
-    assert_eq!(none.outcome, Outcome::NoTarget);
+    assert_eq!(none.outcome, StepwiseEnd::NoTarget);
     assert_eq!(none.positions, scene.layup.motion.positions[..1]);
 }
 
@@ -461,7 +461,7 @@ fn targets_alone_are_enough_on_a_flat_mold() {
     let mut scene = cut("01_flat_sheared_mold");
     scene.layup.target.as_mut().expect("a target").drape = None;
     let plan = plan(&scene);
-    assert_eq!(plan.outcome, Outcome::Arrived);
+    assert_eq!(plan.outcome, StepwiseEnd::Arrived);
     let result = drape(&scene, &plan);
     assert!(result.summary.accepted(), "{:?}", result.summary.limits);
 }

@@ -271,7 +271,7 @@ struct Samples<'a> {
 }
 
 /// One pair at the samples.
-struct Course<'a> {
+struct PairCourse<'a> {
     samples: &'a Samples<'a>,
     pair: Pair,
     /// The most that its distance can change from the first sample to each (m).
@@ -474,7 +474,7 @@ impl<'a> Search<'a> {
             change[n + 1] = change[n] + self.change(pair, [times[0], times[1]]);
         }
         let found = vec![None; samples.times.len()];
-        let mut course = Course { samples, pair, change, found };
+        let mut course = PairCourse { samples, pair, change, found };
         let last = samples.times.len() - 1;
         for n in [0, last] {
             self.meet(&mut course, n);
@@ -485,14 +485,14 @@ impl<'a> Search<'a> {
     }
 
     /// The distance of a pair at a sample, unless what is around them is too far apart.
-    fn meet(&mut self, course: &mut Course, n: usize) {
+    fn meet(&mut self, course: &mut PairCourse, n: usize) {
         if self.known(course, n) < self.least() {
             self.found(course, n);
         }
     }
 
     /// The distance of a pair at a sample (m).
-    fn found(&mut self, course: &mut Course, n: usize) -> f64 {
+    fn found(&mut self, course: &mut PairCourse, n: usize) -> f64 {
         match course.found[n] {
             Some(found) => found,
             None => {
@@ -504,13 +504,13 @@ impl<'a> Search<'a> {
     }
 
     /// A distance that a pair does not fall short of at a sample (m).
-    fn known(&self, course: &Course, n: usize) -> f64 {
+    fn known(&self, course: &PairCourse, n: usize) -> f64 {
         let gap = || self.gap(course.pair, &course.samples.hulls[n], f64::INFINITY);
         course.found[n].unwrap_or_else(gap)
     }
 
     /// The nearest two of a pair between two samples.
-    fn samples(&mut self, course: &mut Course, [from, to]: [usize; 2]) {
+    fn samples(&mut self, course: &mut PairCourse, [from, to]: [usize; 2]) {
         let inner = to - from > 1;
         // what is reported is nearer than any sample to far less than the resolution between samples
         let slack = self.resolution_of(course.pair) * if inner { TUNING.sampled } else { 1.0 };

@@ -20,16 +20,16 @@ pub(super) enum Until {
 
 /// How a curve runs somewhere.
 #[derive(Clone, Copy)]
-struct Course {
+struct CurveFrame {
     /// Unit tangent T.
     tangent: [f64; 3],
     /// Unit normal of the mold.
     normal: [f64; 3],
 }
 
-impl Course {
+impl CurveFrame {
     /// How far tangent or normal turn from here to there, the larger of both (rad).
-    fn turn(&self, there: &Course) -> f64 {
+    fn turn(&self, there: &CurveFrame) -> f64 {
         angle(self.tangent, there.tangent).max(angle(self.normal, there.normal))
     }
 }
@@ -39,9 +39,9 @@ struct Step {
     /// End, on the mold (m).
     end: [f64; 3],
     /// How the curve runs there.
-    course: Course,
+    course: CurveFrame,
     /// How it runs half-way.
-    half_way: Course,
+    half_way: CurveFrame,
 }
 
 /// Angle between two unit vectors (rad).
@@ -133,14 +133,14 @@ impl Section<'_> {
         (b[0] - a[0]) * self.heading[0] + (b[1] - a[1]) * self.heading[1]
     }
 
-    fn course(&self, closest: &ClosestPoint) -> Option<Course> {
+    fn course(&self, closest: &ClosestPoint) -> Option<CurveFrame> {
         // horizontal normals along `across`: the mold touches the plane
         let tangent = unit(cross(self.across, closest.normal)).filter(|_| !closest.beyond)?;
-        Some(Course { tangent, normal: closest.normal })
+        Some(CurveFrame { tangent, normal: closest.normal })
     }
 
     /// One step along the curve.
-    fn step(&self, p: [f64; 3], course: Course, length: f64) -> Option<Step> {
+    fn step(&self, p: [f64; 3], course: CurveFrame, length: f64) -> Option<Step> {
         let course_at = |p| self.course(&self.mold.closest_point(p));
         let k1 = course.tangent;
         let k2 = course_at(along(p, 0.5 * length, k1))?.tangent;

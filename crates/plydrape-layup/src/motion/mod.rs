@@ -25,7 +25,7 @@ pub use attitude::Attitudes;
 pub(crate) use attitude::{slerp, turn};
 pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use peaks::{Peak, Peaks};
-pub use quickest::{Course, Limiting, Moving};
+pub use quickest::{Limiting, Moving, Quickening};
 pub use spacing::farthest;
 pub use steps::{Motion, SHORTEST_STEP, is_too_short};
 

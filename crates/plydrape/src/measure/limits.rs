@@ -132,8 +132,7 @@ impl Limits {
             };
             let set = self.get(*name).filter(|bound| !is_usual(*bound));
             let own = set.map(|bound| bound / measure.unit().si);
-            let of_motion =
-                || name.limit(layup, self).filter(|_| measure.scope() == Scope::Motion);
+            let of_motion = || name.limit(layup, self).filter(|_| measure.scope() == Scope::Motion);
             Some((*name, own.or_else(of_motion)?))
         };
         Name::ALL.iter().filter_map(limit).collect()

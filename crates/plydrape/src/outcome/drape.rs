@@ -32,7 +32,7 @@ pub struct Drape {
 #[derive(Debug, Clone)]
 pub struct DrapedSheet {
     /// The drape.
-    pub drape: sheet::Drape,
+    pub drape: sheet::SheetDrape,
     /// The states that the scene keeps, the first and the last among them; empty if the caller took them as they came.
     pub states: Vec<sheet::ClothState>,
     /// The flight of the drape, if there is one to share.
@@ -184,7 +184,7 @@ fn drape_sheet(
     limits: &Limits,
     recorder: &mut Recorder,
     watch: &mut DrapeWatch,
-) -> Result<(sheet::Drape, Option<Flight>), Error> {
+) -> Result<(sheet::SheetDrape, Option<Flight>), Error> {
     let (mut hand_over, low) = (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
     let (mut ended, mut lookout) = (false, Lookout::new(layup));
     let DrapeWatch { stop, see } = watch;
@@ -225,7 +225,7 @@ pub(super) fn judge_seen(
     most_equilibria: usize,
     flight: Option<&Flight>,
     stop: &dyn Fn() -> bool,
-) -> Result<(Judged, Option<sheet::Drape>), Error> {
+) -> Result<(Judged, Option<sheet::SheetDrape>), Error> {
     if layup.settings.model == Model::Sheet {
         let go_on = &mut |_: Seen| ControlFlow::Continue(());
         let (judged, drape) = judge_sheet(layup, limits, flight, stop, go_on)?;
@@ -277,7 +277,7 @@ pub(super) fn judge_sheet(
     flight: Option<&Flight>,
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(Seen) -> ControlFlow<()>,
-) -> Result<(Judged, sheet::Drape), Error> {
+) -> Result<(Judged, sheet::SheetDrape), Error> {
     let (carried, _) = layup.carried();
     let carried = &*carried;
     let (mut judge, mut hand_over) = match flight {

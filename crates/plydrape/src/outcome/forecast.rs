@@ -67,7 +67,7 @@ pub struct Effort {
 impl Effort {
     /// The effort of a finished drape.
     #[must_use]
-    pub fn new(drape: &sheet::Drape) -> Self {
+    pub fn new(drape: &sheet::SheetDrape) -> Self {
         let sheet::Report { nodes, solves, .. } = drape.report;
         Effort { nodes, solves, time: drape.duration }
     }

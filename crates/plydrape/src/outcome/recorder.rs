@@ -58,7 +58,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The summary and the steps of a drape by the sheet.
-    pub fn finish_sheet(self, drape: &sheet::Drape) -> (Summary, Vec<Step>) {
+    pub fn finish_sheet(self, drape: &sheet::SheetDrape) -> (Summary, Vec<Step>) {
         let status = match drape.status {
             sheet::Status::Converged => Status::Converged,
             sheet::Status::NotAtRest => Status::NotAtRest,

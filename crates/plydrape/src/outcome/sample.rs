@@ -84,15 +84,15 @@ pub struct Highest {
 #[derive(Default)]
 struct Row {
     /// Drapes of the first cells, in their order.
-    drapes: Vec<Drape>,
+    drapes: Vec<CellDrape>,
     /// How many of these keep every limit.
     kept: usize,
     /// Drapes of cells that come after one that is not done.
-    waiting: BTreeMap<usize, Drape>,
+    waiting: BTreeMap<usize, CellDrape>,
 }
 
 /// One drape of a sample.
-pub(super) struct Drape {
+pub(super) struct CellDrape {
     pub judged: Judged,
     /// Height of each node at the end (m); beyond the boundary of the mold 0. Empty of catenaries.
     heights: Vec<f64>,
@@ -209,21 +209,25 @@ pub(super) fn draped(
     scene: &Scene,
     flight: Option<&Flight>,
     stop: &(dyn Fn() -> bool + Sync),
-) -> Option<Drape> {
+) -> Option<CellDrape> {
     if stop() {
         return None;
     }
     let Scene { layup, limits, .. } = scene;
     let Ok(found) = judge_seen(layup, limits, usize::MAX, flight, &|| stop()) else {
         // the errors have left no sheet that could be draped
-        return Some(Drape { judged: Judged::nothing(), heights: Vec::new(), places: Vec::new() });
+        return Some(CellDrape {
+            judged: Judged::nothing(),
+            heights: Vec::new(),
+            places: Vec::new(),
+        });
     };
     let (judged, sheet) = found;
     if judged.interrupted {
         return None;
     }
     let Some(drape) = sheet else {
-        return Some(Drape { judged, heights: Vec::new(), places: Vec::new() });
+        return Some(CellDrape { judged, heights: Vec::new(), places: Vec::new() });
     };
     let lies_on = |node: usize| {
         let mold = drape.sheet.mold.as_ref();
@@ -231,10 +235,14 @@ pub(super) fn draped(
     };
     let heights = drape.last.heights.iter().enumerate();
     let heights = heights.map(|(n, height)| if lies_on(n) { height.max(0.0) } else { 0.0 });
-    Some(Drape { judged, heights: heights.collect(), places: drape.sheet.fabric.places.clone() })
+    Some(CellDrape {
+        judged,
+        heights: heights.collect(),
+        places: drape.sheet.fabric.places.clone(),
+    })
 }
 
-fn cell_verdict(drape: &Drape) -> CellVerdict {
+fn cell_verdict(drape: &CellDrape) -> CellVerdict {
     let Judged { limits, missing, .. } = &drape.judged;
     let highest = drape.heights.iter().copied().reduce(f64::max);
     CellVerdict {
@@ -245,7 +253,7 @@ fn cell_verdict(drape: &Drape) -> CellVerdict {
 }
 
 /// Every limit, judged by the drape at this rank: as many keep the limit as well or better.
-fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
+fn limits(drapes: &[CellDrape], needed: usize) -> Vec<Verdict> {
     let mut names: Vec<_> = Vec::new();
     for verdict in drapes.iter().flat_map(|drape| &drape.judged.limits) {
         if !names.contains(&verdict.name) {
@@ -263,7 +271,7 @@ fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
 }
 
 /// Height (m) at each node that this many drapes keep.
-fn spread(drapes: &[Drape], needed: usize) -> Vec<f64> {
+fn spread(drapes: &[CellDrape], needed: usize) -> Vec<f64> {
     let nodes = drapes.iter().map(|drape| drape.heights.len()).min().unwrap_or(0);
     let height_of = |node: usize| {
         let mut heights: Vec<f64> = drapes.iter().map(|drape| drape.heights[node]).collect();

@@ -7,7 +7,7 @@ use super::evaluation;
 use super::path::{self, LowStart};
 use super::record::PlanRecord;
 use super::search_state::{SearchState, Watcher};
-use super::stepwise::{Outcome as SteppedOutcome, Stepwise, stepwise};
+use super::stepwise::{Stepwise, StepwiseEnd, stepwise};
 use crate::Error;
 use crate::layup::Model;
 use crate::measure::{Name, Verdict, Worst};
@@ -170,7 +170,7 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, Error> {
 /// The limit that a stepwise plan breaks which does not reach its target.
 pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
     match plan.outcome {
-        SteppedOutcome::OutOfSteps(error) | SteppedOutcome::OutOfReach(error) => {
+        StepwiseEnd::OutOfSteps(error) | StepwiseEnd::OutOfReach(error) => {
             let gripper = scene.layup.ply.index(error.gripper).unwrap_or_default();
             let at = Site::Gripper(gripper).label(&scene.layup);
             let worst = Worst {
@@ -180,8 +180,6 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
             };
             vec![Verdict::new(Name::Steps, worst, 0.0, Some(plan.positions.len()))]
         }
-        SteppedOutcome::Arrived | SteppedOutcome::Interrupted | SteppedOutcome::NoTarget => {
-            Vec::new()
-        }
+        StepwiseEnd::Arrived | StepwiseEnd::Interrupted | StepwiseEnd::NoTarget => Vec::new(),
     }
 }

@@ -5,7 +5,7 @@ use super::tuning::TUNING;
 use crate::geometry::rotation::normal;
 use crate::geometry::vector::{cross, dot, norm, sub};
 use crate::measure::Name;
-use crate::motion::{Course, Limiting, Moving, TimedMotion};
+use crate::motion::{Limiting, Moving, Quickening, TimedMotion};
 use crate::outcome::{Drape, Step};
 use crate::scene::Scene;
 use crate::tool::Tool;
@@ -33,7 +33,7 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
     let carried = tool_stretch(scene, motion);
     let slowed = turned.max(carried).max(1.0);
     let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
-    let Some(mut course) = Course::new(&motion) else {
+    let Some(mut course) = Quickening::new(&motion) else {
         return Quickest { motion, limited_by: Vec::new() };
     };
 
@@ -80,7 +80,7 @@ fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
 }
 
 /// The tilts of the grippers, which turn evenly from step to step of a motion that is this much slower than these steps say.
-fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
+fn tilting(scene: &Scene, course: &Quickening, steps: &[Step], slowed: f64) -> Vec<Limited> {
     let bound = scene.limits.most(Name::TiltRate) / TUNING.sampled_margin;
     let tilts_of = |gripper: usize| {
         let rates = course.times().iter().map(|t| {
@@ -105,7 +105,7 @@ fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<L
 }
 
 /// The frame of a tool, and its axes.
-fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> {
+fn carrying(tool: &Tool, motion: &TimedMotion, course: &Quickening) -> Vec<Limited> {
     // differences over half of the smallest distance of times, such that no two overlap
     let times = course.times();
     let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 /// A drape by catenaries with the derivatives of its last step.
 #[derive(Debug, Clone)]
-pub struct Outcome {
+pub struct DifferentiatedDrape {
     /// The drape.
     pub drape: Drape,
     /// Last step.
@@ -21,7 +21,7 @@ pub struct Outcome {
 pub fn outcome(
     scene: &Scene,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
-) -> Option<Outcome> {
+) -> Option<DifferentiatedDrape> {
     let layup = &scene.layup;
     let mut draping = Draping::new(layup);
     let mut see = |step: usize, _: Option<&crate::sheet::ClothState>| progress(step);
@@ -29,5 +29,5 @@ pub fn outcome(
     let (mut drape, shape) = drape_catenaries(layup, &scene.limits, &mut draping, &mut watch);
     drape.summary.judge_motion(layup, &scene.limits);
     let last_step = LastStep::new(layup, &mut draping, &shape?);
-    Some(Outcome { drape, last_step })
+    Some(DifferentiatedDrape { drape, last_step })
 }

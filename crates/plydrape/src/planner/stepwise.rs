@@ -1,6 +1,6 @@
 //! The stepwise planner of the catenaries, [`plydrape_catenary::stepwise`], within the limits of a scene.
 
-pub use plydrape_catenary::stepwise::{Outcome, PositionError, Stepwise, tuning};
+pub use plydrape_catenary::stepwise::{PositionError, Stepwise, StepwiseEnd, tuning};
 
 use crate::measure::Name;
 use crate::scene::Scene;

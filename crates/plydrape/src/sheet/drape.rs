@@ -6,7 +6,7 @@ use super::gripper::Pad;
 use super::march::March;
 use super::model::Sheet;
 use super::release::Releases;
-use super::report::{Drape, Report};
+use super::report::{Report, SheetDrape};
 use super::shear::angle;
 use super::state::ClothState;
 use super::tuning::SheetTuning;
@@ -46,12 +46,12 @@ pub fn drape(
     low: f64,
     stop: &dyn Fn() -> bool,
     see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
-) -> Result<Drape, Error> {
+) -> Result<SheetDrape, Error> {
     drape_from(layup, tuning, low, None, stop, see)
 }
 
 /// As [`drape`], from a ply of the same fabric in the air that has come to a step of nearly the same motion, if there is one: the grippers go
-/// to where those of this layup are in that step, the ply comes to rest there, and goes on. [`Drape::status`] is [`Status::NotInTheAir`] if it does not
+/// to where those of this layup are in that step, the ply comes to rest there, and goes on. [`SheetDrape::status`] is [`Status::NotInTheAir`] if it does not
 /// rest clear of the mold there, and nothing is seen of it then.
 ///
 /// # Errors
@@ -63,7 +63,7 @@ pub fn drape_from(
     air: Option<&ClothState>,
     stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
-) -> Result<Drape, Error> {
+) -> Result<SheetDrape, Error> {
     let watch = Stopwatch::start();
     let sheet = Sheet::new(layup)?;
     let steps = &layup.motion.positions;
@@ -104,7 +104,17 @@ pub fn drape_from(
     let events = releases.map(Releases::events).unwrap_or_default();
     let (steps, duration) = (last.step, watch.elapsed());
     drop(cloth);
-    Ok(Drape { sheet, status, steps, report, events, landing_step, landing_shear, last, duration })
+    Ok(SheetDrape {
+        sheet,
+        status,
+        steps,
+        report,
+        events,
+        landing_step,
+        landing_shear,
+        last,
+        duration,
+    })
 }
 
 /// Whether a step of this many is among the `keep` states that are kept, evenly over the steps, the first and the last with

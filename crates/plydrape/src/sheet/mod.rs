@@ -55,7 +55,7 @@ pub use gripper::{Gripper, Pad};
 pub use hand_over::HandOver;
 pub use model::{Sheet, coarsest_mesh, pitch};
 pub use raised::{Raised, raised};
-pub use report::{Drape, Report};
+pub use report::{Report, SheetDrape};
 pub use state::ClothState;
 pub use tuning::SheetTuning;
 

@@ -87,7 +87,7 @@ impl Report {
 
 /// A finished drape of the sheet.
 #[derive(Debug, Clone)]
-pub struct Drape {
+pub struct SheetDrape {
     /// The sheet that was draped.
     pub sheet: Sheet,
     /// How it ended.

@@ -350,7 +350,10 @@ fn what_cannot_be_a_program_is_refused_with_a_remedy() {
     for (none, what) in [
         (Tolerance { position: 0.0, ..usual }, "position error of 0"),
         (Tolerance { least_way: -1.0, ..usual }, "the least way between points cannot be -1"),
-        (Tolerance { least_time: f64::NAN, ..usual }, "the least time between points cannot be NaN"),
+        (
+            Tolerance { least_time: f64::NAN, ..usual },
+            "the least time between points cannot be NaN",
+        ),
     ] {
         let fault = told(&template::files(&program, Robot::Rapid, &[], &none).unwrap_err());
         assert!(fault.contains(what), "{fault}");

@@ -38,7 +38,8 @@ impl Mesh {
     ) -> Result<(Self, MeshReport), Error> {
         let mut soup = Soup::new("triangle");
         for (n, corners) in triangles.iter().enumerate() {
-            if let Some(vertex) = corners.iter().find(|vertex| **vertex as usize >= vertices.len()) {
+            if let Some(vertex) = corners.iter().find(|vertex| **vertex as usize >= vertices.len())
+            {
                 let (triangle, vertex, vertices) = (n + 1, *vertex, vertices.len());
                 return Err(Error::MeshVertex { triangle, vertex, vertices });
             }

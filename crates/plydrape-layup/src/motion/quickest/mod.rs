@@ -31,7 +31,7 @@ use program::Program;
 /// What moves with a motion, and how fast it may.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moving {
-    /// First, second and third derivative to the time of the motion as it is, at each of [`Course::times`].
+    /// First, second and third derivative to the time of the motion as it is, at each of [`Quickening::times`].
     pub rates: Vec<[[f64; 3]; 3]>,
     /// Largest norm of each; infinite where there is no limit.
     pub bounds: [f64; 3],
@@ -68,7 +68,7 @@ pub struct Limiting {
 
 /// The motion that is to be made quicker, and the times at which its bounds are looked at.
 #[derive(Debug)]
-pub struct Course<'a> {
+pub struct Quickening<'a> {
     motion: &'a TimedMotion,
     pace: Pace,
     /// Three in each part of the pace.
@@ -77,7 +77,7 @@ pub struct Course<'a> {
     early: Option<(f64, Bounds)>,
 }
 
-impl<'a> Course<'a> {
+impl<'a> Quickening<'a> {
     /// The course of a motion that takes some time; none of a motion of duration 0.
     #[must_use]
     pub fn new(motion: &'a TimedMotion) -> Option<Self> {
@@ -90,13 +90,13 @@ impl<'a> Course<'a> {
         let times = pace.parts().flat_map(|(begin, end)| {
             [inside, 0.5, 1.0 - inside].map(|share| begin + share * (end - begin))
         });
-        Some(Course { motion, times: times.collect(), pace, early: None })
+        Some(Quickening { motion, times: times.collect(), pace, early: None })
     }
 
     /// The course with other bounds of the grippers until one of the times of the motion's steps (s).
     #[must_use]
     pub fn with_early(self, until: f64, bounds: Bounds) -> Self {
-        Course { early: Some((until, bounds)), ..self }
+        Quickening { early: Some((until, bounds)), ..self }
     }
 
     /// Times of the motion as it is (s), ascending: where the rates of what moves are asked for.

@@ -9,7 +9,7 @@ const BOUNDS: Bounds = Bounds { speed: 0.25, acceleration: 1.0, jerk: 10.0 };
 /// The quickest motion under the bounds of its grippers alone, of a motion that is slower than it need be.
 fn quickest(motion: &TimedMotion, slower: f64, bounds: &Bounds) -> TimedMotion {
     let slow = motion.slowed(slower);
-    let course = Course::new(&slow).unwrap();
+    let course = Quickening::new(&slow).unwrap();
     course.quickest(bounds, &course.grippers(bounds)).0
 }
 
@@ -66,7 +66,7 @@ fn no_sample_passes_a_bound_and_the_places_stay() {
     let steps: Vec<Vec<[f64; 3]>> =
         (0..=40).map(|k| [0.0, 0.7, 1.9].map(|g| curve(f64::from(k) / 40.0, g)).to_vec()).collect();
     let motion = TimedMotion::new(&steps, &BOUNDS).unwrap();
-    let course = Course::new(&motion).unwrap();
+    let course = Quickening::new(&motion).unwrap();
     let (found, limiting) = course.quickest(&BOUNDS, &course.grippers(&BOUNDS));
     assert!(limiting.iter().all(|l| l.share <= 1.0 + 1e-9));
     assert!(
@@ -108,7 +108,7 @@ fn a_bound_of_a_part_slows_that_part() {
     let motion = TimedMotion::new(&steps, &bounds).unwrap();
     let slowest = 0.025;
     let slow = motion.slowed(10.0);
-    let course = Course::new(&slow).unwrap();
+    let course = Quickening::new(&slow).unwrap();
     let mut moving = course.grippers(&bounds);
     let within = |t: f64| (0.45..0.55).contains(&slow.at(t)[0][0]);
     let mut part = moving[0].clone();
@@ -137,7 +137,7 @@ fn the_first_part_of_a_motion_may_be_faster() {
     let fast = Bounds { speed: 1.0, acceleration: 4.0, jerk: 80.0 };
     let motion = TimedMotion::new(&along(|x| [x, 0.0, 0.0], 50), &BOUNDS).unwrap();
     let until = motion.times()[30];
-    let course = Course::new(&motion).unwrap().with_early(until, fast);
+    let course = Quickening::new(&motion).unwrap().with_early(until, fast);
     let (found, _) = course.quickest(&BOUNDS, &course.grippers(&BOUNDS));
     let within = |[t0, t1]: [f64; 2], bounds: &Bounds| {
         let peaks = found.peaks_within([t0, t1]);

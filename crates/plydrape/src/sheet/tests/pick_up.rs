@@ -3,7 +3,7 @@
 use super::release::{GRID, layup};
 use super::*;
 use crate::layup::{Layup, PickUp};
-use crate::sheet::{ClothState, Drape, Status, drape};
+use crate::sheet::{ClothState, SheetDrape, Status, drape};
 use std::ops::ControlFlow;
 
 /// Height of the table (m), and of the grippers from which the ply hangs.
@@ -39,7 +39,7 @@ fn lifted() -> Layup {
     layup
 }
 
-fn draped(layup: &Layup, mut see: impl FnMut(&ClothState)) -> Drape {
+fn draped(layup: &Layup, mut see: impl FnMut(&ClothState)) -> SheetDrape {
     let found = drape(layup, SheetTuning::default(), 5e-4, &|| false, |_, state, _| {
         see(state);
         ControlFlow::Continue(())

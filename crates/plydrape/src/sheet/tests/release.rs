@@ -11,7 +11,7 @@ use crate::ply::{Grid, GripperId, Ply};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::Energy;
 use crate::sheet::event::{at_these_times, holds};
-use crate::sheet::{ClothState, Drape, EventKind, HandOver, Status, drape};
+use crate::sheet::{ClothState, EventKind, HandOver, SheetDrape, Status, drape};
 use crate::state::PlyState;
 use std::ops::ControlFlow;
 
@@ -49,7 +49,7 @@ fn release(order: ReleaseOrder, dwell: f64) -> Option<Release> {
 }
 
 /// The drape of a layup and all of its states.
-pub(super) fn draped(layup: &Layup) -> (Drape, Vec<ClothState>) {
+pub(super) fn draped(layup: &Layup) -> (SheetDrape, Vec<ClothState>) {
     let mut states = Vec::new();
     let keep = |_: &Sheet, state: &ClothState, _: bool| {
         states.push(state.clone());
@@ -60,7 +60,11 @@ pub(super) fn draped(layup: &Layup) -> (Drape, Vec<ClothState>) {
 }
 
 /// The states of a drape as measures see them.
-pub(super) fn handed_over(layup: &Layup, drape: &Drape, states: &[ClothState]) -> Vec<PlyState> {
+pub(super) fn handed_over(
+    layup: &Layup,
+    drape: &SheetDrape,
+    states: &[ClothState],
+) -> Vec<PlyState> {
     let mut hand_over = HandOver::default();
     let last = states.len() - 1;
     let states = states.iter().enumerate();
@@ -68,7 +72,7 @@ pub(super) fn handed_over(layup: &Layup, drape: &Drape, states: &[ClothState]) -
 }
 
 /// When each gripper lets go (s).
-fn released(drape: &Drape) -> Vec<(GripperId, f64)> {
+fn released(drape: &SheetDrape) -> Vec<(GripperId, f64)> {
     let events = drape.events.iter().filter(|event| event.kind == EventKind::Release);
     events.flat_map(|event| event.grippers.iter().map(|id| (*id, event.time))).collect()
 }
@@ -101,7 +105,7 @@ fn a_ply_that_sticks_stays_where_it_was_laid() {
 fn a_dwell_delays_the_release_by_itself() {
     let drape_with = |dwell: f64| draped(&layup(rolled(), release(ReleaseOrder::End, dwell)));
     let ((none, without), (some, with)) = (drape_with(0.0), drape_with(1.25));
-    let kinds = |drape: &Drape| {
+    let kinds = |drape: &SheetDrape| {
         let events = drape.events.iter();
         events.map(|event| (event.time, event.kind, event.grippers.len())).collect::<Vec<_>>()
     };
@@ -185,7 +189,8 @@ fn a_cell_with_errors_lets_go_at_the_times_of_the_program() {
         p[2] += 5e-3;
     }
     let higher = draped(&higher).0;
-    let times = |drape: &Drape| released(drape).into_iter().map(|(id, t)| (id, (1e9 * t).round()));
+    let times =
+        |drape: &SheetDrape| released(drape).into_iter().map(|(id, t)| (id, (1e9 * t).round()));
     assert!(times(&drape).eq(times(&higher)));
 }
 
