@@ -119,21 +119,6 @@ impl Format {
             Format::Vtk => export::Format::Vtk,
         }
     }
-
-    fn folder(self) -> &'static str {
-        match self {
-            Format::Csv => "csv",
-            Format::Inp => "inp",
-            Format::Ngsolve => "ngsolve",
-            Format::Pattern => "pattern",
-            Format::Boundary => "boundary",
-            Format::Ros2 => "ros2",
-            Format::Rapid => Robot::Rapid.name(),
-            Format::Krl => Robot::Krl.name(),
-            Format::Urscript => Robot::Urscript.name(),
-            Format::Vtk => "vtk",
-        }
-    }
 }
 
 /// Range of the position error (m): below it doubles and controllers cannot tell, above it no motion is left.
@@ -151,7 +136,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let options = options(arguments)?;
     let file = read::file_of(&arguments.result);
     let result = read::read(&file)?;
-    let beside = || file.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
+    let beside = || file.parent().unwrap_or(Path::new("")).join(arguments.to.format().name());
     let folder = arguments.output.clone().unwrap_or_else(beside);
     let made = export::files(&result, arguments.to.format(), &options)?;
     let names: Vec<String> = made.iter().map(|(name, _)| name.clone()).collect();
@@ -175,13 +160,13 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     let is_robot = matches!(arguments.to.format(), export::Format::Robot(_));
     if !is_robot && !arguments.template.is_empty() {
         return Err(Failure::Refused {
-            message: format!("there are no templates for {}", arguments.to.folder()),
+            message: format!("there are no templates for {}", arguments.to.format().name()),
             help: "rapid, krl and urscript are written by templates".into(),
         });
     }
     if arguments.tf && arguments.to != Format::Ros2 {
         return Err(Failure::Refused {
-            message: format!("--tf has no meaning for {}", arguments.to.folder()),
+            message: format!("--tf has no meaning for {}", arguments.to.format().name()),
             help: "it is for ros2, whose bag then has the frames over time".into(),
         });
     }
@@ -211,7 +196,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     ] {
         let Some(text) = text else { continue };
         if !is_robot {
-            let fault = format!("has no meaning for {}", arguments.to.folder());
+            let fault = format!("has no meaning for {}", arguments.to.format().name());
             let help = "it is for rapid, krl and urscript, whose points are thinned out";
             return Err(refused(option, text, &fault, help));
         }
@@ -230,7 +215,7 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
         let Some(text) = text else { return Ok(None) };
         let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
         if !formats.contains(&arguments.to) {
-            let fault = format!("has no meaning for {}", arguments.to.folder());
+            let fault = format!("has no meaning for {}", arguments.to.format().name());
             return Err(refused(option, text, &fault, &format!("it is for {names}")));
         }
         value(option, text, what, usual, range, help).map(Some)

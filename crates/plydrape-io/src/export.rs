@@ -35,6 +35,33 @@ pub enum Format {
 }
 
 impl Format {
+    /// The formats that are no program, by their names.
+    const NAMES: [(&str, Format); 7] = [
+        ("csv", Format::Csv),
+        ("inp", Format::Inp),
+        ("ngsolve", Format::Ngsolve),
+        ("pattern", Format::Pattern),
+        ("boundary", Format::Boundary),
+        ("ros2", Format::Ros2),
+        ("vtk", Format::Vtk),
+    ];
+
+    /// The format of a name; of a program also by the maker of its controller.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Format> {
+        let found = Self::NAMES.iter().find(|(name, _)| *name == word);
+        found.map(|(_, format)| *format).or(Robot::named(word).map(Format::Robot))
+    }
+
+    /// Its name; of a program that of its language.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Robot(robot) => robot.name(),
+            _ => Self::NAMES.iter().find(|(_, format)| *format == self).map_or("", |found| found.0),
+        }
+    }
+
     /// Whether a machine follows its files as they are.
     #[must_use]
     pub fn drives(self) -> bool {

@@ -20,7 +20,7 @@ use plydrape::outcome::{Status, Step};
 use plydrape::ply::Grid;
 use plydrape_io::replan::PlannedResult;
 use plydrape_io::result::read;
-use plydrape_io::robot::program::{LONGEST_TEMPLATE, Robot, Template, Tolerance};
+use plydrape_io::robot::program::{LONGEST_TEMPLATE, Template, Tolerance};
 use plydrape_io::scene::{Measured, parse_offset, usual};
 use plydrape_io::store::{folder, input};
 use plydrape_io::write::mold_patch::mold_patch;
@@ -763,24 +763,11 @@ impl Result {
         tension: Option<Amount>,
         templates: Vec<PathBuf>,
     ) -> PyResult<Vec<PathBuf>> {
-        let format = match to {
-            "vtk" => export::Format::Vtk,
-            "inp" => export::Format::Inp,
-            "ngsolve" => export::Format::Ngsolve,
-            "ros2" => export::Format::Ros2,
-            "csv" => export::Format::Csv,
-            "pattern" => export::Format::Pattern,
-            "boundary" => export::Format::Boundary,
-            other => {
-                let robot = Robot::named(other).map(export::Format::Robot);
-                let text = || {
-                    format!(
-                        "there is no export to {other:?}: vtk, inp, ngsolve, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
-                    )
-                };
-                robot.ok_or_else(|| PyValueError::new_err(text()))?
-            }
-        };
+        let format = export::Format::named(to).ok_or_else(|| {
+            PyValueError::new_err(format!(
+                "there is no export to {to:?}: vtk, inp, ngsolve, ros2, rapid, krl, urscript, csv, pattern and boundary are possible"
+            ))
+        })?;
 
         // numbers are in SI units, texts have their unit
         let mut tolerance = Tolerance::default();

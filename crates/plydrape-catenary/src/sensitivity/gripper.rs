@@ -56,11 +56,7 @@ impl Sensitivity<'_> {
         for neighbor in [0, 1].map(|d| lines.neighbors(gripper, d)).as_flattened() {
             columns.extend(3 * neighbor..3 * neighbor + 3);
         }
-        for (neighbor, _) in match &self.neighbor_shares(gripper) {
-            Some(Shares::Both(both)) => both.concat(),
-            Some(Shares::Line(shares, _)) => shares.clone(),
-            None => Vec::new(),
-        } {
+        for (neighbor, _) in self.neighbor_shares(gripper).iter().flat_map(|it| &it.grippers) {
             columns.extend(3 * neighbor..3 * neighbor + 3);
         }
         columns.extend(3 * gripper..3 * gripper + 3);
@@ -91,28 +87,24 @@ impl Sensitivity<'_> {
             (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))
         };
         let (one, zero) = (Dual64::from(1.0), Dual64::from(0.0));
-        let toward = |shares: &[(usize, f64)]| {
-            [0, 1, 2].map(|axis| {
-                let here = position(gripper, axis);
-                let way = shares.iter().map(|(n, share)| (position(*n, axis) - here) * *share);
-                way.fold(zero, |sum, way| sum + way)
-            })
-        };
-        let by_neighbors = match self.neighbor_shares(gripper) {
-            None => [None; 2],
-            Some(Shares::Both(both)) => both.map(|shares| Some(toward(&shares))),
-            Some(Shares::Line(shares, [cos, sin])) => {
-                let [x, y, z] = toward(&shares);
-                let level = x * x + y * y;
-                let (length, level_length) = ((level + z * z).sqrt(), level.sqrt());
-                // across the line it is level
-                let axes = [[x, y, z].map(|c| c / length), [-y, x, zero].map(|c| c / level_length)];
-                [[cos, -sin], [sin, cos]].map(|[a, b]| {
-                    let along = [0, 1, 2].map(|n| axes[0][n] * a + axes[1][n] * b);
-                    (level.re > 0.0).then_some(along)
+        let by_neighbors = self.neighbor_shares(gripper).and_then(|Shares { grippers, line }| {
+            let [u, v] = [0, 1].map(|d| {
+                [0, 1, 2].map(|axis| {
+                    let here = position(gripper, axis);
+                    let way = grippers.iter().map(|(n, s)| (position(*n, axis) - here) * s[d]);
+                    way.fold(zero, |sum, way| sum + way)
                 })
-            }
-        };
+            });
+            let Some([cos, sin]) = line else { return Some([u, v]) };
+            let [x, y, z] = [0, 1, 2].map(|n| u[n] * cos + v[n] * sin);
+            let level = x * x + y * y;
+            let (length, run) = ((level + z * z).sqrt(), level.sqrt());
+            // across the line it is level
+            let (line, aside) = ([x / length, y / length, z / length], [-y / run, x / run, zero]);
+            let axes = [[cos, -sin], [sin, cos]];
+            (level.re > 0.0)
+                .then(|| axes.map(|[a, b]| [0, 1, 2].map(|n| line[n] * a + aside[n] * b)))
+        });
         let by_line = |d: usize| {
             let slope = self.slopes[gripper][d].as_ref()?;
             let [x, y] = heading(d)?;
@@ -122,7 +114,7 @@ impl Sensitivity<'_> {
                 Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.value_at(c))),
             ])
         };
-        let [u, v] = [0, 1].map(|d| by_line(d).or(by_neighbors[d]));
+        let [u, v] = [0, 1].map(|d| by_line(d).or(by_neighbors.map(|tangents| tangents[d])));
         // across a single line it is level
         let u = u.or_else(|| v.map(|[x, y, _]| [y, -x, zero])).unwrap_or([one, zero, zero]);
         let v = v.unwrap_or([-u[1], u[0], zero]);

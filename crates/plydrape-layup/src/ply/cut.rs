@@ -227,13 +227,13 @@ pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [[f64; 3]; 2] {
     Shares::new(ply, all, origin).tangents(|n| sub(positions[n], middle))
 }
 
-/// Grippers, each with its share (1/m) of the way to it in a tangent of the ply, by least squares.
+/// How tangents of the ply follow from ways to grippers, by least squares.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shares {
-    /// Those of u and those of v.
-    Both([Vec<(usize, f64)>; 2]),
-    /// All are on one line of the fabric: those of the direction along it, and its unit vector (u, v).
-    Line(Vec<(usize, f64)>, [f64; 2]),
+pub struct Shares {
+    /// Grippers, each with the shares (1/m) of the way to it in the tangents of u and v.
+    pub grippers: Vec<(usize, [f64; 2])>,
+    /// The unit vector (u, v) of the line on which all of them are in the fabric; `None` if they are on no line.
+    pub line: Option<[f64; 2]>,
 }
 
 impl Shares {
@@ -243,37 +243,32 @@ impl Shares {
         let ways: Vec<(usize, [f64; 2])> = grippers.map(way).collect();
         let moment = |a: usize, b: usize| ways.iter().map(|(_, way)| way[a] * way[b]).sum::<f64>();
         let (uu, uv, vv) = (moment(0, 0), moment(0, 1), moment(1, 1));
-        let each = |[a, b]: [f64; 2], over: f64| {
-            ways.iter().map(|(n, [u, v])| (*n, (a * u + b * v) / over)).collect()
+        let (square, determinant) = (uu + vv, uu * vv - uv * uv);
+        let (inverse, line) = if determinant > 1e-9 * square * square {
+            ([[vv, -uv], [-uv, uu]].map(|row| row.map(|c| c / determinant)), None)
+        } else {
+            let [a, b] = if uu >= vv { [uu, uv] } else { [uv, vv] };
+            let size = a.hypot(b);
+            let line = if size > 0.0 { [a / size, b / size] } else { [1.0, 0.0] };
+            (line.map(|a| line.map(|b| a * b / square)), Some(line))
         };
-        let determinant = uu * vv - uv * uv;
-        if determinant > 1e-9 * (uu + vv) * (uu + vv) {
-            return Shares::Both([each([vv, -uv], determinant), each([-uv, uu], determinant)]);
-        }
-        let [a, b] = if uu >= vv { [uu, uv] } else { [uv, vv] };
-        let size = a.hypot(b);
-        let line = if size > 0.0 { [a / size, b / size] } else { [1.0, 0.0] };
-        Shares::Line(each(line, uu + vv), line)
+        let share = |(n, [u, v]): (usize, [f64; 2])| (n, inverse.map(|[a, b]| a * u + b * v));
+        Shares { grippers: ways.into_iter().map(share).collect(), line }
     }
 
     /// Unit tangents of u and v, from the way in space to each gripper (m).
     fn tangents(&self, way: impl Fn(usize) -> [f64; 3]) -> [[f64; 3]; 2] {
-        let toward = |shares: &[(usize, f64)]| {
-            unit(shares.iter().fold([0.0; 3], |sum, (n, share)| along(sum, *share, way(*n))))
-        };
+        let [u, v] = [0, 1].map(|d| {
+            let add = |sum, (n, shares): &(usize, [f64; 2])| along(sum, shares[d], way(*n));
+            self.grippers.iter().fold([0.0; 3], add)
+        });
         let left = |way: [f64; 3]| unit([-way[1], way[0], 0.0]).unwrap_or([0.0, 1.0, 0.0]);
-        let of = |shares| toward(shares).unwrap_or([1.0, 0.0, 0.0]);
-        match self {
-            Shares::Both([u, v]) => {
-                let u = of(u);
-                [u, toward(v).unwrap_or(left(u))]
-            }
-            Shares::Line(shares, [cos, sin]) => {
-                let line = of(shares);
-                let aside = left(line);
-                [[*cos, -sin], [*sin, *cos]].map(|[a, b]| along(line.map(|c| a * c), b, aside))
-            }
-        }
+        let of = |sum| unit(sum).unwrap_or([1.0, 0.0, 0.0]);
+        let Some([cos, sin]) = self.line else {
+            return [of(u), unit(v).unwrap_or(left(of(u)))];
+        };
+        let line = of(along(u.map(|c| cos * c), sin, v));
+        [[cos, -sin], [sin, cos]].map(|[a, b]| along(line.map(|c| a * c), b, left(line)))
     }
 }
 
