@@ -213,7 +213,8 @@ fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
     // mesh and tension stiffness of shells, which only some formats have
     let checked = |option, text: &Option<String>, formats: &[Format], what, usual, range, help| {
         let Some(text) = text else { return Ok(None) };
-        let names = formats.iter().map(|format| format.folder()).collect::<Vec<_>>().join(" and ");
+        let names =
+            formats.iter().map(|format| format.format().name()).collect::<Vec<_>>().join(" and ");
         if !formats.contains(&arguments.to) {
             let fault = format!("has no meaning for {}", arguments.to.format().name());
             return Err(refused(option, text, &fault, &format!("it is for {names}")));
