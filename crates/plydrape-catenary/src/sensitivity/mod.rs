@@ -55,8 +55,6 @@ pub struct Sensitivity<'a> {
     paths: Vec<Option<Quantity>>,
     /// Slope of the ply at each gripper along u and v, where there is one.
     slopes: Vec<[Option<Quantity>; 2]>,
-    /// Whether the state has derivatives: see [`crate::equilibrium::StateTangent::is_sound`]. Gradients are meaningless where not.
-    pub is_sound: bool,
 }
 
 impl<'a> Sensitivity<'a> {
@@ -96,9 +94,9 @@ impl<'a> Sensitivity<'a> {
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let StateDerivatives { rows, paths, slopes, is_sound } =
+        let StateDerivatives { rows, paths, slopes } =
             StateDerivatives::new(&layup.ply, solver, positions, contacts, negligible);
-        Sensitivity { layup, shape, positions, contacts, rows, paths, slopes, is_sound }
+        Sensitivity { layup, shape, positions, contacts, rows, paths, slopes }
     }
 
     /// Derivatives of one row of an element.
