@@ -150,7 +150,7 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
 /// Every quantity that a plan may limit, by name.
 fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
     let Solved { solver, shape, positions } = solved;
-    let look = Sensitivity::whole(&ply.scene.layup, solver, shape, positions, &ply.contacts);
+    let look = Sensitivity::new(&ply.scene.layup, solver, shape, positions, &ply.contacts, 0.0);
     let mut out = Vec::new();
     let grid = ply.scene.layup.ply.grid;
     for span in &look.shape.spans {
