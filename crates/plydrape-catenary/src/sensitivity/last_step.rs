@@ -32,7 +32,7 @@ impl LastStep {
     pub fn new(layup: &Layup, draping: &mut Draping, shape: &Equilibrium) -> Self {
         let lines = layup.ply.lines();
         let Draping { solver, positions, contacts, .. } = draping;
-        let sensitivity = Sensitivity::whole(layup, solver, shape, positions, contacts);
+        let sensitivity = Sensitivity::new(layup, solver, shape, positions, contacts, 0.0);
 
         let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Row::default() };
         let mut overstretch = vec![nothing; lines.catenaries()];

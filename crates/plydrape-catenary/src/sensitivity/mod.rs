@@ -28,7 +28,6 @@ use crate::equilibrium::Solver;
 use crate::layup::Layup;
 use crate::ply::ContactSegment;
 use state::StateDerivatives;
-use tuning::TUNING;
 
 /// A number with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,15 +54,13 @@ pub struct Sensitivity<'a> {
     paths: Vec<Option<Quantity>>,
     /// Slope of the ply at each gripper along u and v, where there is one.
     slopes: Vec<[Option<Quantity>; 2]>,
-    /// Whether the state has derivatives: see [`crate::equilibrium::StateTangent::is_sound`]. Gradients are meaningless where not.
-    pub is_sound: bool,
 }
 
 impl<'a> Sensitivity<'a> {
     /// Differentiates the last state of a solver: `shape` are its spans, `positions` (m) and `contacts`
-    /// those with which it was solved. Derivatives that are negligible beside others of the same quantity are left out, see
+    /// those with which it was solved. Derivatives below a share `negligible` of the largest of the same quantity are left out, see
     /// [`tuning::SensitivityTuning`], so that the memory and the directions that it takes grow with the number of
-    /// grippers and not with its square.
+    /// grippers and not with its square; with 0 there are all.
     #[must_use]
     pub fn new(
         layup: &'a Layup,
@@ -71,34 +68,11 @@ impl<'a> Sensitivity<'a> {
         shape: &'a Equilibrium,
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
-    ) -> Self {
-        Self::without(TUNING.negligible, layup, solver, shape, positions, contacts)
-    }
-
-    /// All derivatives, without leaving out small ones. Memory and time grow with the square of the number of grippers.
-    #[must_use]
-    pub fn whole(
-        layup: &'a Layup,
-        solver: &mut Solver,
-        shape: &'a Equilibrium,
-        positions: &'a [Point],
-        contacts: &'a [Option<ContactSegment>],
-    ) -> Self {
-        Self::without(0.0, layup, solver, shape, positions, contacts)
-    }
-
-    /// Without derivatives below a share of the largest of the same quantity.
-    fn without(
         negligible: f64,
-        layup: &'a Layup,
-        solver: &mut Solver,
-        shape: &'a Equilibrium,
-        positions: &'a [Point],
-        contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let StateDerivatives { rows, paths, slopes, is_sound } =
+        let StateDerivatives { rows, paths, slopes } =
             StateDerivatives::new(&layup.ply, solver, positions, contacts, negligible);
-        Sensitivity { layup, shape, positions, contacts, rows, paths, slopes, is_sound }
+        Sensitivity { layup, shape, positions, contacts, rows, paths, slopes }
     }
 
     /// Derivatives of one row of an element.

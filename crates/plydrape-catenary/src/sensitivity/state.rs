@@ -14,8 +14,6 @@ pub(super) struct StateDerivatives {
     pub paths: Vec<Option<Quantity>>,
     /// Slope of the ply at each gripper along u and v, where there is one.
     pub slopes: Vec<[Option<Quantity>; 2]>,
-    /// Whether they are derivatives.
-    pub is_sound: bool,
 }
 
 impl StateDerivatives {
@@ -44,9 +42,8 @@ impl StateDerivatives {
                     members().for_each(|gripper| direction.grippers[gripper][axis] = 0.0);
                 }
             }
-            let is_sound = linearized.is_sound();
-            if coloring.is_whole() || !is_sound || gathered.decays() {
-                return gathered.finish(solver, positions, is_sound);
+            if coloring.is_whole() || !linearized.is_sound() || gathered.decays() {
+                return gathered.finish(solver, positions);
             }
             reach *= 2;
         }
@@ -157,7 +154,7 @@ impl Gathered {
         })
     }
 
-    fn finish(self, solver: &Solver, positions: &[Point], is_sound: bool) -> StateDerivatives {
+    fn finish(self, solver: &Solver, positions: &[Point]) -> StateDerivatives {
         let problem = solver.problem();
         let mut kinds = self.kinds.into_iter().map(|rows| {
             let finish = |row: Gathering| row.finish(self.negligible);
@@ -178,6 +175,6 @@ impl Gathered {
         };
         let slopes = along_u.zip(along_v).enumerate();
         let slopes = slopes.map(|(n, (u, v))| [slope(n, 0, u), slope(n, 1, v)]).collect();
-        StateDerivatives { rows, paths, slopes, is_sound }
+        StateDerivatives { rows, paths, slopes }
     }
 }

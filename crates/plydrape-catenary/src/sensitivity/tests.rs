@@ -1,5 +1,6 @@
 //! What is left out of gradients.
 
+use super::tuning::TUNING;
 use super::{Quantity, Sensitivity};
 use crate::draping::Draping;
 use crate::draping::attitude::attitude;
@@ -19,8 +20,9 @@ fn gradients_of_distant_grippers_together_are_those_of_each_alone() {
         let shape = draping.move_to(positions);
         let contacts = draping.contacts.clone();
         let solver = &mut draping.solver;
-        let whole = Sensitivity::whole(&layup, solver, &shape, positions, &contacts);
-        let sparse = Sensitivity::new(&layup, solver, &shape, positions, &contacts);
+        let whole = Sensitivity::new(&layup, solver, &shape, positions, &contacts, 0.0);
+        let sparse =
+            Sensitivity::new(&layup, solver, &shape, positions, &contacts, TUNING.negligible);
         let quantities = |sensitivity: &Sensitivity| -> Vec<Quantity> {
             let spans = shape.spans.iter().flat_map(|span| {
                 let place = sensitivity.place(span, 0.3).along([0.0, 0.0, 1.0]);
@@ -73,7 +75,7 @@ fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
     let mut draping = Draping::new(&layup);
     let shape = draping.move_to(&positions);
     let contacts = draping.contacts.clone();
-    let whole = Sensitivity::whole(&layup, &mut draping.solver, &shape, &positions, &contacts);
+    let whole = Sensitivity::new(&layup, &mut draping.solver, &shape, &positions, &contacts, 0.0);
     let here = tilts(&positions);
     let found: Vec<Quantity> = (0..positions.len()).map(|n| whole.tilt(n)).collect();
     for (found, draped) in found.iter().zip(&here) {

@@ -26,7 +26,7 @@ use crate::draping::spans::{Equilibrium, Point};
 use crate::geometry::vector::sub;
 use crate::mold::distance;
 use crate::motion::farthest;
-use crate::sensitivity::Sensitivity;
+use crate::sensitivity::{self, Sensitivity};
 use evaluation::Evaluation;
 use front::Front;
 use stage::Stage;
@@ -172,6 +172,7 @@ impl<'a> StepwisePlanner<'a> {
             &self.shape,
             &positions,
             &contacts,
+            sensitivity::tuning::TUNING.negligible,
         );
 
         // a trial must keep the limits, or not make worse what exceeded them before

@@ -9,7 +9,7 @@ use crate::material::{Material, Section};
 use crate::mold::{Face, Mold, Pose, Sphere};
 use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
-use crate::sensitivity::Sensitivity;
+use crate::sensitivity::{Sensitivity, tuning};
 
 /// The paper's ply with `count` × `count` grippers, 2 % slack, above a flat dome.
 pub fn layup(count: usize) -> Layup {
@@ -57,7 +57,14 @@ fn size(count: usize) -> usize {
     let mut draping = Draping::new(&layup);
     let shape = draping.move_to(positions);
     let contacts = draping.contacts.clone();
-    let sensitivity = Sensitivity::new(&layup, &mut draping.solver, &shape, positions, &contacts);
+    let sensitivity = Sensitivity::new(
+        &layup,
+        &mut draping.solver,
+        &shape,
+        positions,
+        &contacts,
+        tuning::TUNING.negligible,
+    );
     let step = Step {
         task: &task,
         targets,

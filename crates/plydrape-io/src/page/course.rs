@@ -1,6 +1,6 @@
 //! Measures over the steps: what the charts draw. Which there are, their words and their units are those of the measures.
 
-use super::limit::closest_first;
+use crate::text::table::closest_first;
 use plydrape::measure::{Name, Sense, Unit, Verdict, Worst};
 use plydrape::outcome::Step;
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! Limits as the page lists them: the closest first, in the words and units of their measures.
 
-use crate::text::table::slack_in_words;
+use crate::text::table::{closest_first, slack_in_words};
 use plydrape::measure::{Name, Scope, Verdict};
 use plydrape::outcome::Summary;
 use serde::Serialize;
@@ -53,13 +53,6 @@ impl<'a> From<&'a Verdict> for Limit<'a> {
             place: verdict.place,
         }
     }
-}
-
-/// Verdicts with the closest to its limit first, those that are exceeded before all.
-pub(super) fn closest_first(verdicts: &[Verdict]) -> Vec<&Verdict> {
-    let mut sorted: Vec<&Verdict> = verdicts.iter().collect();
-    sorted.sort_by(|a, b| b.ratio().total_cmp(&a.ratio()));
-    sorted
 }
 
 /// Every limit of an outcome, the closest first.

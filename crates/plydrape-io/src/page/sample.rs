@@ -1,8 +1,9 @@
 //! What the page shows of the verdict over a sample of cells, and of what a motion tolerates.
 
-use super::limit::{Limit, closest_first};
+use super::limit::Limit;
 use crate::result::ResultFile;
 use crate::result::sheet::SheetMesh;
+use crate::text::table::closest_first;
 use crate::text::table::{sample_in_words, share};
 use plydrape::geometry::distance;
 use plydrape::measure::Name;

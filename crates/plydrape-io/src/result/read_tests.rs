@@ -14,6 +14,19 @@ fn is_changed(error: &Error) -> bool {
     error.to_string().contains("was changed since plydrape wrote it")
 }
 
+/// Every one of some changes of a result is refused, even where the check sum was made anew.
+fn assert_refused<const N: usize>(
+    whole: impl Fn() -> ResultFile,
+    changes: [fn(&mut ResultFile); N],
+) {
+    for (n, change) in changes.into_iter().enumerate() {
+        let mut result = whole();
+        change(&mut result);
+        let refused = read(&result.text().unwrap()).unwrap_err();
+        assert!(is_changed(&refused), "{n}: {refused}");
+    }
+}
+
 fn written() -> String {
     ResultFile::text(&sample::draped(3, 2, 3)).unwrap()
 }
@@ -47,17 +60,12 @@ fn a_result_names_the_states_of_its_sheet() {
     assert!(matches!(states.open(), Err(Error::Io { .. })));
 }
 
-/// An outcome of a sheet belongs to states and to steps that the result has, and has nothing of catenaries, even where the check sum was made
-/// anew.
+/// An outcome of a sheet belongs to states and to steps that the result has, and has nothing of catenaries.
 #[test]
 fn the_outcome_of_a_sheet_fits_its_result() {
-    let refused = |spoil: fn(&mut ResultFile)| {
-        let mut result = sample::sheet(3, 2, 3);
-        spoil(&mut result);
-        read(&ResultFile::text(&result).unwrap()).is_err()
-    };
-    assert!(!refused(|_| {}));
-    let spoilt: [fn(&mut ResultFile); 9] = [
+    let whole = || sample::sheet(3, 2, 3);
+    assert!(read(&whole().text().unwrap()).is_ok());
+    let changes: [fn(&mut ResultFile); 9] = [
         |r| r.summary.sheet = None,
         |r| r.sheet_states = None,
         |r| r.summary.steps = 4,
@@ -68,28 +76,24 @@ fn the_outcome_of_a_sheet_fits_its_result() {
         |r| r.steps[1].catenaries = sample::draped(3, 2, 3).steps[1].catenaries.clone(),
         |r| r.scene.settings.model = Model::Catenaries,
     ];
-    for (n, spoil) in spoilt.into_iter().enumerate() {
-        assert!(refused(spoil), "{n}");
-    }
+    assert_refused(whole, changes);
 }
 
 /// The model beside is the other one, has steps of its own and was judged with no errors; what is read of it is what was written.
 #[test]
 fn the_drape_beside_is_of_the_other_model() {
-    let both = |spoil: fn(&mut ResultFile)| {
-        let mut result = sample::sheet(3, 2, 3);
-        result.also = Some(sample::also(sample::draped(3, 2, 3)));
-        spoil(&mut result);
-        result
+    let both = || {
+        let also = Some(sample::also(sample::draped(3, 2, 3)));
+        ResultFile { also, ..sample::sheet(3, 2, 3) }
     };
-    let text = both(|_| {}).text().unwrap();
+    let text = both().text().unwrap();
     let found = read(&text).unwrap();
     assert_eq!(found.text().unwrap(), text);
     let also = found.also.unwrap();
     assert_eq!(also.summary.model, Model::Catenaries);
     assert_eq!(also.steps, sample::draped(3, 2, 3).steps);
 
-    let spoilt: [fn(&mut ResultFile); 6] = [
+    let changes: [fn(&mut ResultFile); 6] = [
         |r| r.also = Some(sample::also(sample::sheet(3, 2, 3))),
         |r| r.also.as_mut().unwrap().steps.truncate(2),
         |r| r.also.as_mut().unwrap().steps[1].catenaries = None,
@@ -97,10 +101,7 @@ fn the_drape_beside_is_of_the_other_model() {
         |r| r.also.as_mut().unwrap().summary.sample = Some(sample::sample_verdict()),
         |r| r.also.as_mut().unwrap().summary.limits = r.summary.limits.clone(),
     ];
-    for (n, spoil) in spoilt.into_iter().enumerate() {
-        let refused = read(&both(spoil).text().unwrap());
-        assert!(is_changed(&refused.unwrap_err()), "{n}");
-    }
+    assert_refused(both, changes);
 }
 
 /// Whether a result is accepted follows from its verdicts: a file that says otherwise is refused.
@@ -158,7 +159,7 @@ fn a_limit_is_kept_by_its_values_and_not_by_its_word() {
 /// A forged check sum does not help a material whose tension is no table, nor settings that no scene has.
 #[test]
 fn settings_of_the_sheet_must_be_those_of_a_scene() {
-    let spoilt: [fn(&mut ResultFile); 3] = [
+    let changes: [fn(&mut ResultFile); 3] = [
         |r| {
             let (strain, force) = (vec![0.0, 0.1], vec![0.0]);
             r.scene.ply.material.tension = Some(TensionLaw::Table { strain, force });
@@ -166,12 +167,7 @@ fn settings_of_the_sheet_must_be_those_of_a_scene() {
         |r| r.scene.settings.sheet.mesh = Some(-0.01),
         |r| r.scene.settings.contact.friction = Friction::Coulomb(-0.3),
     ];
-    for spoil in spoilt {
-        let mut result = sample::draped(3, 2, 3);
-        spoil(&mut result);
-        let refused = read(&ResultFile::text(&result).unwrap()).unwrap_err();
-        assert!(is_changed(&refused), "{refused}");
-    }
+    assert_refused(|| sample::draped(3, 2, 3), changes);
 }
 
 /// No digit can be changed unseen; the file stays valid JSON all along.
@@ -206,18 +202,13 @@ fn only_white_space_at_the_end_may_change() {
 /// A forged check sum does not help a result that lacks a gripper, a cell or its grid.
 #[test]
 fn a_result_must_have_all_of_its_ply() {
-    let spoilt: [fn(&mut ResultFile); 4] = [
+    let changes: [fn(&mut ResultFile); 4] = [
         |r| r.steps[1].grippers.truncate(1),
         |r| r.steps[0].catenaries.as_mut().unwrap().cells.truncate(1),
         |r| sample::lines(r, 2).truncate(1),
         |r| r.scene.ply.grid.nu = 0,
     ];
-    for spoil in spoilt {
-        let mut result = sample::draped(3, 2, 3);
-        spoil(&mut result);
-        let refused = read(&ResultFile::text(&result).unwrap()).unwrap_err();
-        assert!(is_changed(&refused), "{refused}");
-    }
+    assert_refused(|| sample::draped(3, 2, 3), changes);
 }
 
 /// The version decides before anything else does: a later file may hold keys that are unknown today.
@@ -299,7 +290,7 @@ fn with_cells(result: &mut ResultFile, kept: &[bool], ok: bool) {
 /// sheet is refused even where the check sum was made anew.
 #[test]
 fn the_sample_of_a_result_fits_its_scene() {
-    let changed = |change: fn(&mut ResultFile)| {
+    let whole = || {
         let mut result = sample::sheet(3, 2, 3);
         let verdict = sample::sample_verdict();
         result.scene.errors = Some(verdict.errors);
@@ -307,21 +298,19 @@ fn the_sample_of_a_result_fits_its_scene() {
             Tolerance { gripper_mm: 0.5, shear: Some([0.2, 8.0]), tried: 4, ..Tolerance::NOTHING };
         (result.summary.sample, result.summary.tolerance) = (Some(verdict), Some(tolerance));
         result.summary.world = World::Errors;
-        change(&mut result);
         result
     };
-    let whole = changed(|_| {});
-    let found = read(&ResultFile::text(&whole).unwrap()).unwrap().summary;
-    assert_eq!((found.sample, found.tolerance), (whole.summary.sample, whole.summary.tolerance));
+    let (written, found) = (whole().summary, read(&whole().text().unwrap()).unwrap().summary);
+    assert_eq!((found.sample, found.tolerance), (written.sample, written.tolerance));
 
     // three of four cells must keep the limits: it ends where they do, or where two have failed
     for (kept, ok) in [(&[true, true, true][..], true), (&[true, false, false], false)] {
-        let mut ended = changed(|_| {});
+        let mut ended = whole();
         with_cells(&mut ended, kept, ok);
         assert!(read(&ResultFile::text(&ended).unwrap()).is_ok());
     }
 
-    let spoilt: [fn(&mut ResultFile); 14] = [
+    let changes: [fn(&mut ResultFile); 14] = [
         |r| r.summary.world = World::Ideal,
         |r| r.scene.errors = None,
         |r| r.summary.sample.as_mut().unwrap().ok = true,
@@ -342,8 +331,5 @@ fn the_sample_of_a_result_fits_its_scene() {
             limits[0].step = Some(4);
         },
     ];
-    for (n, spoil) in spoilt.into_iter().enumerate() {
-        let refused = read(&ResultFile::text(&changed(spoil)).unwrap());
-        assert!(is_changed(&refused.unwrap_err()), "{n}");
-    }
+    assert_refused(whole, changes);
 }

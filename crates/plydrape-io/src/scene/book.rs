@@ -40,8 +40,6 @@ pub struct Book {
     pub mesh: Option<MeshReport>,
     /// The plies in the order in which they are laid.
     pub plies: Vec<BookPly>,
-    /// The text of the book.
-    pub input: Arc<str>,
     /// The book itself and the files that it and its plies name.
     pub files: Vec<PathBuf>,
 }
@@ -226,7 +224,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     files.extend(plies.iter().flat_map(|ply| ply.scene.files.iter().cloned()));
     files.sort();
     files.dedup();
-    Ok(Book { title, mold, mesh, plies, input: Arc::clone(&document.text), files })
+    Ok(Book { title, mold, mesh, plies, files })
 }
 
 /// A fault with the ply that it is of.

@@ -1,6 +1,6 @@
-//! Keys that may be written in more than one way: a material, a measured curve, friction, a table of positions, a place.
+//! Keys that may be written in more than one way: a material, a measured curve, friction, a table of positions, a place, an outline, a hole.
 
-use super::file::MaterialTable;
+use super::file::{CircleTable, DrawingTable, MaterialTable};
 use super::located::{Fixed, Located};
 use super::quantity::{Measure, Quantity, Unchecked};
 use super::usual::{Coordinate, FabricPoint, Friction, Heading, Place};
@@ -91,44 +91,65 @@ macro_rules! choices {
     };
 }
 
-/// A material by name or file, or in place.
-#[derive(Debug)]
-pub(super) enum MaterialChoice {
-    Named(String),
-    Table(Box<MaterialTable>),
-}
+/// Keys that are a text, an array or a table: the type and its name in the schema, what is expected, and each form with its value; of a text
+/// what it says and an example.
+macro_rules! forms {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident $title:literal, $expected:literal:
+            $($form:ident $value:ident($inner:ty $(, $about:literal, $example:literal)?)),+;
+    )+) => {$(
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub(super) enum $name {
+            $($value($inner),)+
+        }
 
-impl<'de> Deserialize<'de> for MaterialChoice {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Choice;
-        impl<'de> Visitor<'de> for Choice {
-            type Value = MaterialChoice;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("the name of a material, e.g. \"krogh2018\", a .toml file, or a table")
-            }
-            fn visit_str<E>(self, name: &str) -> Result<Self::Value, E> {
-                Ok(MaterialChoice::Named(name.to_string()))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
-                let table = MaterialTable::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(MaterialChoice::Table(Box::new(table)))
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Choice;
+                impl<'de> Visitor<'de> for Choice {
+                    type Value = $name;
+                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                        f.write_str($expected)
+                    }
+                    $(forms!(@visit $form $name::$value);)+
+                }
+                deserializer.deserialize_any(Choice)
             }
         }
-        deserializer.deserialize_any(Choice)
-    }
-}
 
-impl JsonSchema for MaterialChoice {
-    fn schema_name() -> Cow<'static, str> {
-        "MaterialChoice".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let table = generator.subschema_for::<MaterialTable>();
-        json_schema!({ "anyOf": [
-            { "type": "string", "description": "a shipped name or a .toml file", "examples": ["krogh2018"] },
-            table
-        ]})
-    }
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                $title.into()
+            }
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                let forms = [$(forms!(@schema generator $inner $(, $about, $example)?)),+];
+                json_schema!({ "anyOf": forms })
+            }
+        }
+    )+};
+    (@visit text $value:path) => {
+        fn visit_str<E>(self, text: &str) -> Result<Self::Value, E> {
+            Ok($value(text.into()))
+        }
+    };
+    (@visit array $value:path) => {
+        fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+            Vec::deserialize(SeqAccessDeserializer::new(seq)).map($value)
+        }
+    };
+    (@visit table $value:path) => {
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+            Box::deserialize(MapAccessDeserializer::new(map)).map($value)
+        }
+    };
+    (@schema $generator:ident $inner:ty) => {
+        $generator.subschema_for::<$inner>()
+    };
+    (@schema $generator:ident $inner:ty, $about:literal, $example:literal) => {
+        json_schema!({ "type": "string", "description": $about, "examples": [$example] })
+    };
 }
 
 /// A curve of force by its slope alone, a scatter by its share alone; or a table that says more.
@@ -178,43 +199,27 @@ impl<M: Measure, T: JsonSchema> JsonSchema for Curve<M, T> {
 /// One row of gripper positions along u, each `[x, y, z]` (m).
 pub(super) type PositionsRow = Located<Vec<Located<Fixed<Quantity<Coordinate>, 3>>>>;
 
-/// Gripper positions: a CSV file or a table of rows along v.
-#[derive(Debug)]
-pub(super) enum Positions {
-    File(String),
-    Table(Vec<PositionsRow>),
-}
+/// Points of a drawing (m), end to end.
+pub(super) type Polygon = Vec<Located<Fixed<Quantity<FabricPoint>, 2>>>;
 
-impl<'de> Deserialize<'de> for Positions {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Choice;
-        impl<'de> Visitor<'de> for Choice {
-            type Value = Positions;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a CSV file, e.g. \"start.csv\", or a table [[[x, y, z], …], …]")
-            }
-            fn visit_str<E>(self, file: &str) -> Result<Self::Value, E> {
-                Ok(Positions::File(file.to_string()))
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
-                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Positions::Table)
-            }
-        }
-        deserializer.deserialize_any(Choice)
-    }
-}
-
-impl JsonSchema for Positions {
-    fn schema_name() -> Cow<'static, str> {
-        "Positions".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let rows = generator.subschema_for::<Vec<PositionsRow>>();
-        json_schema!({ "anyOf": [
-            { "type": "string", "description": "a CSV file", "examples": ["start.csv"] },
-            rows
-        ]})
-    }
+forms! {
+    /// A material by name or file, or in place.
+    MaterialChoice "MaterialChoice", "the name of a material, e.g. \"krogh2018\", a .toml file, or a table":
+        text Named(String, "a shipped name or a .toml file", "krogh2018"),
+        table Table(Box<MaterialTable>);
+    /// Gripper positions: a CSV file or a table of rows along v.
+    Positions "Positions", "a CSV file, e.g. \"start.csv\", or a table [[[x, y, z], …], …]":
+        text File(String, "a CSV file", "start.csv"),
+        array Table(Vec<PositionsRow>);
+    /// The boundary of a ply that is cut: points, a file, or a table that says more of a file.
+    OutlineChoice "Outline", "points [[x, y], …], a DXF file, e.g. \"blank.dxf\", or a table":
+        array Points(Polygon),
+        text File(String, "a DXF file", "blank.dxf"),
+        table Drawing(Box<DrawingTable>);
+    /// A hole of a ply that is cut: points, or a circle.
+    HoleChoice "Hole", "points [[x, y], …], or a circle { middle = [x, y], diameter = \"40 mm\" }":
+        array Points(Polygon),
+        table Circle(Box<CircleTable>);
 }
 
 choices! {

@@ -4,8 +4,7 @@
 //! holds: along the rows of the array where these lie along the yarns, else along the warp.
 
 use super::check::{grid, missing};
-use super::choice::WarpChoice;
-use super::drawing::{HoleChoice, OutlineChoice, Polygon};
+use super::choice::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
 use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::located::Located;
 use super::quantity::{Read, read_or};

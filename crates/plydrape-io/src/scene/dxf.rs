@@ -1,6 +1,6 @@
 //! The outline of a ply from a drawing that the scene names, and which of its pieces it is.
 
-use super::drawing::OutlineChoice;
+use super::choice::OutlineChoice;
 use super::file::{DrawingTable, PieceTable, PlyTable};
 use super::located::Located;
 use super::quantity::{Read, read_or};

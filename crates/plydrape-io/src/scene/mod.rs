@@ -20,7 +20,6 @@ mod choice;
 mod curve;
 mod cut;
 mod diagnostic;
-mod drawing;
 mod dxf;
 mod errors;
 mod file;

@@ -20,6 +20,7 @@ pub use comparison::comparison;
 pub(crate) use errors::{sample_in_words, share, tolerances};
 pub use ink::Ink;
 pub use limited_by::limited_by;
+pub(crate) use limits::closest_first;
 pub use screen::{details, draped, heading, screen, verdict};
 pub(crate) use slack::slack_in_words;
 pub use steps::steps_table;

@@ -122,16 +122,22 @@ fn loads_go_on_linearly_between_the_steps() {
     assert_eq!(loads.interpolate(result.steps[5].time + 1e-3), None);
 }
 
+/// A scene of the dome along a planned motion, and that plan.
+fn planned() -> (Scene, TimedMotion, PlanRecord) {
+    let mut scene = dome(MOUNTS, 60);
+    let path = scene.layup.motion.positions.clone();
+    let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
+    let record = PlanRecord::new(PlanMethod::Path, 1, 20.0, path, &motion, Vec::new());
+    scene.layup.motion.times = motion.times().to_vec();
+    (scene, motion, record)
+}
+
 /// A plan's motion: at each of its samples the springs give the loads, the last ones are those of the last state, and a scene
 /// follows the table as without these columns.
 #[test]
 fn motion_csv_has_the_loads_of_the_springs_at_every_sample() {
-    let mut scene = dome(MOUNTS, 60);
-    let path = scene.layup.motion.positions.clone();
-    let (method, rate) = (PlanMethod::Path, 20.0);
-    let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
-    let record = PlanRecord::new(method, 1, rate, path, &motion, Vec::new());
-    scene.layup.motion.times = motion.times().to_vec();
+    let (scene, motion, record) = planned();
+    let rate = record.rate;
     let (mut result, dir) = draped(&scene);
     result.plan = Some(record);
     let table = csv::planned_motion(&result).unwrap().expect("a plan");
@@ -177,12 +183,7 @@ fn rigid_grippers_have_loads_and_no_preload() {
 /// and are nothing from the release on. Without its column and the rows after the motion, the table is that of pads that hold.
 #[test]
 fn tables_switch_the_vacuum_at_the_release() {
-    let mut scene = dome(MOUNTS, 60);
-    let path = scene.layup.motion.positions.clone();
-    let (method, rate) = (PlanMethod::Path, 20.0);
-    let motion = TimedMotion::new(&path, &scene.limits.motion_bounds()).unwrap();
-    let record = PlanRecord::new(method, 1, rate, path, &motion, Vec::new());
-    scene.layup.motion.times = motion.times().to_vec();
+    let (mut scene, motion, record) = planned();
     let (mut held, _kept) = draped(&scene);
     held.plan = Some(record.clone());
     let dwell = 0.31;

@@ -6,17 +6,46 @@ use plydrape::equilibrium::{End, SlopeSource, Solver};
 pub use plydrape::geometry::distance;
 use plydrape::layup::{ContactEnd, ContactSettings, Model, Settings, SlopeRule, Stepping};
 use plydrape::material::{Material, Section};
+use plydrape::mold::{Mold, Pose};
+use plydrape::motion::Motion;
 use plydrape::outcome::{self, Drape, DrapeWatch, Step};
+use plydrape::planner::path::Strategy;
 use plydrape::ply::{ContactSegment, Grid, Ply};
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
+use plydrape_io::read::mesh;
 use plydrape_io::result::sheet;
+use proptest::prelude::ProptestConfig;
+use proptest::test_runner::RngSeed;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 pub type Point = [f64; 3];
 
 pub const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
+
+/// A front that spreads as a ring from the middle of the ply.
+pub const RING: Strategy = Strategy {
+    start: [0.5; 2],
+    ratio: 1.0,
+    angle: 0.0,
+    curvature: 0.4,
+    slope: 0.4,
+    pretension: 1e-4,
+    press: 0.0,
+    pull: 0.0,
+};
+
+/// Random cases, the same in every run.
+pub fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        rng_seed: RngSeed::Fixed(2018),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
 
 /// The folder of the examples.
 pub fn examples() -> PathBuf {
@@ -32,6 +61,59 @@ pub fn all_cases() -> bool {
 pub fn example(name: &str) -> Scene {
     let path = examples().join(name).join("scene.toml");
     plydrape_io::scene::read(&path).unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// The scene of a text that names no files.
+pub fn parse(text: &str) -> Scene {
+    let scene = plydrape_io::scene::parse(text, Path::new(""), "scene.toml");
+    scene.unwrap_or_else(|error| panic!("{error}\n{text}")).scene
+}
+
+/// The mold of an OBJ text in meters.
+pub fn mesh(text: &str) -> Mold {
+    let (mesh, _) = mesh::parse("mold.obj", text.as_bytes(), 1.0, &Pose::ORIGIN, 0.0)
+        .unwrap_or_else(|error| panic!("{error}"));
+    Mold::Mesh(Arc::new(mesh))
+}
+
+/// A mold of n × n squares of two triangles each, those that are kept; `place` has their corners (m) by shares of the sides.
+pub fn meshed(
+    n: usize,
+    place: impl Fn([f64; 2]) -> Point,
+    keep: impl Fn(usize, usize) -> bool,
+) -> Mold {
+    let squares = |n: usize| (0..n).flat_map(move |j| (0..n).map(move |i| (i, j)));
+    let mut text = String::new();
+    for (i, j) in squares(n + 1) {
+        let [x, y, z] = place([i, j].map(|k| k as f64 / n as f64));
+        text += &format!("v {x:?} {y:?} {z:?}\n");
+    }
+    for (i, j) in squares(n).filter(|(i, j)| keep(*i, *j)) {
+        let a = j * (n + 1) + i + 1;
+        let (b, c, d) = (a + 1, a + n + 2, a + n + 1);
+        text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+    }
+    mesh(&text)
+}
+
+/// A motion through positions, a second from each to the next.
+pub fn motion(positions: Vec<Vec<Point>>) -> Motion {
+    Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions }
+}
+
+/// Positions on straight ways, as far as a share of them, in equal steps.
+pub fn straight(from: &[Point], to: &[Point], far: f64, steps: usize) -> Vec<Vec<Point>> {
+    let at = |n: usize| {
+        let t = far * n as f64 / (steps - 1) as f64;
+        let mix = |(a, b): (&Point, &Point)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
+        from.iter().zip(to).map(mix).collect()
+    };
+    (0..steps).map(at).collect()
+}
+
+/// How contact is found, at a tolerance (m).
+pub fn contact(tolerance: f64, stepping: Stepping, end: ContactEnd) -> ContactSettings {
+    ContactSettings { tolerance, stepping, end, ..ContactSettings::default() }
 }
 
 /// The result of a scene along its own motion, by the catenaries whichever model the scene chooses: from where a ply that is picked up
@@ -115,12 +197,7 @@ pub fn settings(slopes: SlopeRule) -> Settings {
         axial_stiffness: 1e5,
         gravity: 9.8,
         max_tilt: 40f64.to_radians(),
-        contact: ContactSettings {
-            tolerance: 1e-3,
-            stepping: Stepping::Once,
-            end: ContactEnd::Free,
-            ..ContactSettings::default()
-        },
+        contact: contact(1e-3, Stepping::Once, ContactEnd::Free),
         ..Settings::default()
     }
 }

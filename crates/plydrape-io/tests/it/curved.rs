@@ -1,15 +1,13 @@
 //! Contact on curved molds: what rolls on lies where it belongs, troughs are bridged, and drapes converge.
 
-use crate::common::{distance, drape, example, lines};
+use crate::common::{contact, distance, drape, example, lines, meshed, motion, straight};
 use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
 use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
-use plydrape::motion::Motion;
 use plydrape::net::{Net, Placement};
 use plydrape::ply::{Fibers, Grid, Kind};
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
-use std::sync::Arc;
 
 /// The strip of the examples with `grippers` grippers, on a mold, along a motion.
 fn strip(
@@ -24,16 +22,14 @@ fn strip(
     scene.layup.mold = Some(mold);
     scene.layup.target = None;
     scene.layup.settings.contact = contact;
-    let times = (0..positions.len()).map(|n| n as f64).collect();
-    scene.layup.motion = Motion { times, positions };
+    scene.layup.motion = motion(positions);
     scene
 }
 
 /// z = −x²/2R.
 fn parabola(radius: f64) -> Mold {
-    let pose = Pose::new([0.0; 3], [0.0; 3]);
     let surface = Surface::Saddle(Saddle { radii: [-radius, f64::INFINITY] });
-    Mold::Graph(Graph { pose, surface, domain: None })
+    Mold::Graph(Graph { pose: Pose::ORIGIN, surface, domain: None })
 }
 
 /// Where the arc length s from the top of the parabola ends (m), and the tangent there.
@@ -75,17 +71,7 @@ fn rolled(
             .collect()
     };
     let positions = (0..steps).map(|n| roll(0.3 * n as f64 / (steps - 1) as f64)).collect();
-    drape(&strip(
-        4,
-        mold,
-        ContactSettings {
-            tolerance,
-            stepping,
-            end: ContactEnd::Free,
-            ..ContactSettings::default()
-        },
-        positions,
-    ))
+    drape(&strip(4, mold, contact(tolerance, stepping, ContactEnd::Free), positions))
 }
 
 /// Largest distance of what has landed of a strip from where its fabric belongs (mm).
@@ -148,12 +134,7 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
             vec![[-half, 0.0, z], [half, 0.0, z]]
         };
         let tolerance = 1e-6;
-        let contact = ContactSettings {
-            tolerance,
-            stepping: Stepping::Cut,
-            end: ContactEnd::Free,
-            ..ContactSettings::default()
-        };
+        let contact = contact(tolerance, Stepping::Cut, ContactEnd::Free);
         let positions = (0..20).map(|n| positions_at(f64::from(n) / 19.0)).collect();
         let mut scene = strip(2, trough, contact, positions);
         // a parabola longer than its chord by a part e sags by √(3e/8) of it
@@ -173,27 +154,13 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
     }
 }
 
-/// The cap of a sphere of radius R with its top at the origin, as an OBJ of n × n squares.
+/// The cap of a sphere of radius R with its top at the origin, as a mesh of n × n squares.
 fn cap(radius: f64, n: usize) -> Mold {
-    let coordinate = |k: usize| -0.1 + 0.5 * k as f64 / n as f64;
-    let mut text = String::new();
-    for j in 0..=n {
-        for i in 0..=n {
-            let (x, y) = (coordinate(i), coordinate(j) - 0.15);
-            let z = (radius * radius - x * x - y * y).sqrt() - radius;
-            text += &format!("v {x:.17} {y:.17} {z:.17}\n");
-        }
-    }
-    for j in 0..n {
-        for i in 0..n {
-            let a = j * (n + 1) + i + 1;
-            text += &format!("f {} {} {} {}\n", a, a + 1, a + n + 2, a + n + 1);
-        }
-    }
-    let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let (mesh, _) = plydrape_io::read::mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose, 0.0)
-        .expect("a sound mesh");
-    Mold::Mesh(Arc::new(mesh))
+    let place = |shares: [f64; 2]| {
+        let [x, y] = [0, 1].map(|c| 0.5 * shares[c] - [0.1, 0.25][c]);
+        [x, y, (radius * radius - x * x - y * y).sqrt() - radius]
+    };
+    meshed(n, place, |_, _| true)
 }
 
 /// A strip rolled on a sphere lies in the same place on a mesh of it, but for the mesh's own error, which
@@ -230,22 +197,8 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
     // share of the edges in contact, and landing error of the edges (mm)
     let landed = |steps: usize, tolerance: f64| -> [f64; 2] {
         let mut scene = scene.clone();
-        let stepping = Stepping::Cut;
-        scene.layup.settings.contact = ContactSettings {
-            tolerance,
-            stepping,
-            end: ContactEnd::Tangent,
-            ..ContactSettings::default()
-        };
-        let positions_at = |t: f64| -> Vec<[f64; 3]> {
-            let mix = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
-            first.iter().zip(last).map(mix).collect()
-        };
-        let part = |n: usize| 0.96 * n as f64 / (steps - 1) as f64;
-        scene.layup.motion = Motion {
-            times: (0..steps).map(|n| n as f64).collect(),
-            positions: (0..steps).map(|n| positions_at(part(n))).collect(),
-        };
+        scene.layup.settings.contact = contact(tolerance, Stepping::Cut, ContactEnd::Tangent);
+        scene.layup.motion = motion(straight(first, last, 0.96, steps));
         let result = drape(&scene);
         let last = result.steps.last().expect("steps");
         let edges = lines(last).iter().filter(|c| c.kind.is_edge());
@@ -285,9 +238,8 @@ fn a_sphere_as_a_formula_drapes_like_the_sphere() {
     let pose = Pose::new([0.0, 0.0, -radius], [0.0; 3]);
     let sphere = Mold::Sphere(Sphere { pose, radius, face: Face::Outside });
     let z = plydrape_io::read::formula::read("sqrt(0.36 - x^2 - y^2) - 0.6").expect("a formula");
-    let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Formula { z });
-    let domain = Some([[-0.4, 0.4], [-0.4, 0.4]]);
-    let formula = Mold::Graph(Graph { pose, surface, domain });
+    let (surface, domain) = (Surface::Formula { z }, Some([[-0.4, 0.4]; 2]));
+    let formula = Mold::Graph(Graph { pose: Pose::ORIGIN, surface, domain });
     let [exact, found] = [sphere, formula].map(|mold| rolled(mold, along, 60, 2e-4, Stepping::Cut));
     for (a, b) in exact.steps.iter().zip(&found.steps) {
         for (a, b) in lines(a).iter().zip(lines(b)) {
@@ -331,8 +283,8 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
         };
         let z = places.map(height).collect();
         let heights = HeightGrid::new(axis.clone(), axis.clone(), z).expect("a grid");
-        let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::HeightGrid(heights));
-        let mold = Mold::Graph(Graph { pose, surface, domain: Some([[-0.3, 0.3]; 2]) });
+        let (surface, domain) = (Surface::HeightGrid(heights), Some([[-0.3, 0.3]; 2]));
+        let mold = Mold::Graph(Graph { pose: Pose::ORIGIN, surface, domain });
         let place = mold.highest_point([0.0; 2]).expect("the middle");
         let net = Net::drape(&mold, Placement { place, ..layup }).expect("a net");
         let divisions = (0.1 / layup.mesh[0]).round() as usize;
@@ -342,7 +294,7 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
     let mut positions: Vec<_> = (0..60).map(|n| grippers(0.25 * f64::from(n) / 59.0)).collect();
     positions[59] = target.grippers.clone();
     let straight = drape(&scene);
-    scene.layup.motion = Motion { times: (0..60).map(f64::from).collect(), positions };
+    scene.layup.motion = motion(positions);
     let rolled = drape(&scene);
 
     let bow = (0.15_f64 / 0.6).tan() / 0.6 * 0.1 * 0.1 / 8.0 * 1e3;
@@ -422,9 +374,8 @@ fn laying_within_the_tolerance_stretches_nothing() {
             let first = Strategy::families(&scene, |_| 0.4)[0];
             let ring = Strategy { pretension: 1e-4, curvature: 3.0, ..first };
             let positions = trajectory(&scene, &heights, ring).expect("a target");
-            let times = (0..positions.len()).map(|n| n as f64).collect();
             let mut scene = scene.clone();
-            scene.layup.motion = Motion { times, positions };
+            scene.layup.motion = motion(positions);
             let stretch = drape(&scene).summary.worst.value(Name::Overstretch).expect("edges");
             // without the rule it is the tolerance, as a share of an edge: 0.2 %
             assert!(stretch < 8e-4, "{name}, {steps} steps: {stretch}");

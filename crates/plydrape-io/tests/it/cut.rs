@@ -1,6 +1,6 @@
 //! Plies as they are cut: outlines, holes, overhang, cups that hold or not, and arrays at any angle to the yarns.
 
-use crate::common::{distance, drape_sheet};
+use crate::common::{self, distance, drape_sheet};
 use plydrape::ply::Grid;
 use plydrape::scene::Scene;
 use plydrape::sheet::{self, Sheet, Status};
@@ -14,7 +14,7 @@ fn parse(ply: &str, rest: &str) -> Scene {
     let text = format!(
         "[ply]\n{ply}\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n{rest}"
     );
-    scene::parse(&text, Path::new(""), "scene").unwrap_or_else(|error| panic!("{error}")).scene
+    common::parse(&text)
 }
 
 const CYLINDER: &str = "origin = \"centered\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\

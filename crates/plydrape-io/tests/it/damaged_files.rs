@@ -1,6 +1,7 @@
 //! What comes in through files: results with a forged check sum, files without end, and texts that would grow beyond all memory.
 
 use crate::common::{all_cases, drape, examples};
+use plydrape::mold::Pose;
 use plydrape::scene::PlanSettings;
 use plydrape_io::Error;
 use plydrape_io::export::{self, Format};
@@ -166,8 +167,7 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
     let scene = scene::read(&pipe("scene.toml")).unwrap_err();
     assert!(scene.help().contains("as a file"), "{}", scene.help());
     no_file(scene.to_string());
-    let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-    no_file(mesh::read(&pipe("mold.stl"), 1.0, &pose, 0.0).unwrap_err().to_string());
+    no_file(mesh::read(&pipe("mold.stl"), 1.0, &Pose::ORIGIN, 0.0).unwrap_err().to_string());
     for (old, new) in [
         ("material = \"krogh2018\"", "material = \"pipe.toml\""),
         ("kind = \"plane\"", "kind = \"mesh\"\nfile = \"mold.stl\"\nunit = \"mm\""),
@@ -214,8 +214,7 @@ fn deck(side: usize, instances: usize) -> String {
 /// 10 000 elements in 10 000 places are 200 million triangles: the deck has 1 MB and says so before any is made.
 #[test]
 fn a_deck_that_grows_beyond_memory_is_refused_by_its_count() {
-    let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-    let parse = |text: &str| mesh::parse("deck.inp", text.as_bytes(), 1e-3, &pose, 0.0);
+    let parse = |text: &str| mesh::parse("deck.inp", text.as_bytes(), 1e-3, &Pose::ORIGIN, 0.0);
     let refused = parse(&deck(100, 10_000)).unwrap_err();
     assert!(matches!(refused, Error::TooLarge { .. }), "{refused}");
     let text = refused.to_string();
@@ -237,8 +236,7 @@ fn a_polygon_of_ten_thousand_corners_is_refused_with_its_line() {
         let face: String = (1..=corners).map(|n| format!(" {n}")).collect();
         format!("{vertices}f{face}\n")
     };
-    let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-    let parse = |text: &str| mesh::parse("mold.obj", text.as_bytes(), 1.0, &pose, 0.0);
+    let parse = |text: &str| mesh::parse("mold.obj", text.as_bytes(), 1.0, &Pose::ORIGIN, 0.0);
     let refused = parse(&ring(10_000)).unwrap_err();
     let text = refused.to_string();
     assert!(text.contains("line 10001: face 1 has 10000 corners"), "{text}");

@@ -1,40 +1,25 @@
 //! The drape: the paper's example as printed, bookkeeping of fabric, convergence, rigid motions, and
 //! scenes that nobody would write.
 
-use crate::common::{drape, example, hung, lines};
-use plydrape::draping::record::CatenaryState;
-use plydrape::draping::record::Hold;
-use plydrape::layup::{ContactEnd, ContactSettings, SlopeRule, Stepping, Target};
+use crate::common::{RULES, cases, contact, drape, example, hung, lines, motion, straight};
+use plydrape::draping::record::{CatenaryState, Hold};
+use plydrape::layup::{ContactEnd, Stepping, Target};
+use plydrape::material::Section;
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
-use plydrape::motion::Motion;
 use plydrape::net::{EdgeRule, Generators, Net, Placement};
 use plydrape::outcome::Summary;
 use plydrape::ply::Kind;
 use plydrape::scene::Scene;
 use plydrape_io::result::ResultFile;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use std::sync::Arc;
 
 /// The example with its straight motion in another number of steps.
 fn in_steps(scene: &Scene, steps: usize) -> Scene {
     let mut scene = scene.clone();
-    let (first, last) =
-        (scene.layup.motion.positions[0].clone(), scene.layup.motion.positions[29].clone());
-    scene.layup.motion = Motion {
-        times: (0..steps).map(|n| n as f64).collect(),
-        positions: (0..steps)
-            .map(|n| {
-                let t = n as f64 / (steps - 1) as f64;
-                first
-                    .iter()
-                    .zip(&last)
-                    .map(|(a, b)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c])))
-                    .collect()
-            })
-            .collect(),
-    };
+    let positions = &scene.layup.motion.positions;
+    scene.layup.motion = motion(straight(&positions[0], &positions[29], 1.0, steps));
     scene
 }
 
@@ -144,8 +129,7 @@ fn contact_and_free_lengths_always_add_up() {
     for stepping in [Stepping::Once, Stepping::Cut] {
         for end in [ContactEnd::Free, ContactEnd::Tangent] {
             let mut scene = example("01_flat_sheared_mold");
-            scene.layup.settings.contact =
-                ContactSettings { tolerance: 5e-4, stepping, end, ..ContactSettings::default() };
+            scene.layup.settings.contact = contact(5e-4, stepping, end);
             check_record(&drape(&scene));
         }
     }
@@ -190,18 +174,10 @@ fn contact_converges_in_steps_and_tolerance() {
     let strip = |steps: usize, tolerance: f64, stepping: Stepping| {
         let mut scene = example("02_hanging_strip");
         scene.layup.mold = example("01_flat_sheared_mold").layup.mold;
-        scene.layup.settings.contact = ContactSettings {
-            tolerance,
-            stepping,
-            end: ContactEnd::Free,
-            ..ContactSettings::default()
-        };
-        let positions_at =
-            |t: f64| vec![[0.0, 0.0, 0.012 - 0.008 * t], [0.098, 0.0, 0.012 - 0.006 * t]];
-        scene.layup.motion = Motion {
-            times: (0..steps).map(|n| n as f64).collect(),
-            positions: (0..steps).map(|n| positions_at(n as f64 / (steps - 1) as f64)).collect(),
-        };
+        scene.layup.settings.contact = contact(tolerance, stepping, ContactEnd::Free);
+        let (from, to) =
+            ([[0.0, 0.0, 0.012], [0.098, 0.0, 0.012]], [[0.0, 0.0, 0.004], [0.098, 0.0, 0.006]]);
+        scene.layup.motion = motion(straight(&from, &to, 1.0, steps));
         let result = drape(&scene);
         let last = lines(result.steps.last().expect("steps"))[0].clone();
         last.contact.expect("the strip touches").ends()
@@ -217,15 +193,9 @@ fn contact_converges_in_steps_and_tolerance() {
 
     let mut scene = example("02_hanging_strip");
     scene.layup.mold = example("01_flat_sheared_mold").layup.mold;
-    scene.layup.settings.contact = ContactSettings {
-        tolerance: 1e-3,
-        stepping: Stepping::Once,
-        end: ContactEnd::Free,
-        ..ContactSettings::default()
-    };
+    scene.layup.settings.contact = contact(1e-3, Stepping::Once, ContactEnd::Free);
     let still = vec![[0.0, 0.0, 0.006], [0.098, 0.0, 0.006]];
-    scene.layup.motion =
-        Motion { times: (0..60).map(f64::from).collect(), positions: vec![still; 60] };
+    scene.layup.motion = motion(vec![still; 60]);
     let result = drape(&scene);
     let arc = |n: usize| lines(&result.steps[n])[0].contact.as_ref().expect("it touches").ends();
     close(arc(59), arc(5), 1e-6);
@@ -256,15 +226,9 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
         scene.layup.target = Some(Target { grippers: goal.clone(), drape: Some(Arc::new(ideal)) });
         scene.layup.settings.contact.tolerance = 2e-4;
         scene.layup.settings.contact.stepping = Stepping::Cut;
-        scene.layup.motion = Motion {
-            times: (0..40).map(f64::from).collect(),
-            positions: (0..40)
-                .map(|n| {
-                    let lift = 0.03 * f64::from(39 - n) / 39.0;
-                    goal.iter().map(|p| [p[0] - lift * s, p[1], p[2] + lift * c]).collect()
-                })
-                .collect(),
-        };
+        let lifted: Vec<_> =
+            goal.iter().map(|p| [p[0] - 0.03 * s, p[1], p[2] + 0.03 * c]).collect();
+        scene.layup.motion = motion(straight(&lifted, &goal, 1.0, 40));
         let summary = drape(&scene).summary;
         assert!(summary.accepted(), "{tilt}: {:?}", summary.limits);
         assert_eq!(summary.last.value(Name::ContactShare), Some(1.0));
@@ -275,12 +239,7 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 300,
-        rng_seed: RngSeed::Fixed(2018),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(cases(300))]
 
     /// No finite scene makes the program panic, lose fabric or write a number that is none: grippers
     /// flung about, crossed, stacked, under the mold, pulled far beyond the ply.
@@ -291,7 +250,7 @@ proptest! {
         random in prop::collection::vec(-1.0..1.0, 3 * 12 * 3),
         ei in prop::sample::select(vec![0.0, 9e-6, 1e-3, 10.0]),
         ea in prop::sample::select(vec![1e3, 1e5, f64::INFINITY]),
-        rule in prop::sample::select(vec![SlopeRule::MinForce, SlopeRule::MomentBalance]),
+        rule in prop::sample::select(RULES.as_slice()),
         stepping in prop::sample::select(vec![Stepping::Once, Stepping::Cut]),
         end in prop::sample::select(vec![ContactEnd::Free, ContactEnd::Tangent]),
         (tilt, has_mold) in (0.0..1.2_f64, any::<bool>()),
@@ -300,14 +259,14 @@ proptest! {
         scene.layup.ply.grid.nu = nu;
         scene.layup.ply.grid.nv = nv;
         let grid = scene.layup.ply.grid;
-        if let plydrape::material::Section::Line { flexural_rigidity, .. } = &mut scene.layup.ply.material.section {
+        if let Section::Line { flexural_rigidity, .. } = &mut scene.layup.ply.material.section {
             *flexural_rigidity = ei;
         }
         scene.layup.settings.axial_stiffness = ea;
         scene.layup.settings.slopes = rule;
-        scene.layup.settings.contact = ContactSettings { tolerance: 1e-3, stepping, end, ..ContactSettings::default() };
+        scene.layup.settings.contact = contact(1e-3, stepping, end);
         let normal = [tilt.sin(), 0.0, tilt.cos()];
-        scene.layup.mold = has_mold.then_some(plydrape::mold::Mold::Plane(plydrape::mold::Plane { point: [0.0; 3], normal }));
+        scene.layup.mold = has_mold.then_some(Mold::Plane(Plane { point: [0.0; 3], normal }));
         let place = |step: usize| (0..grid.grippers()).map(|n| {
             let [i, j] = grid.id(n).map(|k| 0.099 * k as f64);
             let r = |k: usize| if step == 0 { 0.0 } else { wild * random[36 * (step - 1) + 3 * n + k] };
@@ -315,7 +274,7 @@ proptest! {
             let snap = |x: f64| if step == 2 { (x * 10.0).round() / 10.0 } else { x };
             [snap(i + r(0)), snap(j + r(1)), snap(0.05 - 0.02 * step as f64 + r(2))]
         }).collect::<Vec<_>>();
-        scene.layup.motion = Motion { times: vec![0.0, 1.0, 2.0, 3.0], positions: vec![place(0), place(1), place(2), place(3)] };
+        scene.layup.motion = motion((0..4).map(place).collect());
         scene.layup.target = None;
         let result = drape(&scene);
         let text = result.text();

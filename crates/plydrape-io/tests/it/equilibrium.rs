@@ -1,14 +1,13 @@
 //! The equilibrium of a ply against printed reference values, its own optimality conditions and
 //! central differences.
 
-use crate::common::{inextensible, paper_ply, settings, squares_of_forces};
+use crate::common::{cases, inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::Profile;
 use plydrape::equilibrium::{Direction, Property, Solver, Status};
 use plydrape::layup::{Settings, SlopeRule};
 use plydrape::material::Section;
 use plydrape::ply::{Grid, Kind, Lines, Ply};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 fn level(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
     (0..grid.grippers())
@@ -93,12 +92,7 @@ fn any_rule() -> impl Strategy<Value = Settings> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 300,
-        rng_seed: RngSeed::Fixed(2018),
-        failure_persistence: None,
-        ..Default::default()
-    })]
+    #![proptest_config(cases(300))]
 
     /// Every length is met, and no slope within the bounds does better (min-force) or leaves a moment
     /// (moment-balance).

@@ -151,8 +151,8 @@ fn the_stl_has_the_targets_of_its_formula() {
     let (target, net, _) = target(&scene);
     let z = plydrape_io::read::formula::read("-x^2/2 + 3*x^3/5 - 9*y^2/10 + 4*x*y/5")
         .expect("a formula");
-    let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let smooth = Mold::Graph(Graph { pose, surface: Surface::Formula { z }, domain: None });
+    let (pose, surface) = (Pose::ORIGIN, Surface::Formula { z });
+    let smooth = Mold::Graph(Graph { pose, surface, domain: None });
     let mut layup = net.placement;
     layup.place = smooth.highest_point([layup.place[0], layup.place[1]]).expect("on the mold");
     let ideal = Net::drape(&smooth, layup).expect("a net");

@@ -9,14 +9,11 @@ use std::path::Path;
 /// The map says what the net reports; same net, same bytes; even a fine net stays a page's size.
 #[test]
 fn a_shear_map_says_what_its_net_reports() {
-    let ball = |face| {
-        let pose = Pose::new([0.0; 3], [0.0; 3]);
-        Mold::Sphere(Sphere { pose, radius: 0.1, face })
-    };
+    let ball = |face| Mold::Sphere(Sphere { pose: Pose::ORIGIN, radius: 0.1, face });
     let (dome, bowl) = (ball(Face::Outside), ball(Face::Inside));
     let flat = Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
     let saddle = Mold::Graph(Graph {
-        pose: Pose::new([0.0; 3], [0.0; 3]),
+        pose: Pose::ORIGIN,
         surface: Surface::Saddle(Saddle { radii: [0.2, 0.3] }),
         domain: None,
     });

@@ -1,21 +1,9 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and the trajectory that it gives.
 
-use crate::common::{distance, example};
+use crate::common::{RING, distance, example, parse};
 use plydrape::mold::{FrontSurface, HeightGrid, Rise};
 use plydrape::planner::path::{Formation, MoldHeights, Strategy, trajectory};
-use std::path::Path;
 use std::sync::Arc;
-
-const RING: Strategy = Strategy {
-    start: [0.5; 2],
-    ratio: 1.0,
-    angle: 0.0,
-    curvature: 0.4,
-    slope: 0.4,
-    pretension: 1e-4,
-    press: 0.0,
-    pull: 0.0,
-};
 
 /// Slopes and curvatures of the lifted mold are the central differences of its height and slopes, for a turned
 /// ellipse, inside and ahead of its front.
@@ -125,8 +113,7 @@ fn a_scaled_scene_has_the_scaled_trajectory() {
             d = 0.098 * s,
             h = 0.05 * s,
         );
-        let scene = plydrape_io::scene::parse(&text, Path::new(""), "of the test");
-        let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
+        let scene = parse(&text);
         let heights = MoldHeights::new(&scene).expect("a mold");
         trajectory(&scene, &heights, RING).expect("a target")
     };

@@ -1,6 +1,6 @@
 //! Gap samples against brute force: no touch is missed by the bounds, with and without earlier observations.
 
-use crate::common::all_cases;
+use crate::common::{all_cases, meshed};
 use plydrape::catenary::{EndCondition, Profile, Span, SpanState};
 use plydrape::draping::gap::{GapSamples, Run};
 use plydrape::draping::sampling::GapCache;
@@ -8,7 +8,6 @@ use plydrape::draping::spans::FreeSpan;
 use plydrape::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface,
 };
-use std::sync::Arc;
 
 /// Intervals between the stations of a span.
 const INTERVALS: usize = 48;
@@ -31,11 +30,7 @@ fn as_formula(scale: f64) -> Mold {
     );
     let z = plydrape_io::read::formula::read(&text).expect("a formula");
     let domain = Some([[-0.3 * scale, 0.3 * scale]; 2]);
-    Mold::Graph(Graph { pose: level(), surface: Surface::Formula { z }, domain })
-}
-
-fn level() -> Pose {
-    Pose::new([0.0; 3], [0.0; 3])
+    Mold::Graph(Graph { pose: Pose::ORIGIN, surface: Surface::Formula { z }, domain })
 }
 
 /// `n` × `n` places over the square, along x first.
@@ -48,27 +43,15 @@ fn as_heights(scale: f64) -> Mold {
     let z = axis.iter().flat_map(|y| axis.iter().map(|x| height(scale, *x, *y))).collect();
     let heights = HeightGrid::new(axis.clone(), axis, z).expect("a grid");
     let domain = Some(heights.range());
-    Mold::Graph(Graph { pose: level(), surface: Surface::HeightGrid(heights), domain })
+    Mold::Graph(Graph { pose: Pose::ORIGIN, surface: Surface::HeightGrid(heights), domain })
 }
 
 fn as_mesh(scale: f64) -> Mold {
-    let n = 41;
-    let axis = places(n, scale);
-    let mut text = String::new();
-    for y in &axis {
-        for x in &axis {
-            text += &format!("v {x:.17} {y:.17} {:.17}\n", height(scale, *x, *y));
-        }
-    }
-    for j in 0..n - 1 {
-        for i in 0..n - 1 {
-            let a = j * n + i + 1;
-            text += &format!("f {} {} {} {}\n", a, a + 1, a + n + 1, a + n);
-        }
-    }
-    let (mesh, _) = plydrape_io::read::mesh::parse("m.obj", text.as_bytes(), 1.0, &level(), 0.0)
-        .expect("a sound mesh");
-    Mold::Mesh(Arc::new(mesh))
+    let place = |shares: [f64; 2]| {
+        let [x, y] = shares.map(|share| scale * (-0.3 + 0.6 * share));
+        [x, y, height(scale, x, y)]
+    };
+    meshed(40, place, |_, _| true)
 }
 
 fn molds(scale: f64) -> Vec<(&'static str, Mold)> {
@@ -80,7 +63,7 @@ fn molds(scale: f64) -> Vec<(&'static str, Mold)> {
         ("sphere", Mold::Sphere(Sphere { pose, radius, face: Face::Outside })),
         ("cylinder", Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside })),
         ("trough", Mold::Cylinder(Cylinder { pose: aside, radius, face: Face::Inside })),
-        ("saddle", Mold::Graph(Graph { pose: level(), surface, domain: None })),
+        ("saddle", Mold::Graph(Graph { pose: Pose::ORIGIN, surface, domain: None })),
         ("formula", as_formula(scale)),
         ("height grid", as_heights(scale)),
         ("mesh", as_mesh(scale)),
@@ -256,12 +239,12 @@ fn a_flat_formula_and_a_plane_have_the_same_samples() {
     let plane = Mold::Plane(Plane { point: [0.0; 3], normal: [-slope / size, 0.0, 1.0 / size] });
     let z = plydrape_io::read::formula::read("0.3*x").expect("a formula");
     let domain = Some([[-0.5, 0.5]; 2]);
-    let formula = Graph { pose: level(), surface: Surface::Formula { z }, domain };
+    let formula = Graph { pose: Pose::ORIGIN, surface: Surface::Formula { z }, domain };
     let axis = places(5, 1.0);
     let heights = axis.iter().flat_map(|_| axis.iter().map(|x| slope * x)).collect();
     let heights = HeightGrid::new(axis.clone(), axis, heights).expect("a grid");
     let domain = Some(heights.range());
-    let grid = Graph { pose: level(), surface: Surface::HeightGrid(heights), domain };
+    let grid = Graph { pose: Pose::ORIGIN, surface: Surface::HeightGrid(heights), domain };
     for n in 1..100 {
         let span = span(&plane, n, 0.01 * scatter(n, 23.0) - 0.003, 1.0);
         let expected = GapSamples::new(&span, &plane, tolerance).runs(&span, &plane, tolerance);
@@ -328,7 +311,7 @@ fn steepness_bounds_every_slope_and_bend() {
     let heights = HeightGrid::new(axis.clone(), axis, (0..81).map(rough).collect());
     surfaces.push(Surface::HeightGrid(heights.expect("a grid")));
     for (n, surface) in surfaces.into_iter().enumerate() {
-        let graph = Graph { pose: level(), surface, domain: Some(domain) };
+        let graph = Graph { pose: Pose::ORIGIN, surface, domain: Some(domain) };
         let bound = graph.steepness();
         let (mut slope, mut bend) = (0.0_f64, 0.0_f64);
         for k in 0..20_000 {
@@ -358,7 +341,7 @@ fn a_ball_that_is_called_clear_holds_nothing_of_the_mold() {
     let z = plydrape_io::read::formula::read("0.03*cos(40*x) + 0.8*x").expect("a formula");
     let domain = Some([[-0.5, 0.5]; 2]);
     let surface = Surface::Formula { z };
-    let ridges = Mold::Graph(Graph { pose: level(), surface, domain });
+    let ridges = Mold::Graph(Graph { pose: Pose::ORIGIN, surface, domain });
     for (name, mold) in molds(1.0).into_iter().chain([("ridges", ridges)]) {
         let bound = mold.steepness();
         for n in 1..300 {

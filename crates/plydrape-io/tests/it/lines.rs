@@ -1,6 +1,6 @@
 //! Catenaries between cups that are no whole array along the yarns: some cups off, and rows at 45° to the yarns.
 
-use crate::common::{distance, drape, hung, lines};
+use crate::common::{self, distance, drape, hung, lines};
 use plydrape::catenary::{EndCondition, Profile, Span};
 use plydrape::equilibrium::Solver;
 use plydrape::layup::SlopeRule;
@@ -15,7 +15,7 @@ fn parse(ply: &str, rest: &str) -> Scene {
         "[model]\nkind = \"catenaries\"\n[ply]\n{ply}\nmaterial = \"krogh2018\"\n\
          [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n{rest}"
     );
-    scene::parse(&text, Path::new(""), "scene").unwrap_or_else(|error| panic!("{error}")).scene
+    common::parse(&text)
 }
 
 const CYLINDER: &str = "origin = \"centered\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\

@@ -1,6 +1,7 @@
 //! The materials that come with the program: they say where their numbers come from, how far these may be off, and they have the size
 //! of the plies that they stand for.
 
+use crate::common::parse;
 use plydrape::material::{Material, Scatter, Section, Spread};
 use plydrape::ply::{Grid, Ply};
 use plydrape_io::scene::{read_material, shipped_material, shipped_materials};
@@ -143,9 +144,7 @@ fn the_resin_of_a_ply_relaxes_at_its_temperature() {
              bending_rigidity_weft = 1e-5, tension = 1e6, shear_curve = 5, shear_rate = {{ stiffness = \"150 N/m\", relaxation = {relaxation} }} }}\n\
              [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
         );
-        let scene = plydrape_io::scene::parse(&text, Path::new(""), "scene.toml");
-        let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
-        scene.layup.ply.material.shear_rate.expect("resin")
+        parse(&text).layup.ply.material.shear_rate.expect("resin")
     };
     let near = |found: f64, expected: f64| {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");

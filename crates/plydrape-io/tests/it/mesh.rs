@@ -25,8 +25,7 @@ fn mesh(vertices: &[Point], triangles: &[[usize; 3]]) -> (Mesh, MeshReport) {
     for [a, b, c] in triangles {
         writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).unwrap();
     }
-    let still = Pose::new([0.0; 3], [0.0; 3]);
-    plydrape_io::read::mesh::parse("test.obj", text.as_bytes(), 1.0, &still, 0.0)
+    plydrape_io::read::mesh::parse("test.obj", text.as_bytes(), 1.0, &Pose::ORIGIN, 0.0)
         .unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -8,17 +8,13 @@ use std::path::Path;
 
 type Point = [f64; 3];
 
-fn still() -> Pose {
-    Pose::new([0.0; 3], [0.0; 3])
-}
-
 /// A fault and its remedy on one line.
 fn message(fault: &Error) -> String {
     format!("{fault}; {}\n", fault.help())
 }
 
 fn parse(file: &str, contents: impl AsRef<[u8]>) -> Result<(Mesh, MeshReport), Error> {
-    plydrape_io::read::mesh::parse(file, contents.as_ref(), 1.0, &still(), 0.0)
+    plydrape_io::read::mesh::parse(file, contents.as_ref(), 1.0, &Pose::ORIGIN, 0.0)
 }
 
 fn read(file: &str, contents: impl AsRef<[u8]>) -> (Mesh, MeshReport) {
@@ -287,8 +283,8 @@ fn the_blade_like_mold_is_one_open_surface() {
         eprintln!("SKIPPED: {} is not there; the blade was not read", path.display());
         return;
     }
-    let (mesh, report) =
-        plydrape_io::read::mesh::read(path, 1.0, &still(), 0.0).unwrap_or_else(|e| panic!("{e}"));
+    let (mesh, report) = plydrape_io::read::mesh::read(path, 1.0, &Pose::ORIGIN, 0.0)
+        .unwrap_or_else(|e| panic!("{e}"));
     // its sets say 1 to 3510 and 1 to 6764
     assert_eq!((report.vertices, report.triangles), (3510, 6764));
     assert_eq!((report.surfaces, report.closed, mesh.boundaries().len()), (1, 0, 1));
@@ -474,11 +470,12 @@ fn broken_files_are_refused_with_place_and_remedy() {
             Err(fault) => messages += &message(&fault),
         }
     }
-    let missing = plydrape_io::read::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still(), 0.0);
+    let missing =
+        plydrape_io::read::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &Pose::ORIGIN, 0.0);
     messages += &message(&missing.unwrap_err());
     for scale in [0.0, f64::NAN] {
         let fault =
-            plydrape_io::read::mesh::parse("a.obj", square.as_bytes(), scale, &still(), 0.0)
+            plydrape_io::read::mesh::parse("a.obj", square.as_bytes(), scale, &Pose::ORIGIN, 0.0)
                 .unwrap_err();
         messages += &message(&fault);
     }

@@ -1,13 +1,12 @@
 //! Timed motions against closed forms, finite differences of their samples, and what was planned.
 
-use crate::common::paper_ply;
+use crate::common::{cases, paper_ply};
 use plydrape::LayupError;
 use plydrape::geometry::vector::norm;
 use plydrape::motion::{Attitudes, Bounds, TimedMotion};
 use plydrape_io::scene;
 use plydrape_io::write::csv;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 type Point = [f64; 3];
 type Quaternion = [f64; 4];
@@ -527,12 +526,7 @@ fn waves() -> impl Strategy<Value = Vec<Vec<Point>>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 60,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(2018),
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(cases(60))]
 
     /// On any smooth path: limits hold, one is reached, ends are exact, times ascend.
     #[test]

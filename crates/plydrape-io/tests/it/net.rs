@@ -1,22 +1,20 @@
 //! The ideal drape against closed forms, printed figures, invariants and an independent solver.
 
-use crate::common::distance;
+use crate::common::{distance, meshed};
 use plydrape::LayupError;
 use plydrape::geometry::vector::dot;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
 use plydrape::net::{EdgeRule, Generators, Net, Placement, Reason};
-use std::fmt::Write;
-use std::sync::Arc;
 
 const BOTH_GENERATORS: [Generators; 2] = [Generators::Geodesic, Generators::LeastShear];
 const BOTH_RULES: [EdgeRule; 2] = [EdgeRule::Along, EdgeRule::Chord];
 
-fn level() -> Pose {
-    Pose::new([0.0; 3], [0.0; 3])
+fn sphere(radius: f64) -> Mold {
+    Mold::Sphere(Sphere { pose: Pose::ORIGIN, radius, face: Face::Outside })
 }
 
-fn sphere(radius: f64) -> Mold {
-    Mold::Sphere(Sphere { pose: level(), radius, face: Face::Outside })
+fn torus(pose: Pose, ring_radius: f64, tube_radius: f64) -> Mold {
+    Mold::Torus(Torus { pose, ring_radius, tube_radius, face: Face::Outside })
 }
 
 /// A net of 24 × 24 nodes, mesh 0.075 m, as in the published example.
@@ -33,6 +31,11 @@ fn published() -> Placement {
         generators: Generators::LeastShear,
         edges: EdgeRule::Chord,
     }
+}
+
+/// A net of n × n nodes with meshes of a width d, whose middle node is the seed.
+fn centered(n: usize, d: f64, place: [f64; 3]) -> Placement {
+    Placement { nodes: [n; 2], mesh: [d; 2], seed: [n / 2; 2], place, ..published() }
 }
 
 fn drape(mold: &Mold, layup: Placement) -> Net {
@@ -62,16 +65,11 @@ fn hemisphere_has_the_published_shear() {
 #[test]
 fn every_edge_has_its_length_and_every_node_lies_on_the_mold() {
     let saddle = Mold::Graph(Graph {
-        pose: level(),
+        pose: Pose::ORIGIN,
         surface: Surface::Saddle(Saddle { radii: [1.2, 0.9] }),
         domain: None,
     });
-    let torus = Mold::Torus(Torus {
-        pose: level(),
-        ring_radius: 2.0,
-        tube_radius: 1.1,
-        face: Face::Outside,
-    });
+    let torus = torus(Pose::ORIGIN, 2.0, 1.1);
     for (mold, start) in [(sphere(1.0), [0.03, -0.02]), (saddle, [0.1, 0.05]), (torus, [2.2, 0.1])]
     {
         for generators in BOTH_GENERATORS {
@@ -108,13 +106,13 @@ fn net_on_a_plane_is_affine() {
                 let layup = Placement {
                     nodes: [12, 9],
                     mesh: [0.03, 0.02],
-                    origin: [0.0; 2],
                     seed: [11, 3],
                     place: mold.highest_point([0.5, -0.4]).expect("a plane is everywhere"),
                     heading,
                     shear,
                     generators,
                     edges,
+                    ..published()
                 };
                 let net = drape(&mold, layup);
                 let (sin, cos) = f64::sin_cos(heading);
@@ -250,15 +248,11 @@ fn refined(cells: usize, generators: Generators) -> Vec<[f64; 3]> {
     let mold = sphere(0.6);
     let d = 0.4 / cells as f64;
     let layup = Placement {
-        nodes: [cells + 1; 2],
-        mesh: [d, d],
-        origin: [0.0; 2],
-        seed: [cells / 2, cells / 2],
-        place: [0.0, 0.0, 0.6],
         heading: 0.3,
         shear: 0.1,
         generators,
         edges: EdgeRule::Along,
+        ..centered(cells + 1, d, [0.0, 0.0, 0.6])
     };
     let net = drape(&mold, layup);
     let spread = |n: usize, by: f64| 0.4 * (n as f64 * by).fract();
@@ -294,11 +288,8 @@ fn least_shear_generators_tend_to_geodesics() {
 
 #[test]
 fn net_moves_with_its_mold() {
-    let torus = |pose: Pose| {
-        Mold::Torus(Torus { pose, ring_radius: 0.9, tube_radius: 0.5, face: Face::Outside })
-    };
     let moved = Pose::new([0.3, -0.7, 0.2], [0.0, 0.0, 1.1]);
-    let (here, there) = (torus(level()), torus(moved));
+    let [here, there] = [Pose::ORIGIN, moved].map(|pose| torus(pose, 0.9, 0.5));
     for generators in BOTH_GENERATORS {
         for edges in BOTH_RULES {
             let place = here.highest_point([0.8, 0.5]).expect("mold below");
@@ -325,24 +316,18 @@ fn net_moves_with_its_mold() {
 #[test]
 fn shear_on_a_torus_is_its_total_curvature() {
     let (ring, tube) = (0.9, 0.5);
-    let mold = Mold::Torus(Torus {
-        pose: level(),
-        ring_radius: ring,
-        tube_radius: tube,
-        face: Face::Outside,
-    });
+    let mold = torus(Pose::ORIGIN, ring, tube);
     let misses = [20_usize, 40].map(|cells| {
         let d = 0.5 / cells as f64;
         let layup = Placement {
             nodes: [cells + 1; 2],
             mesh: [d, d],
-            origin: [0.0; 2],
             seed: [0, 0],
             place: mold.highest_point([0.9, 0.2]).expect("mold below"),
             heading: 0.2,
-            shear: 0.0,
             generators: Generators::Geodesic,
             edges: EdgeRule::Along,
+            ..published()
         };
         let net = drape(&mold, layup);
         let mut total = 0.0;
@@ -371,22 +356,13 @@ fn shear_on_a_torus_is_its_total_curvature() {
 #[test]
 fn nodes_beyond_the_border_are_named() {
     let mold = Mold::Graph(Graph {
-        pose: level(),
+        pose: Pose::ORIGIN,
         surface: Surface::Saddle(Saddle { radii: [1.5, 1.5] }),
         domain: Some([[-0.3, 0.3], [-0.2, 0.2]]),
     });
     for generators in BOTH_GENERATORS {
-        let layup = Placement {
-            nodes: [21, 21],
-            mesh: [0.04, 0.04],
-            origin: [0.0; 2],
-            seed: [10, 10],
-            place: [0.0; 3],
-            heading: 0.0,
-            shear: 0.0,
-            generators,
-            edges: EdgeRule::Along,
-        };
+        let edges = EdgeRule::Along;
+        let layup = Placement { generators, edges, ..centered(21, 0.04, [0.0; 3]) };
         let net = drape(&mold, layup);
         assert_eq!((net.report.folded, net.report.unreached), (0, 0));
         assert_eq!(net.report.off_mold + net.report.placed, 441);
@@ -431,16 +407,8 @@ fn sine_gordon(cells: usize, mesh: f64) -> Vec<Vec<f64>> {
 #[test]
 fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
     for edges in BOTH_RULES {
-        let layup = Placement {
-            nodes: [51, 51],
-            mesh: [0.06, 0.06],
-            origin: [0.0; 2],
-            seed: [25, 25],
-            place: [0.0, 0.0, 1.0],
-            edges,
-            generators: Generators::Geodesic,
-            ..published()
-        };
+        let generators = Generators::Geodesic;
+        let layup = Placement { generators, edges, ..centered(51, 0.06, [0.0, 0.0, 1.0]) };
         let net = drape(&sphere(1.0), layup);
         let limit = sine_gordon(25, 0.06);
         let mut worst = 0.0_f64;
@@ -473,33 +441,10 @@ fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
     }
 }
 
-/// n × n cells of two triangles, those that are kept, over the unit square about (0, 0).
-fn meshed(
-    n: usize,
-    place: impl Fn([f64; 2]) -> [f64; 3],
-    keep: impl Fn(usize, usize) -> bool,
-) -> Mold {
-    let mut text = String::new();
-    let coordinate = |k: usize| k as f64 / n as f64 - 0.5;
-    for (i, j) in (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j))) {
-        let [x, y, z] = place([coordinate(i), coordinate(j)]);
-        writeln!(text, "v {x:?} {y:?} {z:?}").unwrap();
-    }
-    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
-        let a = j * (n + 1) + i + 1;
-        let (b, c, d) = (a + 1, a + n + 2, a + n + 1);
-        if keep(i, j) {
-            writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}").unwrap();
-        }
-    }
-    let (mesh, _) = plydrape_io::read::mesh::parse("mold.obj", text.as_bytes(), 1.0, &level(), 0.0)
-        .expect("a sound mesh");
-    Mold::Mesh(Arc::new(mesh))
-}
-
 /// A sphere's cap of 1 × 1 m of arc, its vertices on the sphere.
 fn meshed_cap(radius: f64, n: usize) -> Mold {
-    let on_sphere = |[x, y]: [f64; 2]| {
+    let on_sphere = |shares: [f64; 2]| {
+        let [x, y] = shares.map(|share| share - 0.5);
         let angle = x.hypot(y) / radius;
         let out = radius * angle.sin() / x.hypot(y).max(1e-300);
         [out * x, out * y, radius * angle.cos()]
@@ -516,17 +461,9 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
         for edges in BOTH_RULES {
             let away = [20, 40, 80].map(|n| {
                 let mold = meshed_cap(radius, n);
-                let layup = Placement {
-                    nodes: [41, 41],
-                    mesh: [0.015, 0.015],
-                    origin: [0.0; 2],
-                    seed: [20, 20],
-                    place: mold.highest_point([0.0123, -0.0071]).expect("mold below"),
-                    heading: 0.3,
-                    generators,
-                    edges,
-                    ..published()
-                };
+                let place = mold.highest_point([0.0123, -0.0071]).expect("mold below");
+                let central = centered(41, 0.015, place);
+                let layup = Placement { heading: 0.3, generators, edges, ..central };
                 let net = drape(&mold, layup);
                 assert_eq!(net.report.placed, 1681, "{:?}", net.report);
                 assert!(net.report.largest_edge_error < 1e-12, "{:?}", net.report);
@@ -548,16 +485,8 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
 #[test]
 fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
     let mold = meshed_cap(0.6, 40);
-    let layup = Placement {
-        nodes: [31, 31],
-        mesh: [0.04, 0.04],
-        origin: [0.0; 2],
-        seed: [15, 15],
-        place: mold.highest_point([0.0, 0.0]).expect("mold below"),
-        generators: Generators::Geodesic,
-        edges: EdgeRule::Along,
-        ..published()
-    };
+    let central = centered(31, 0.04, mold.highest_point([0.0, 0.0]).expect("mold below"));
+    let layup = Placement { generators: Generators::Geodesic, edges: EdgeRule::Along, ..central };
     let net = drape(&mold, layup);
     // half a meter of arc holds twelve meshes of 40 mm on the generators
     for n in 0..31_usize {
@@ -573,19 +502,14 @@ fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
 #[test]
 fn a_ply_goes_on_behind_a_hole() {
     let in_hole = |i: usize, j: usize| (12..16).contains(&i) && (10..14).contains(&j);
-    let mold = meshed(20, |[x, y]| [x, y, 0.25 * x], |i, j| !in_hole(i, j));
+    let slope = |shares: [f64; 2]| {
+        let [x, y] = shares.map(|share| share - 0.5);
+        [x, y, 0.25 * x]
+    };
+    let mold = meshed(20, slope, |i, j| !in_hole(i, j));
     for generators in BOTH_GENERATORS {
-        let layup = Placement {
-            nodes: [21, 21],
-            mesh: [0.04, 0.04],
-            origin: [0.0; 2],
-            seed: [10, 10],
-            place: [0.01, -0.02, 0.0025],
-            heading: 0.0,
-            generators,
-            edges: EdgeRule::Along,
-            ..published()
-        };
+        let central = centered(21, 0.04, [0.01, -0.02, 0.0025]);
+        let layup = Placement { generators, edges: EdgeRule::Along, ..central };
         let net = drape(&mold, layup);
         assert_eq!((net.report.folded, net.report.unreached), (0, 0));
         let run = 0.04 / 0.25_f64.hypot(1.0);

@@ -1,7 +1,7 @@
 //! Meshes as other programs write them, as molds of scenes: seams, gaps, pits and parts from CAD.
 
-use plydrape::mold::Mold;
 use plydrape::mold::mesh::Mesh;
+use plydrape::mold::{Mold, Pose};
 use plydrape_io::scene::{self, IdealDrape, SceneFile};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -203,8 +203,7 @@ fn a_part_from_cad_is_answered_with_its_converter() {
         ("part.igs", "python -m plydrape.cad part.igs -o part.stl"),
         ("part.iges", "python -m plydrape.cad part.iges -o part.stl"),
     ] {
-        let still = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
-        let error = plydrape_io::read::mesh::parse(file, b"ISO-10303-21;", 1.0, &still, 0.0);
+        let error = plydrape_io::read::mesh::parse(file, b"ISO-10303-21;", 1.0, &Pose::ORIGIN, 0.0);
         let error = error.unwrap_err();
         assert!(error.help().contains(command), "{}", error.help());
     }

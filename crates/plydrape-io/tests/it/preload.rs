@@ -1,7 +1,7 @@
 //! Grippers on mounts are commanded beyond their places: the pull that holds the ply taut, the press as it lands, and what a
 //! plan tolerates with them.
 
-use crate::common::{distance, example, examples};
+use crate::common::{distance, example, parse};
 use plydrape::errors::{Errors, Term};
 use plydrape::layup::Stepping;
 use plydrape::measure::Name;
@@ -10,7 +10,6 @@ use plydrape::planner;
 use plydrape::planner::path::Strategy;
 use plydrape::planner::path::preload::{Preload, ends};
 use plydrape::scene::Scene;
-use plydrape_io::scene;
 use std::ops::ControlFlow;
 
 /// 4 × 3 grippers on mounts of 2 N/mm and 5 N/mm over a mold.
@@ -21,7 +20,7 @@ fn on_mounts(mold: &str) -> Scene {
          stiffness = {{ lateral = \"2 N/mm\", axial = \"5 N/mm\" }}\n\
          [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 10\n"
     );
-    scene::parse(&text, &examples(), "scene.toml").unwrap_or_else(|error| panic!("{error}")).scene
+    parse(&text)
 }
 
 fn strategy(press: f64, pull: f64) -> Strategy {

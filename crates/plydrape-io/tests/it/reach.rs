@@ -1,18 +1,15 @@
 //! Where grippers may be: the smallest distance between them and their workspace, over all steps.
 
+use crate::common::{drape, parse};
 use plydrape::measure::{Name, Verdict};
 use plydrape_io::result::ResultFile;
-use plydrape_io::scene;
-use std::path::Path;
 
 /// Two grippers of a strip that come together from 98 mm to 80 mm at the height of 50 mm, in 10 steps.
 fn closing(limits: &str) -> ResultFile {
     let text = format!(
         "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n[target]\npositions = [[[0, 0, 0.05], [0.08, 0, 0.05]]]\n[motion]\nkind = \"straight\"\nsteps = 10\n[limits]\ntilt = \"89 deg\"\n{limits}\n"
     );
-    let scene =
-        scene::parse(&text, Path::new(""), "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene;
-    crate::common::drape(&scene)
+    drape(&parse(&text))
 }
 
 fn verdict<'a>(result: &'a ResultFile, name: &str) -> Option<&'a Verdict> {

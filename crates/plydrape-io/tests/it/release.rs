@@ -1,6 +1,6 @@
 //! When pads let go: from the scene file to the result and its states.
 
-use crate::common::decided;
+use crate::common::{decided, parse};
 use plydrape::layup::{Release, ReleaseOrder};
 use plydrape::measure::Name;
 use plydrape::outcome::Status;
@@ -8,7 +8,7 @@ use plydrape::scene::Scene;
 use plydrape::sheet::{Event, EventKind};
 use plydrape_io::result::read;
 use plydrape_io::write::csv;
-use plydrape_io::{ResultFile, scene, write_all};
+use plydrape_io::{ResultFile, write_all};
 use std::path::Path;
 
 /// A ply of 4 × 2 grippers that is lowered on a plane, sheared by 10°, with more tables.
@@ -19,7 +19,7 @@ fn flat(more: &str) -> Scene {
         [motion]\nkind = \"straight\"\nsteps = 8\n[sheet]\nmesh = 0.025\nkeep = 3\n\
         [contact]\nfriction = 0.3\n{more}"
     );
-    scene::parse(&text, Path::new("."), "flat").unwrap_or_else(|fault| panic!("{fault}")).scene
+    parse(&text)
 }
 
 /// The result of a scene, with its states in a folder that lives as long.

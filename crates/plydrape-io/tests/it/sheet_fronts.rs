@@ -1,9 +1,8 @@
 //! How the sheet judges fronts on the dome and straight paths: figures of two independent cloth simulators.
 
-use crate::common::{drape_sheet, example};
+use crate::common::{RING, drape_sheet, example, motion};
 use plydrape::layup::Friction;
 use plydrape::measure::Name;
-use plydrape::motion::Motion;
 use plydrape::outcome::Status;
 use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
 use plydrape::scene::Scene;
@@ -14,20 +13,10 @@ fn front(a: f64, slope: f64) -> Scene {
     let mut scene = example("04_dome");
     scene.layup.settings.sheet.mesh = Some(0.02);
     let curvature = a * scene.layup.ply.cell[0];
-    let strategy = Strategy {
-        start: [0.5; 2],
-        ratio: 1.0,
-        angle: 0.0,
-        curvature,
-        slope,
-        pretension: 0.0,
-        press: 0.0,
-        pull: 0.0,
-    };
+    let strategy = Strategy { curvature, slope, pretension: 0.0, ..RING };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
-    scene.layup.motion =
-        Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    scene.layup.motion = motion(positions);
     scene
 }
 

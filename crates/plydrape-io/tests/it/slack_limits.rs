@@ -1,18 +1,15 @@
 //! Limits in the currency of an engineer: slack as a fiber angle and as the height of a wrinkle, and presets of limits.
 
-use crate::common::{drape, example};
+use crate::common::{drape, example, parse};
 use plydrape::measure::{Limits, Name, Preset, Verdict};
 use plydrape::scene::Scene;
 use plydrape_io::result::ResultFile;
-use std::path::Path;
 
 /// The paper's example with what is given in `[limits]`.
 fn scene(limits: &str) -> Scene {
     let text = include_str!("../../../../examples/01_flat_sheared_mold/scene.toml");
     let text = format!("{text}\n[limits]\n{limits}\n");
-    plydrape_io::scene::parse(&text, Path::new(""), "of the test")
-        .unwrap_or_else(|e| panic!("{e}"))
-        .scene
+    parse(&text)
 }
 
 fn judged(result: &ResultFile, name: Name) -> Option<&Verdict> {

@@ -1,14 +1,13 @@
 //! The stepwise planner: its gradients against central differences of the model solved anew, and its plans
 //! judged by draping along them.
 
-use crate::common::{self, Point, distance, example, lines};
+use crate::common::{self, Point, RULES, cases, distance, example, lines, motion};
 use crate::scaled::scaled;
 use plydrape::draping::spans::Equilibrium;
 use plydrape::equilibrium::{Side, Solver, Status};
-use plydrape::layup::{ContactEnd, SlopeRule, Stepping};
+use plydrape::layup::{ContactEnd, Stepping};
 use plydrape::measure::Name;
 use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
-use plydrape::motion::Motion;
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
 use plydrape::planner::stepwise::tuning::TUNING;
 use plydrape::planner::stepwise::{Stepwise, StepwiseEnd, stepwise};
@@ -16,7 +15,6 @@ use plydrape::ply::{ContactSegment, Grid};
 use plydrape::scene::Scene;
 use plydrape_io::ResultFile;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use std::ops::ControlFlow;
 
 /// A ply above or on a mold, with its contact segments.
@@ -74,7 +72,7 @@ fn in_contact(
 }
 
 fn any_ply() -> impl Strategy<Value = Ply> {
-    let rule = prop::sample::select(vec![SlopeRule::MinForce, SlopeRule::MomentBalance]);
+    let rule = prop::sample::select(RULES.as_slice());
     let end = prop::sample::select(vec![ContactEnd::Free, ContactEnd::Tangent]);
     let mold = any::<bool>();
     let tilt = prop::sample::select(vec![3.0_f64, 12.0, 40.0]);
@@ -152,7 +150,7 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
 /// Every quantity that a plan may limit, by name.
 fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
     let Solved { solver, shape, positions } = solved;
-    let look = Sensitivity::whole(&ply.scene.layup, solver, shape, positions, &ply.contacts);
+    let look = Sensitivity::new(&ply.scene.layup, solver, shape, positions, &ply.contacts, 0.0);
     let mut out = Vec::new();
     let grid = ply.scene.layup.ply.grid;
     for span in &look.shape.spans {
@@ -203,12 +201,9 @@ fn kind(ply: &Ply, solved: &Solved) -> (Vec<Option<bool>>, Vec<bool>, Vec<bool>,
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 200,
         max_global_rejects: 4000,
         max_shrink_iters: 0,
-        rng_seed: RngSeed::Fixed(2018),
-        failure_persistence: None,
-        ..Default::default()
+        ..cases(200)
     })]
 
     /// Both slope rules, free and tangent contact ends, slopes at their bounds, sheared and in contact in many ways:
@@ -269,8 +264,7 @@ fn plan(scene: &Scene) -> Stepwise {
 /// Drapes a scene along a plan.
 fn drape(scene: &Scene, plan: &Stepwise) -> ResultFile {
     let mut scene = scene.clone();
-    let times = (0..plan.positions.len()).map(|n| n as f64).collect();
-    scene.layup.motion = Motion { times, positions: plan.positions.clone() };
+    scene.layup.motion = motion(plan.positions.clone());
     common::drape(&scene)
 }
 
@@ -300,7 +294,7 @@ fn keeps_its_limits(result: &ResultFile, what: &str) {
 /// and of a new scene, nothing that is judged is broken, and the grippers stand on their targets to the last bit.
 #[test]
 fn the_plan_of_the_flat_sheared_mold_is_accepted() {
-    for slopes in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
+    for slopes in RULES {
         for tolerance in [1e-3, 2e-4] {
             let mut scene = cut("01_flat_sheared_mold");
             scene.layup.settings.slopes = slopes;

@@ -1,23 +1,18 @@
 //! Grippers that a robot carries: what it cannot follow is not done, in both models, with errors or without.
 
-use crate::common::drape_sheet;
+use crate::common::{drape_sheet, parse};
 use plydrape::layup::Layup;
 use plydrape::measure::Name;
 use plydrape::scene::Scene;
 use plydrape_io::result::ResultFile;
 use plydrape_io::result::read;
 use plydrape_io::robot::program::Program;
-use plydrape_io::scene;
 use plydrape_io::text::table::verdict_in_a_line;
 use std::path::Path;
 
 /// 2 × 2 grippers, 98 mm apart, of which one row comes 18 mm nearer to the other and 30 mm lower.
 fn closing(tool: &str) -> Scene {
-    scene_of(&text(tool))
-}
-
-fn scene_of(text: &str) -> Scene {
-    scene::parse(text, Path::new(""), "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene
+    parse(&text(tool))
 }
 
 fn text(tool: &str) -> String {
@@ -29,7 +24,7 @@ fn text(tool: &str) -> String {
 /// The scene with pads that have a size.
 fn padded(tool: &str) -> Scene {
     let text = text(tool).replace("height = 0.2", "height = 0.2\npad_radius = 0.01");
-    scene_of(&text.replace("[ply]", "[ply]\noverhang = 0.01"))
+    parse(&text.replace("[ply]", "[ply]\noverhang = 0.01"))
 }
 
 fn along_z() -> Scene {

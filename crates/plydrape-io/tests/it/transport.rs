@@ -1,34 +1,16 @@
 //! The way from the pick-up to the first formation: rigid, clear of mold and table, and formed near the mold.
 
-use crate::common::{Point, distance, drape, example};
+use crate::common::{Point, RING, distance, drape, example, motion, parse, straight};
 use plydrape::layup::Model;
 use plydrape::measure::Name;
-use plydrape::motion::Motion;
 use plydrape::motion::TimedMotion;
 use plydrape::planner::path::tuning::TUNING;
-use plydrape::planner::path::{Formation, LowStart, MoldHeights, Strategy, trajectory, transport};
+use plydrape::planner::path::{Formation, LowStart, MoldHeights, trajectory, transport};
 use plydrape::scene::Scene;
-use std::path::Path;
-
-const RING: Strategy = Strategy {
-    start: [0.5; 2],
-    ratio: 1.0,
-    angle: 0.0,
-    curvature: 0.4,
-    slope: 0.4,
-    pretension: 1e-4,
-    press: 0.0,
-    pull: 0.0,
-};
-
-fn scene(text: &str) -> Scene {
-    let scene = plydrape_io::scene::parse(text, Path::new(""), "of the test");
-    scene.unwrap_or_else(|e| panic!("{text}\n{e}")).scene
-}
 
 /// A scene with a mold and a start, of 4 × 3 grippers with cells of 100 mm.
 fn on(mold: &str, start: &str) -> Scene {
-    scene(&format!(
+    parse(&format!(
         "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 3]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
          [mold]\n{mold}\n[grippers]\n{start}\n[target]\nseed = \"middle\"\n"
     ))
@@ -285,7 +267,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
                 + chance.within([0.002, 0.2]);
             let start: Vec<Point> = start.iter().map(|p| [p[0], p[1], p[2] + raise]).collect();
             let mut scene = plain.clone();
-            scene.layup.motion = Motion { times: vec![0.0], positions: vec![start.clone()] };
+            scene.layup.motion = motion(vec![start.clone()]);
             let (formation, positions) = to_ring(&scene, 90);
             let count = carried(&positions, 90);
             // mirrored at its end, so that it ends at the place where the array is formed
@@ -370,7 +352,7 @@ fn a_transport_is_scaled_and_turned_with_its_scene() {
         let (sin, cos) = angle.sin_cos();
         let place = |x: f64, y: f64| [scale * (cos * x - sin * y), scale * (sin * x + cos * y)];
         let start = place(0.9, 0.4);
-        let scene = scene(&format!(
+        let scene = parse(&format!(
             "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 3]\ncell = [{c}, {c}]\nmaterial = \"krogh2018\"\n\
              [mold]\nkind = \"cylinder\"\nradius = {r}\nposition = [0, 0, -{r}]\nrotation = [0, 0, {angle}]\n\
              [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = [{x}, {y}]\ndirection = {heading}\n\
@@ -423,12 +405,11 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     };
     let mut scene = example("04_dome");
     let start = beside(&scene);
-    scene.layup.motion = Motion { times: vec![0.0], positions: vec![start.clone()] };
+    scene.layup.motion = motion(vec![start.clone()]);
     let (formation, positions) = to_ring(&scene, 90);
     let along = |positions: Vec<Vec<Point>>| {
-        let times = (0..positions.len()).map(|k| k as f64).collect();
         let mut scene = scene.clone();
-        scene.layup.motion = Motion { times, positions };
+        scene.layup.motion = motion(positions);
         let drape = drape(&scene);
         let worst = |name| drape.summary.worst.value(name).expect("grippers");
         [worst(Name::Tilt), worst(Name::Overstretch)]
@@ -440,12 +421,7 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
         rounded(&positions[..carried(&positions, 90)], 1).split_last().expect("steps").1.to_vec(),
     );
     assert!((tilt - at_start).abs() < 0.1, "{tilt}°, {at_start}° at the start");
-    let straight = (0..=20).map(|k| {
-        let t = f64::from(k) / 20.0;
-        let pairs = start.iter().zip(&formation);
-        pairs.map(|(a, b)| [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]))).collect()
-    });
-    let [tilt, _] = along(straight.collect());
+    let [tilt, _] = along(straight(&start, &formation, 1.0, 21));
     assert!(tilt > 40.0, "{tilt}°");
 
     // so does the whole drape of a ring, evaluated as the search does

@@ -1,10 +1,10 @@
 //! What the verdict of a drape says: depths, folds, landing shear, one rule for all molds, convergence, scale, and that nothing
 //! fails in silence.
 
-use crate::common::{Point, drape, example, hung, lines};
+use crate::common::{Point, contact, drape, example, hung, lines, mesh, motion, parse, straight};
 use plydrape::draping::ContactStatus;
 use plydrape::equilibrium::Status;
-use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
+use plydrape::layup::{ContactEnd, Stepping};
 use plydrape::material::Section;
 use plydrape::measure::{Name, Verdict};
 use plydrape::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface};
@@ -12,36 +12,20 @@ use plydrape::motion::Motion;
 use plydrape::outcome::Step;
 use plydrape::scene::Scene;
 use plydrape_io::result::ResultFile;
-use std::path::Path;
-use std::sync::Arc;
-
-fn parse(text: &str) -> Scene {
-    plydrape_io::scene::parse(text, Path::new(""), "of the test")
-        .unwrap_or_else(|e| panic!("{e}"))
-        .scene
-}
 
 fn verdict(result: &ResultFile, name: Name) -> &Verdict {
     let found = result.summary.limits.iter().find(|verdict| verdict.name == name);
     found.unwrap_or_else(|| panic!("{name:?} is not judged"))
 }
 
-fn motion(positions: Vec<Vec<Point>>) -> Motion {
-    Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions }
-}
-
 /// A motion cut into other steps of the same straight ways.
 fn in_steps(scene: &Scene, steps: usize) -> Motion {
     let (first, last) =
         (&scene.layup.motion.positions[0], scene.layup.motion.positions.last().expect("steps"));
-    let positions_at = |t: f64| -> Vec<Point> {
-        let mix = |(a, b): (&Point, &Point)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
-        first.iter().zip(last).map(mix).collect()
-    };
     let duration = scene.layup.motion.times.last().expect("steps");
     Motion {
         times: (0..steps).map(|n| duration * n as f64 / (steps - 1) as f64).collect(),
-        positions: (0..steps).map(|n| positions_at(n as f64 / (steps - 1) as f64)).collect(),
+        positions: straight(first, last, 1.0, steps),
     }
 }
 
@@ -97,12 +81,7 @@ fn a_gripper_that_has_passed_its_contact_makes_a_fold_and_no_stretch() {
     let mut scene = example("02_hanging_strip");
     scene.layup.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
     let tolerance = 1e-4;
-    scene.layup.settings.contact = ContactSettings {
-        tolerance,
-        stepping: Stepping::Cut,
-        end: ContactEnd::Free,
-        ..ContactSettings::default()
-    };
+    scene.layup.settings.contact = contact(tolerance, Stepping::Cut, ContactEnd::Free);
     let ends = |x: f64, z: f64| vec![[0.0, 0.0, z], [x, 0.0, z]];
     // down in 400 steps, until both grippers are 2 mm above the mold
     const LOW: f64 = 2e-3;
@@ -136,19 +115,12 @@ fn a_gripper_that_has_passed_its_contact_makes_a_fold_and_no_stretch() {
 #[test]
 fn a_flat_mold_has_one_outcome_by_whatever_name() {
     let graph = |surface| {
-        Mold::Graph(Graph {
-            pose: Pose::new([0.0; 3], [0.0; 3]),
-            surface,
-            domain: Some([[-1.0, 1.0]; 2]),
-        })
+        Mold::Graph(Graph { pose: Pose::ORIGIN, surface, domain: Some([[-1.0, 1.0]; 2]) })
     };
     let z = plydrape_io::read::formula::read("-1e-12*x^2").expect("a formula");
     let axis: Vec<f64> = (0..21).map(|n| -1.0 + 0.1 * f64::from(n)).collect();
     let heights = HeightGrid::new(axis.clone(), axis, vec![0.0; 441]).expect("a grid");
     let square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n";
-    let pose = Pose::new([0.0; 3], [0.0; 3]);
-    let (mesh, _) = plydrape_io::read::mesh::parse("flat.obj", square.as_bytes(), 1.0, &pose, 0.0)
-        .expect("a mesh");
     let sphere = |radius: f64| {
         let pose = Pose::new([0.15, 0.05, -radius], [0.0; 3]);
         Mold::Sphere(Sphere { pose, radius, face: Face::Outside })
@@ -172,7 +144,7 @@ fn a_flat_mold_has_one_outcome_by_whatever_name() {
     };
     compare(graph(Surface::Formula { z }), "formula", 1e-6);
     compare(graph(Surface::HeightGrid(heights)), "height grid", 1e-6);
-    compare(Mold::Mesh(Arc::new(mesh)), "mesh", 1e-6);
+    compare(mesh(square), "mesh", 1e-6);
     compare(sphere(1e7), "sphere of 10 000 km", 1e-4);
     // and a sphere tends to the plane as it grows: 0.3 m across sag by 0.0225/2R there
     let slack = |radius: f64| {

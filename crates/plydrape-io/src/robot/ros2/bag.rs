@@ -2,7 +2,7 @@
 //!
 //! Times in it count from the start of the drape, so that the same result gives the same bytes.
 
-use super::{cdr, schema::Schema};
+use super::{cdr, schema};
 use crate::Error;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{McapError, WriteOptions, Writer};
@@ -40,17 +40,15 @@ impl Bag {
         Ok(Bag { writer, channels: BTreeMap::new(), messages: Vec::new() })
     }
 
-    /// Adds a topic of a durability.
+    /// Adds a topic of messages of a full name, and of a durability.
     pub fn channel(
         &mut self,
         topic: &'static str,
-        schema: Schema,
+        message: &str,
         durability: u8,
     ) -> Result<(), Error> {
-        let known = self
-            .writer
-            .add_schema(schema.name, "ros2msg", schema.text.as_bytes())
-            .map_err(unmade)?;
+        let text = schema::text(message);
+        let known = self.writer.add_schema(message, "ros2msg", text.as_bytes()).map_err(unmade)?;
         let offered = [("offered_qos_profiles".to_owned(), quality(durability))];
         let id = self.writer.add_channel(known, topic, "cdr", &offered.into()).map_err(unmade)?;
         self.channels.insert(topic, Channel { id, messages: 0 });
@@ -61,10 +59,10 @@ impl Bag {
     pub fn latched<T: Serialize>(
         &mut self,
         topic: &'static str,
-        schema: Schema,
+        name: &str,
         message: &T,
     ) -> Result<(), Error> {
-        self.channel(topic, schema, TRANSIENT_LOCAL)?;
+        self.channel(topic, name, TRANSIENT_LOCAL)?;
         self.write(topic, 0, message)
     }
 

@@ -1,4 +1,4 @@
-//! The messages as Rust types, with the same names and same order of fields as in their definitions (`schema.rs`).
+//! The messages as Rust types, with the same names and same order of fields as in their definitions (`messages.txt`).
 
 use crate::write::csv::without_rounding;
 use serde::Serialize;

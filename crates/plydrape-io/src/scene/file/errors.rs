@@ -1,12 +1,11 @@
 //! The keys of the table `[errors]`.
 
 use crate::scene::located::{CountOrNone, Located, Seed};
-use crate::scene::quantity::{Measure, Quantity, Ratio, Unchecked, written};
+use crate::scene::quantity::{Measure, Quantity, Ratio, written};
 use crate::scene::usual::{AngleError, CellError, CellShare, Waves};
 use plydrape::errors::Errors;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use std::borrow::Cow;
 
 /// How far a real cell may be from this scene. Every term is a table of one key: `deviation` is the standard deviation of a
 /// normal law, `bound` the largest size, every value below it being as likely. A term that is left out is that of the cell, or zero.
@@ -106,16 +105,17 @@ pub(in crate::scene) struct MoldErrorsTable {
 pub(in crate::scene) type Term<M> = Located<TermTable<M>>;
 
 /// How far a number may be off: one of both keys.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(
     deny_unknown_fields,
     bound = "M: Measure",
     expecting = "a table of one key, `deviation` or `bound`"
 )]
-pub(in crate::scene) struct TermTable<M> {
+#[schemars(inline, bound = "M: Measure", extend("minProperties" = 1, "maxProperties" = 1))]
+pub(in crate::scene) struct TermTable<M: Measure> {
     /// Standard deviation of a normal law.
     pub deviation: Option<Quantity<M>>,
-    /// Largest size.
+    /// Largest size; every value below it is as likely.
     pub bound: Option<Quantity<M>>,
 }
 
@@ -130,29 +130,4 @@ pub(in crate::scene) struct ShareTable {
     pub bound: Option<Quantity<Ratio>>,
     /// Largest factor f from 1 to 10: the value is the nominal one times f^u, u being even from -1 to 1.
     pub factor: Option<Quantity<Ratio>>,
-}
-
-impl<M: Measure> JsonSchema for TermTable<M> {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        format!("error of {}", M::NAME).into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut key = |description: &str| {
-            let mut schema = Unchecked::<M>::json_schema(generator);
-            schema.insert("description".into(), description.into());
-            schema
-        };
-        let deviation = key("Standard deviation of a normal law.");
-        let bound = key("Largest size; every value below it is as likely.");
-        json_schema!({
-            "type": "object",
-            "properties": { "deviation": deviation, "bound": bound },
-            "additionalProperties": false,
-            "minProperties": 1,
-            "maxProperties": 1
-        })
-    }
 }

@@ -29,8 +29,10 @@ pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 
-use super::choice::{Curve, FrictionChoice, MaterialChoice, PlaceChoice, Positions, WarpChoice};
-use super::drawing::{HoleChoice, OutlineChoice, Polygon};
+use super::choice::{
+    Curve, FrictionChoice, HoleChoice, MaterialChoice, OutlineChoice, PlaceChoice, Polygon,
+    Positions, WarpChoice,
+};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{Mass, Quantity, Ratio, written};
 use super::usual::{

@@ -39,7 +39,7 @@ pub(super) fn limits(
 }
 
 /// Limits by how much of them is used up, the most first.
-fn closest_first(limits: &[Verdict]) -> Vec<&Verdict> {
+pub(crate) fn closest_first(limits: &[Verdict]) -> Vec<&Verdict> {
     let mut sorted: Vec<&Verdict> = limits.iter().collect();
     sorted.sort_by(|a, b| b.ratio().total_cmp(&a.ratio()));
     sorted

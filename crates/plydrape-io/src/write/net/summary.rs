@@ -169,31 +169,24 @@ impl Summary {
             EdgeRule::Along => "along the mold",
             EdgeRule::Chord => "as straight bars",
         };
-        let mut lines = vec![
-            ("nodes", format!("{nu} × {nv}, {} on the mold", self.placed)),
-            ("mesh", format!("{} × {} mm, measured {edges}", millimeters(du), millimeters(dv))),
-            (
-                "generators",
-                format!("{generators}, from node [{i}, {j}] at {} mm", place_text(self.seed_place)),
-            ),
-        ];
+        let mut text = String::new();
+        let mut add = |label: &str, entry: String| _ = writeln!(text, "{label:<14} {entry}");
+        add("nodes", format!("{nu} × {nv}, {} on the mold", self.placed));
+        add("mesh", format!("{} × {} mm, measured {edges}", millimeters(du), millimeters(dv)));
+        let at = place_text(self.seed_place);
+        add("generators", format!("{generators}, from node [{i}, {j}] at {at} mm"));
 
         // its shear, and how exactly its edges have their length
         match (self.max_shear_deg, &self.max_shear_at) {
             (Some(largest), Some(ShearPlace { u, v, place, .. })) => {
-                let (u, v) = (millimeters(*u), millimeters(*v));
-                lines.push((
-                    "largest shear",
-                    format!(
-                        "{largest:.2}° at u = {u} mm, v = {v} mm, which is {} mm",
-                        place_text(*place)
-                    ),
-                ));
-                lines.push(("mean shear", format!("{:.2}°", self.mean_shear_deg)));
+                let (u, v, at) = (millimeters(*u), millimeters(*v), place_text(*place));
+                let worst = format!("{largest:.2}° at u = {u} mm, v = {v} mm, which is {at} mm");
+                add("largest shear", worst);
+                add("mean shear", format!("{:.2}°", self.mean_shear_deg));
             }
-            _ => lines.push(("shear", "none: the net has no whole cell".into())),
+            _ => add("shear", "none: the net has no whole cell".into()),
         }
-        lines.push(("edge error", format!("{:.1e} mm at most", self.max_edge_error * 1e3)));
+        add("edge error", format!("{:.1e} mm at most", self.max_edge_error * 1e3));
 
         // nodes without a place on the mold, with the first of each reason
         let missing = [
@@ -203,22 +196,14 @@ impl Summary {
         ];
         for (label, count, reason) in missing {
             let first = self.first_missing.iter().find(|m| m.reason == reason);
-            lines.push((label, first.map_or("no node".into(), |first| missing_text(count, first))));
+            add(label, first.map_or("no node".into(), |first| missing_text(count, first)));
         }
-
-        lines.extend(self.lines_of_ply());
-
-        let mut text = String::new();
-        for (label, entry) in lines {
-            let _ = writeln!(text, "{label:<14} {entry}");
-        }
-        let _ = writeln!(text, "\n{}", self.verdict());
-        text
+        self.lines_of_ply(&mut add);
+        text + &format!("\n{}\n", self.verdict())
     }
 
-    /// The lines of the table on the boundary of the ply, sharp edges, trim and the search for the seed.
-    fn lines_of_ply(&self) -> Vec<(&'static str, String)> {
-        let mut lines = Vec::new();
+    /// Adds the lines of the table on the boundary of the ply, sharp edges, trim and the search for the seed.
+    fn lines_of_ply(&self, add: &mut dyn FnMut(&str, String)) {
         let of_ply = |at: &PlyPoint| {
             let [u, v] = at.fabric.map(tenths);
             format!("u = {u}, v = {v} mm")
@@ -226,83 +211,52 @@ impl Summary {
 
         // which part of the boundary lies on the mold, hangs over its edge or has no place
         if let Some(boundary) = &self.boundary {
-            lines.push(("boundary", format!("{} mm on the mold", tenths(boundary.length))));
+            add("boundary", format!("{} mm on the mold", tenths(boundary.length)));
             if let Some(at) = &boundary.farthest_at {
                 let [length, beyond] =
                     [boundary.off_mold_length, boundary.farthest_beyond].map(tenths);
-                let area = square_millimeters(boundary.off_mold_area);
-                lines.push((
-                    "hangs over",
-                    format!(
-                        "{length} mm of boundary, {area} mm²; up to {beyond} mm beyond at {}",
-                        of_ply(at)
-                    ),
-                ));
+                let (area, at) = (square_millimeters(boundary.off_mold_area), of_ply(at));
+                let far = format!("up to {beyond} mm beyond at {at}");
+                add("hangs over", format!("{length} mm of boundary, {area} mm²; {far}"));
             }
             if boundary.folded_length > 0.0 || boundary.folded_area > 0.0 {
                 let length = tenths(boundary.folded_length);
                 let area = square_millimeters(boundary.folded_area);
-                lines.push((
-                    "no place",
-                    format!("{length} mm of boundary, {area} mm²: the ply folds"),
-                ));
+                add("no place", format!("{length} mm of boundary, {area} mm²: the ply folds"));
             }
         }
 
         // sharp edges of the mold that the ply lies over
         if let Some(edges) = &self.sharp_edges {
-            lines.push((
-                "sharp edges",
-                match (edges.sharpest_deg, &edges.sharpest_at) {
-                    (Some(angle), Some(at)) => format!(
-                        "{} mm under the ply, up to {angle:.0}° at {}",
-                        tenths(edges.length),
-                        of_ply(at)
-                    ),
-                    _ => "none under the ply".into(),
-                },
-            ));
+            let found = match (edges.sharpest_deg, &edges.sharpest_at) {
+                (Some(angle), Some(at)) => {
+                    let (length, at) = (tenths(edges.length), of_ply(at));
+                    format!("{length} mm under the ply, up to {angle:.0}° at {at}")
+                }
+                _ => "none under the ply".into(),
+            };
+            add("sharp edges", found);
         }
 
         // how far the boundary is from the target boundary, to both sides
         if let Some(trim) = &self.trim {
             let most = |place: &Option<plydrape::net::TrimPlace>, side: &str| match place {
                 Some(place) => {
-                    format!(
-                        "{} mm {side} at most, at {}",
-                        millimeters(place.error.abs()),
-                        of_ply(&place.at)
-                    )
+                    let (error, at) = (millimeters(place.error.abs()), of_ply(&place.at));
+                    format!("{error} mm {side} at most, at {at}")
                 }
                 None => format!("nowhere {side}"),
             };
-            lines.push(("trim", most(&trim.beyond, "beyond")));
-            lines.push(("", most(&trim.short, "short")));
-            lines.push((
-                "",
-                format!(
-                    "{} mm on the mean of {} mm",
-                    millimeters(trim.mean),
-                    tenths(trim.compared)
-                ),
-            ));
+            add("trim", most(&trim.beyond, "beyond"));
+            add("", most(&trim.short, "short"));
+            let (mean, compared) = (millimeters(trim.mean), tenths(trim.compared));
+            add("", format!("{mean} mm on the mean of {compared} mm"));
             let (place, far) = trim.farthest_wanted;
-            lines.push((
-                "",
-                format!(
-                    "{} mm from the target boundary at most, at {} mm",
-                    millimeters(far),
-                    place_text(place)
-                ),
-            ));
+            let (far, at) = (millimeters(far), place_text(place));
+            add("", format!("{far} mm from the target boundary at most, at {at} mm"));
             if trim.not_compared > 0.0 {
-                lines.push((
-                    "",
-                    format!(
-                        "{} mm of boundary not compared: off the mold",
-                        tenths(trim.not_compared)
-                    ),
-                ));
+                let rest = tenths(trim.not_compared);
+                add("", format!("{rest} mm of boundary not compared: off the mold"));
             }
         }
 
@@ -312,21 +266,13 @@ impl Summary {
             let shear = |shear: f64| format!("{shear:.2}°");
             let from_middle =
                 search.held_max_shear_deg.filter(|held| Some(*held) != search.max_shear_deg);
-            lines.push((
-                "search",
-                format!(
-                    "seed u = {u}, v = {v} mm, heading {:.2}°, best of {}: {}{}",
-                    search.heading_deg,
-                    search.choices,
-                    search.max_shear_deg.map_or("no whole cell".into(), shear),
-                    from_middle.map_or(String::new(), |held| format!(
-                        " against {} from the middle",
-                        shear(held)
-                    ))
-                ),
-            ));
+            let found = search.max_shear_deg.map_or("no whole cell".into(), shear);
+            let held = from_middle
+                .map_or(String::new(), |held| format!(" against {} from the middle", shear(held)));
+            let SearchSummary { heading_deg, choices, .. } = search;
+            let seed = format!("seed u = {u}, v = {v} mm, heading {heading_deg:.2}°");
+            add("search", format!("{seed}, best of {choices}: {found}{held}"));
         }
-        lines
     }
 
     /// One line: accepted, or not and why.

@@ -324,10 +324,7 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
             }
             other if line.takes("=") => {
                 assert!(block.is_none() && data.signals[other].starts_with("OUT"), "{other}");
-                let on = line.takes("TRUE");
-                if !on {
-                    line.expect(&["FALSE"]);
-                }
+                let on = line.switch("TRUE", "FALSE");
                 match other.strip_prefix("VAC_") {
                     Some(gripper) => played.vacuum.push((*time, gripper.to_lowercase(), on)),
                     None => played.start_signal(on),

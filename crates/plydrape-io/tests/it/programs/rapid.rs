@@ -199,11 +199,7 @@ fn statement(reader: &mut Reader, names: &[String; 2]) -> Option<Statement> {
     let statement = match word.as_str() {
         "ConfJ" | "ConfL" => {
             reader.expect(&["\\"]);
-            let on = reader.takes("On");
-            if !on {
-                reader.expect(&["Off"]);
-            }
-            Statement::Monitor(on)
+            Statement::Monitor(reader.switch("On", "Off"))
         }
         "MoveJ" | "MoveL" | "TriggL" => return Some(movement(reader, &word, names)),
         "PathAccLim" => {

@@ -140,6 +140,15 @@ impl Reader {
         found
     }
 
+    /// Which of two words comes next: whether it is the first one.
+    pub fn switch(&mut self, on: &str, off: &str) -> bool {
+        let is_on = self.takes(on);
+        if !is_on {
+            self.expect(&[off]);
+        }
+        is_on
+    }
+
     pub fn expect(&mut self, wanted: &[&str]) {
         for wanted in wanted {
             if !self.takes(wanted) {

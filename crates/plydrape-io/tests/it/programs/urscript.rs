@@ -211,10 +211,7 @@ fn script(name: &str, text: &str, cell: &Cell, played: &mut Played) {
             }
             called if cell.vacuum.contains_key(called) => {
                 reader.expect(&["("]);
-                let on = reader.takes("True");
-                if !on {
-                    reader.expect(&["False"]);
-                }
+                let on = reader.switch("True", "False");
                 reader.expect(&[")"]);
                 played.vacuum.push((time, cell.vacuum[called].clone(), on));
             }
@@ -266,10 +263,7 @@ fn script(name: &str, text: &str, cell: &Cell, played: &mut Played) {
                 let most = if kind == "tool" { 2.0 } else { 8.0 };
                 assert!((0.0..most).contains(&output) && output.fract() == 0.0, "{kind} {output}");
                 reader.expect(&[","]);
-                let on = reader.takes("True");
-                if !on {
-                    reader.expect(&["False"]);
-                }
+                let on = reader.switch("True", "False");
                 reader.expect(&[")"]);
                 played.start_signal(on);
             }
