@@ -21,11 +21,8 @@ KINDS = {
 EDGED = 0.6
 """Share of the rectangles with fabric beyond the outermost cups."""
 
-OVERHANG = (0.0, 0.060)
-"""Least and most of that fabric (m)."""
-
-MARGIN = (0.010, 0.060)
-"""Fabric around the outermost cups of a ply that is cut (m)."""
+MARGIN = 0.25
+"""Least fabric around the outermost cups of a ply that is cut, of the most that may hang over."""
 
 CORNER = (0.4, 1.0)
 """Legs of a corner that is cut off, in cells beyond the margin."""
@@ -54,8 +51,8 @@ class Blank:
     """Angle from the rows of the array to the warp (degrees)."""
 
 
-def blank(rng: random.Random, ply: Array) -> Blank:
-    """A random one under an array of cups."""
+def blank(rng: random.Random, ply: Array, overhang: float) -> Blank:
+    """A random one under an array of cups, with so much fabric beyond them at most (m)."""
     name = rng.choices(list(KINDS), list(KINDS.values()))[0]
     keys = {
         "grippers": f"[{ply.grippers[0]}, {ply.grippers[1]}]",
@@ -63,10 +60,10 @@ def blank(rng: random.Random, ply: Array) -> Blank:
     }
     if name == "rectangle":
         if rng.random() < EDGED:
-            keys["overhang"] = length(round(rng.uniform(*OVERHANG), 3))
+            keys["overhang"] = length(round(rng.uniform(0.0, overhang), 3))
         return Blank(name, keys)
 
-    margin = round(rng.uniform(*MARGIN), 3)
+    margin = round(rng.uniform(MARGIN * overhang, overhang), 3)
     size = [extent + 2.0 * margin for extent in ply.extent]
     keys["size"] = f"[{length(size[0])}, {length(size[1])}]"
     # a cup of 2 mm around its point is on the ply, or it does not hold

@@ -22,6 +22,9 @@ MAX_TILT_DEG = 30.0
 STEP = 5e-4
 """Step of the differences that give a slope (m)."""
 
+FOLDS = "touch the mold first, and stick short of their places"
+"""What `check` says of a ply whose edge hangs too far over on a mold that sticks."""
+
 CRASH = 101
 """Exit code of a program that panics."""
 
@@ -67,9 +70,14 @@ class Plydrape:
             raise RefusedError(f"exit {done.returncode} of {arguments[0]}")
         return done
 
-    def check(self, scene: Path) -> None:
-        """Refuses what `check` refuses. It may warn of straight ways, which no plan follows."""
-        self.run("check", str(scene))
+    def check(self, scene: Path, *, may_fold: bool) -> None:
+        """Refuses what `check` refuses, and what it says of an edge that no motion lays flat.
+
+        It may warn of straight ways, which no plan follows.
+        """
+        warnings = json.loads(self.run("check", str(scene), "--json").stdout)["warnings"]
+        if not may_fold and any(FOLDS in warning for warning in warnings):
+            raise RefusedError("an edge folds")
 
     def drape(self, scene: Path, ply: Array | None, height: Height) -> Drape:
         """The ideal drape; refused if there is none, or if it shears or tilts too much."""

@@ -4,7 +4,8 @@ Writes N scenes (000.toml, 001.toml, ...) and scenes.csv, a table of them. The s
 same bytes, and a scene does not depend on how many are written. Families of molds take turns. A
 draw that nobody can lay is drawn again, which is counted by reason: the ideal drape of
 `plydrape net` has to exist, to shear by at most 30 degrees and to tilt no gripper by more than 30
-degrees, and `plydrape check` has to read the scene. No planner is asked.
+degrees, and `plydrape check` has to read the scene and to warn of no edge that touches the mold
+before its cup and stays there, with the ply of the usual cell. No planner is asked.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from blanks import blank
-from cells import cell
+from cells import Cell, cells
 from families import FAMILIES
 from ideal import Plydrape, RefusedError
 from molds import Draw, Mold
@@ -68,35 +69,32 @@ def scene(task: Task, index: int, program: Plydrape, refused: Counter[str]) -> S
 def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydrape) -> Scene:
     """One draw; refused if nobody can lay it."""
     size, ply = array(rng, task.sizes)
-    fabric, world = blank(rng, ply), cell(rng, task.world)
+    worlds = cells(rng)
+    world = worlds[task.world]
+    fabric = blank(rng, ply, world.overhang)
     mold = FAMILIES[family](Draw(rng, ply))
     heading, aim = target(rng, ply, fabric, mold.middle, mold.shear_deg)
     tables = {
-        "cell": {"preset": f'"{world.preset}"'},
-        "ply": {**fabric.keys, "material": f'"{world.material}"'},
+        "ply": fabric.keys,
         "mold": {key: value.replace("{name}", name) for key, value in mold.keys.items()},
         "target": aim,
         "contact": {"friction": world.friction},
     }
-    if world.keys:
-        del tables["ply"]["material"]
-        tables["ply.material"] = world.keys
     title = (
         f"Unseen {name}: {family}, {fabric.name}, {ply.grippers[0]} × {ply.grippers[1]} grippers"
     )
 
-    def text() -> str:
-        return f'title = "{title}"\n' + "".join(table(*each) for each in tables.items())
-
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"{name}.toml"
         path.with_suffix(".stl").write_bytes(mold.mesh)
-        path.write_text(text(), encoding="utf-8")
+        path.write_text(text(title, world, tables), encoding="utf-8")
         drape = program.drape(path, None if fabric.first else ply, mold.height)
         start = pick_up(rng, ply, mold, drape, heading, above=fabric.first is not None)
-        tables["grippers"] = start.taut(world.material).keys(ply)
-        path.write_text(text(), encoding="utf-8")
-        program.check(path)
+        # both worlds have the scenes that can be laid in the usual one
+        for judged in (worlds[each] for each in dict.fromkeys(("usual", task.world))):
+            tables["grippers"] = start.taut(judged.material).keys(ply)
+            path.write_text(text(title, judged, tables), encoding="utf-8")
+            program.check(path, may_fold=judged.preset != "usual")
     row = {
         "scene": name,
         "family": family,
@@ -110,7 +108,17 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
         "shear (deg)": f"{drape.shear_deg:.2f}",
         "tilt (deg)": f"{drape.tilt_deg:.2f}",
     }
-    return Scene(text(), mold, row)
+    return Scene(text(title, world, tables), mold, row)
+
+
+def text(title: str, world: Cell, tables: dict[str, dict[str, str]]) -> str:
+    """A scene in a world, of its other tables."""
+    ply, others = tables["ply"], {name: keys for name, keys in tables.items() if name != "ply"}
+    material = {"ply.material": world.keys} if world.keys else {}
+    named = {} if world.keys else {"material": f'"{world.material}"'}
+    cell = {"cell": {"preset": f'"{world.preset}"'}, "ply": {**ply, **named}}
+    scene = {**cell, **others, **material}
+    return f'title = "{title}"\n' + "".join(table(*each) for each in scene.items())
 
 
 def write(task: Task, count: int, folder: Path, program: Plydrape) -> Counter[str]:

@@ -10,7 +10,9 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+import plydrape
 import pytest
+from cells import BENDING, GRAVITY
 from families import FAMILIES
 from ideal import MAX_SHEAR_DEG, MAX_TILT_DEG, Plydrape
 from pickup import MAX_HANG_DEG, PickUp
@@ -90,6 +92,15 @@ def test_worlds_differ_in_cell_and_material_alone() -> None:
         assert 'preset = "ideal"' in paper.text and 'material = "krogh2018"' in paper.text
         for name in ("family", "ply", "grippers", "cell (mm)", "friction", "shear (deg)"):
             assert usual.row[name] == paper.row[name]
+
+
+def test_no_edge_of_a_ply_that_sticks_is_longer_than_half_its_bending_length() -> None:
+    """The bending lengths are those of the materials; longer edges touch the mold and fold."""
+    for name, length in BENDING.items():
+        ply = plydrape.Material.shipped(name)
+        assert ply.bending_rigidity is not None
+        fall = min(ply.bending_rigidity) / (GRAVITY * ply.mass)
+        assert length == pytest.approx(fall ** (1 / 3), rel=5e-3)
 
 
 def test_every_family_has_its_turn(scenes: list[Scene]) -> None:
