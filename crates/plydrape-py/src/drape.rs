@@ -15,7 +15,8 @@ use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
 use plydrape_io::result::{SceneEcho, sheet};
 use plydrape_io::scene::{Measured, SceneFile, usual};
-use plydrape_io::text::{forecast, start};
+use plydrape_io::text::forecast;
+use plydrape_io::text::foreseen::foreseen;
 use plydrape_io::{Error, ResultFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -248,8 +249,8 @@ pub fn plan(
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::diagnostic(refusal));
     }
-    if let Some(low) = py.detach(|| start::low(&scene)) {
-        warn(py, &low)?;
+    for sentence in py.detach(|| foreseen(&scene)) {
+        warn(py, &sentence)?;
     }
 
     // the search ends once its time is over, except while it finishes the plan it has found

@@ -5,18 +5,17 @@ use crate::mesh;
 use crate::numbers::{millimeters, rounded, short};
 use plydrape::bodies::Obstacle;
 use plydrape::clearance;
-use plydrape::layup::{Friction, Model};
+use plydrape::layup::Model;
 use plydrape::material::Section;
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape::ply::{Kind, Ply, Ruck, gripper_name};
+use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
 use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::SceneFile;
-use plydrape_io::text::start;
+use plydrape_io::text::foreseen::foreseen;
 use plydrape_io::text::table::verdict_text;
-use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
 /// side of a cell is a few of them away.
@@ -36,62 +35,10 @@ pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
     let below = below(scene);
     // said once
     let seen: &[Name] = if below.is_empty() { &[] } else { &[Name::OffMold] };
-    let costly = overhang(scene).into_iter().chain(fine_mesh(scene));
-    let of_cell =
-        standing_in_mold(scene).into_iter().chain(around_start(scene)).chain(start::low(scene));
-    let unplanned = unplanned(scene, seen);
+    let of_cell = standing_in_mold(scene).into_iter().chain(around_start(scene));
+    let of_plan = foreseen(scene).into_iter().chain(fine_mesh(scene)).chain(unplanned(scene, seen));
     let notices = scene.notices.iter().cloned();
-    notices.chain(hardly_meant).chain(below).chain(of_cell).chain(costly).chain(unplanned).collect()
-}
-
-/// Fabric that hangs far over its cups above a mold that holds what touches it.
-fn overhang(scene: &SceneFile) -> Option<String> {
-    let layup = &scene.layup;
-    let sticks =
-        matches!(layup.settings.contact.friction, Friction::Stick | Friction::StickForEver);
-    if layup.mold.is_none() || layup.settings.model != Model::Sheet || !sticks {
-        return None;
-    }
-    let beyond = reach_beyond_cups(&layup.ply, layup.settings.sheet.overhang);
-    // a corner is a square that is held along two sides, as wide as the pad leaves it along its diagonal
-    let held = FRAC_1_SQRT_2 * layup.settings.pad.radius;
-    let free = beyond - held;
-    // where the ply bends most easily
-    let ruck = [Kind::EdgeU, Kind::EdgeV].into_iter().filter_map(|kind| {
-        let line = layup.ply.line(kind);
-        let weight = line.mass * layup.settings.gravity;
-        (free > 0.0).then(|| Ruck::of_free_edge(free, line.flexural_rigidity, weight))?
-    });
-    let ruck = ruck.max_by(|a, b| a.height().total_cmp(&b.height()))?;
-    // it hangs from both sides: lower by what one edge hangs from the other, and as steeply along both
-    let (height, slope) = (2.0 * ruck.height(), SQRT_2 * ruck.steepest());
-    let [most, steepest] = [Name::Height, Name::OutOfPlane].map(|name| scene.limits.most(name));
-    // the height goes as the fourth power of the edge, the slope as the third; a length of three digits is said, which is not warned of
-    let share = (most / height).powf(0.25).min((steepest / slope).cbrt());
-    (share < 1.0).then(|| {
-        format!(
-            "the ply reaches up to {} mm beyond the middles of its outer cups. Its corners hang lower than their cups, touch the mold first, and stick short of their places: folds of some {} mm stay beside them, where the limits allow what an edge of {} mm leaves. Cut the ply closer, or move the cups outwards",
-            millimeters(rounded(beyond)),
-            millimeters(rounded(height.min(free))),
-            millimeters(rounded(0.995 * (share * free + held)))
-        )
-    })
-}
-
-/// How far the ply reaches beyond its cups (m): the way along the rows or the columns of cups from the corner of its outline that is
-/// farthest from a cup, or its overhang.
-fn reach_beyond_cups(ply: &Ply, overhang: f64) -> f64 {
-    let Some(cut) = &ply.cut else { return overhang };
-    let cups: Vec<[f64; 2]> = (0..ply.grippers()).map(|n| ply.place(n)).collect();
-    let (sin, cos) = cut.turn.sin_cos();
-    let to_cups = |p: &[f64; 2]| {
-        let ways = cups.iter().map(|q| {
-            let [u, v] = [p[0] - q[0], p[1] - q[1]];
-            (cos * u + sin * v).abs().max((cos * v - sin * u).abs())
-        });
-        ways.fold(f64::INFINITY, f64::min)
-    };
-    cut.outline.boundary().iter().map(to_cups).fold(0.0, f64::max)
+    notices.chain(hardly_meant).chain(below).chain(of_cell).chain(of_plan).collect()
 }
 
 /// Rows of cups across the yarns that make many lines of nodes.

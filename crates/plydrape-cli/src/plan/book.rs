@@ -18,7 +18,8 @@ use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Progress};
 use plydrape_io::scene::{Book, BookPly, read_book};
 use plydrape_io::store::folder::write_together;
-use plydrape_io::text::{start, table};
+use plydrape_io::text::foreseen::foreseen;
+use plydrape_io::text::table;
 use plydrape_io::write::book::{self, NAMES, PlyRecord};
 use plydrape_io::{Folder, Staged, names, plan};
 use serde::Serialize;
@@ -77,7 +78,7 @@ pub fn plan(
     // notices and warnings come before the long work
     for ply in &book.plies {
         let with_name = |notice: String| format!("ply {}: {notice}", ply.name);
-        let notices = ply.scene.notices.iter().cloned().chain(start::low(&ply.scene));
+        let notices = ply.scene.notices.iter().cloned().chain(foreseen(&ply.scene));
         outcome::warn(&notices.map(with_name).collect::<Vec<_>>());
     }
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));

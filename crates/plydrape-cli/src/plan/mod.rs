@@ -24,7 +24,8 @@ use plydrape_io::rerun::is_better;
 use plydrape_io::result::SceneEcho;
 use plydrape_io::scene::{Measured, usual};
 use plydrape_io::store::{input, json, shown};
-use plydrape_io::text::{start, table};
+use plydrape_io::text::foreseen::foreseen;
+use plydrape_io::text::table;
 use plydrape_io::{Folder, names, plan};
 use serde::Serialize;
 use std::path::Path;
@@ -67,7 +68,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let earlier = arguments.earlier.as_deref();
     let earlier = earlier.map(|dir| checkpoint(dir, &scene)).transpose()?;
     if arguments.compare {
-        warn(start::low(&scene).as_slice());
+        warn(&foreseen(&scene));
         return compare::run(asked, &scene, &interrupt, quiet);
     }
     let infeasible = infeasible_limits(&scene);
@@ -79,7 +80,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     }
     let folder = Folder::claim(&asked.folder("plan"), "plan", &scene.files)?;
     folder.refuse_taken(&names(&scene, true))?;
-    warn(start::low(&scene).as_slice());
+    warn(&foreseen(&scene));
     if earlier.is_none() && folder.path().join(plan::RUNNING).exists() {
         let dir = shown::path(folder.path());
         warn(&[format!(

@@ -1,6 +1,6 @@
 //! Results as tables for people, and times in words.
 
 pub mod forecast;
-pub mod start;
+pub mod foreseen;
 pub mod strategy;
 pub mod table;

@@ -1,8 +1,10 @@
 //! What a scene rules out by itself, before any plan: each limit with its amount, from plane geometry.
 
+use crate::common::parse;
 use plydrape::measure::Verdict;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape_io::scene;
+use plydrape_io::text::foreseen::foreseen;
 use std::path::Path;
 
 const PLY: &str = "grippers = [4, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n";
@@ -173,4 +175,44 @@ fn a_hole_under_the_ply_is_named_though_every_gripper_has_a_place() {
     let found = found(folder.path(), text);
     let at = only(&found, "missing_nodes", 25.0, 0.0, None);
     assert!(at.contains("beyond the boundary of the mold, at ("), "{at}");
+}
+
+/// A plan is warned of an edge that touches a mold that sticks before its cup. The fold is what the theory of a heavy
+/// clamped edge and of a ruck make of its slack, and an edge of the length that the sentence proposes is not warned of; a
+/// mold on which the ply slides, and a short edge, are not either.
+#[test]
+fn an_edge_that_folds_is_foreseen_and_the_length_that_is_proposed_is_not() {
+    let warned = |overhang_mm: f64, friction: &str| {
+        let scene = parse(&format!(
+            r#"
+            ply = {{ grippers = [3, 2], cell = [0.1, 0.1], overhang = {}, material = "prepreg_warm" }}
+            mold = {{ kind = "plane" }}
+            target = {{ seed = "middle" }}
+            contact = {{ friction = {friction} }}
+            grippers = {{ spacing = [0.099, 0.099], height = 0.2 }}
+            "#,
+            1e-3 * overhang_mm
+        ));
+        foreseen(&scene)
+    };
+    assert_eq!(warned(8.0, "\"stick\""), [""; 0]);
+    assert_eq!(warned(25.0, "0.3"), [""; 0]);
+
+    let [sentence] = &warned(25.0, "\"stick\"")[..] else { panic!("one warning") };
+    let number_after = |words: &str| -> f64 {
+        let after = sentence.split(words).nth(1).expect(words);
+        after.split_whitespace().next().and_then(|word| word.parse().ok()).expect(words)
+    };
+    assert_eq!(number_after("reaches up to "), 25.0);
+    // slack 9 θ² L/28 of a turn θ = q L³/6D, twice the height 1.3256 l^(3/7) s^(4/7) at a corner
+    let (weight, rigidity, length) = (0.3143 * 9.80665, 2e-5, 0.025_f64);
+    let turn: f64 = weight * length.powi(3) / (6.0 * rigidity);
+    let slack = 9.0 / 28.0 * turn * turn * length;
+    let height = 1.3256 * (rigidity / weight).powf(1.0 / 7.0) * slack.powf(4.0 / 7.0);
+    let fold = number_after("folds of some ");
+    assert!((fold / (2e3 * height) - 1.0).abs() < 0.01, "{fold} and {} mm", 2e3 * height);
+
+    let proposed = number_after("what an edge of ");
+    assert_eq!(warned(proposed, "\"stick\""), [""; 0]);
+    assert_eq!(warned(1.02 * proposed, "\"stick\"").len(), 1);
 }
