@@ -84,10 +84,20 @@ def excess(limit: dict[str, Any]) -> float:
 
 
 def worst(printed: dict[str, Any]) -> dict[str, Any]:
-    """The limit that is exceeded most; the closest one of an accepted plan."""
-    limits = [limit for limit in printed.get("limits") or [] if limit["value"] is not None]
-    exceeded = [limit for limit in limits if not limit["ok"]]
-    return max(exceeded or limits, key=excess, default={})
+    """The limit that is exceeded most, without errors or else with them; or the closest one."""
+    sample = printed.get("sample") or {}
+    limits, with_errors = (
+        [limit for limit in of.get("limits") or [] if limit["value"] is not None]
+        for of in (printed, sample)
+    )
+    exceeded = [[limit for limit in of if not limit["ok"]] for of in (limits, with_errors)]
+    return max(exceeded[0] or exceeded[1] or limits, key=excess, default={})
+
+
+def cells(printed: dict[str, Any]) -> str:
+    """How many of the cells with errors that were draped keep all limits."""
+    draped = (printed.get("sample") or {}).get("cells") or []
+    return f"{sum(cell['accepted'] for cell in draped)} of {len(draped)}" if draped else ""
 
 
 def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
@@ -119,6 +129,7 @@ def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
         "drapes": number(printed.get("evaluations"), 0),
         "height (mm)": number(end.get("height_mm"), 3),
         "position (mm)": number(end.get("position_mm"), 3),
+        "cells": cells(printed),
         "limit": limit.get("name", ""),
         "value": number(limit.get("value"), 3),
         "allowed": number(limit.get("limit"), 3),
@@ -190,7 +201,10 @@ def main() -> None:
             writer.writeheader()
             writer.writerows(rows)
         limit = f"{row['limit']} {row['value']} {row['unit']}".strip()
-        print(f"{name} {row['family']}: {row['result']}, {row['time (s)']} s, {limit}", flush=True)
+        parts = [row["result"], f"{row['time (s)']} s", limit]
+        if row["cells"]:
+            parts.append(f"{row['cells']} cells with errors keep all")
+        print(f"{name} {row['family']}: {', '.join(parts)}", flush=True)
     text = tables(rows)
     print(text)
     if options.keep:

@@ -70,14 +70,15 @@ def tables(rows: list[Row]) -> str:
         text += "\nWhat stopped the others: "
         text += ", ".join(f"{limit} {count}" for limit, count in stopped.most_common()) + "\n\n"
     text += markdown(
-        ["scene", "family", "grippers", "start", "result", "limit", "value", "allowed", "time (s)"],
+        [
+            *("scene", "family", "grippers", "start", "result", "height (mm)", "cells"),
+            *("limit", "value", "allowed", "time (s)"),
+        ],
         [
             [
-                row["scene"],
-                row["family"],
-                row["grippers"],
-                row["start"],
-                row["result"],
+                *(row[name] for name in ("scene", "family", "grippers", "start", "result")),
+                row["height (mm)"],
+                row["cells"],
                 f"{row['limit']}, {row['where']}" if row["where"] else row["limit"],
                 f"{row['value']} {row['unit']}".strip(),
                 f"{row['allowed']} {row['unit']}".strip(),

@@ -220,6 +220,18 @@ def test_a_plan_is_accepted_not_accepted_or_failed(code: int, out: str, result: 
         assert row["limit"] == "height" and row["value"] == "0.900"
 
 
+def test_a_plan_that_only_errors_refuse_is_listed_with_the_limit_that_they_break() -> None:
+    """With how many of the cells keep all limits; before, it had the closest limit that is kept."""
+    printed = json.loads(plan(False, 0.4))
+    high = {**printed["limits"][0], "value": 1.3, "ok": False}
+    draped = [{"accepted": accepted} for accepted in (False, True, False)]
+    out = json.dumps({**printed, "sample": {"limits": [high], "cells": draped}})
+    row = row_of(SCENE, Run(1, False, 1.5, 20.0, out, ""))
+    assert (row["limit"], row["value"], row["cells"]) == ("height", "1.300", "1 of 3")
+    assert row["height (mm)"] == "0.400"
+    assert "| 000 | dome | 3 × 2 | above | not accepted | 0.400 | 1 of 3 | height" in tables([row])
+
+
 def test_time_and_memory_are_those_of_the_program() -> None:
     """It sleeps for 0.2 s and holds 200 MB; what this process holds is not counted."""
     held = bytearray(b"a") * 500_000_000
