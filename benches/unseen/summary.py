@@ -7,7 +7,7 @@ from collections import Counter
 
 Row = dict[str, str]
 
-ACCEPTED, FAILED = "accepted", "failed"
+ACCEPTED, FAILED, LATE = "accepted", "failed", "out of time"
 
 COLUMNS = ("family", "size", "ply", "material", "friction", "start")
 """By which scenes are counted."""
@@ -65,7 +65,9 @@ def tables(rows: list[Row]) -> str:
     failed = [row for row in rows if row["result"] == FAILED]
     text = f"{share(rows)} scenes accepted\n"
     text += "".join(f"\n{groups(rows, column)}" for column in COLUMNS)
-    stopped = Counter(row["limit"] or row["result"] for row in refused)
+    stopped = Counter(
+        row["result"] if row["result"] == LATE else row["limit"] or row["result"] for row in refused
+    )
     if refused:
         text += "\nWhat stopped the others: "
         text += ", ".join(f"{limit} {count}" for limit, count in stopped.most_common()) + "\n\n"

@@ -16,6 +16,25 @@ use std::marker::PhantomData;
 /// Words for the middle; a key takes all of them.
 pub(super) const MIDDLE: &[&str] = &["middle", "center", "centre", "centered", "centred"];
 
+/// How a type is read that may be written in more than one way: the type, what is expected, and how each way is read.
+macro_rules! visited {
+    ($name:ident, $expected:literal; $($visits:tt)+) => {
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Choice;
+                impl<'de> Visitor<'de> for Choice {
+                    type Value = $name;
+                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                        f.write_str($expected)
+                    }
+                    $($visits)+
+                }
+                deserializer.deserialize_any(Choice)
+            }
+        }
+    };
+}
+
 /// Keys that are one of some words, or else a measured value or two coordinates: the type, what is expected, the words and the value.
 macro_rules! choices {
     ($(
@@ -30,24 +49,14 @@ macro_rules! choices {
             $value($inner),
         }
 
-        impl<'de> Deserialize<'de> for $name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct Choice;
-                impl<'de> Visitor<'de> for Choice {
-                    type Value = $name;
-                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                        f.write_str($expected)
-                    }
-                    fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
-                        $(if $words.contains(&word) {
-                            return Ok($name::$word);
-                        })+
-                        choices!(@text $kind self word).map($name::$value)
-                    }
-                    choices!(@visit $kind $name::$value);
-                }
-                deserializer.deserialize_any(Choice)
+        visited! { $name, $expected;
+            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
+                $(if $words.contains(&word) {
+                    return Ok($name::$word);
+                })+
+                choices!(@text $kind self word).map($name::$value)
             }
+            choices!(@visit $kind $name::$value);
         }
 
         impl JsonSchema for $name {
@@ -105,19 +114,7 @@ macro_rules! forms {
             $($value($inner),)+
         }
 
-        impl<'de> Deserialize<'de> for $name {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct Choice;
-                impl<'de> Visitor<'de> for Choice {
-                    type Value = $name;
-                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                        f.write_str($expected)
-                    }
-                    $(forms!(@visit $form $name::$value);)+
-                }
-                deserializer.deserialize_any(Choice)
-            }
-        }
+        visited! { $name, $expected; $(forms!(@visit $form $name::$value);)+ }
 
         impl JsonSchema for $name {
             fn schema_name() -> Cow<'static, str> {

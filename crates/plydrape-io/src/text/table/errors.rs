@@ -88,9 +88,10 @@ fn tolerance_in_words(result: &ResultFile, tolerance: &Tolerance) -> Vec<String>
         rounded(millimeters)
     )];
     let multiples = |[least, most]: [f64; 2]| {
-        let at_most = if 1.0 / least >= Tolerance::MOST { "at most " } else { "" };
-        let at_least = if most >= Tolerance::MOST { "at least " } else { "" };
-        format!("{at_most}{} to {at_least}{}", rounded(least), rounded(most))
+        // the ends of what is tried
+        let or_less = if 1.0 / least >= Tolerance::MOST { " (or less)" } else { "" };
+        let or_more = if most >= Tolerance::MOST { " (or more)" } else { "" };
+        format!("{}{or_less} to {}{or_more}", rounded(least), rounded(most))
     };
     let shear = tolerance.shear.map(|range| ("shear stiffness", range));
     for (name, range) in shear.into_iter().chain([("mass", tolerance.mass)]) {
@@ -153,15 +154,15 @@ mod tests {
         let said = |tolerance: &Tolerance| tolerance_in_words(&result, tolerance);
         let wanted = [
             format!("tolerates errors of 0.41 mm {law}"),
-            "tolerates a shear stiffness of 0.2 to at least 8 times the ply's".into(),
-            "tolerates a mass of at most 0.12 to 1.6 times the ply's".into(),
+            "tolerates a shear stiffness of 0.2 to 8 (or more) times the ply's".into(),
+            "tolerates a mass of 0.12 (or less) to 1.6 times the ply's".into(),
         ];
         assert_eq!(said(&found), wanted);
         let most =
             Tolerance { gripper_mm: 1.6, gripper_at_least: true, shear: None, ..found.clone() };
         let wanted = [
             format!("tolerates errors of at least 1.6 mm {law}"),
-            "tolerates a mass of at most 0.12 to 1.6 times the ply's".into(),
+            "tolerates a mass of 0.12 (or less) to 1.6 times the ply's".into(),
         ];
         assert_eq!(said(&most), wanted);
         // cells of 100 mm: the least that is tried is a 64th of 0.1 mm
