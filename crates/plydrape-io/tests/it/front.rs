@@ -122,6 +122,36 @@ fn a_scaled_scene_has_the_scaled_trajectory() {
     }
 }
 
+/// On a mold that curves alike in all directions the first fronts follow the lines of grippers: turned with its target, a scene has
+/// the fronts turned with it. On a cylinder they follow its axis, however the ply lies.
+#[test]
+fn the_first_fronts_turn_with_the_ply_unless_the_mold_has_a_direction() {
+    let molds = [
+        ("kind = \"plane\"", 40.0),
+        ("kind = \"sphere\"\nradius = 0.6\nposition = [0, 0, -0.6]", 40.0),
+        ("kind = \"cylinder\"\nradius = 0.6\nposition = [0, 0, -0.6]", 0.0),
+    ];
+    for (mold, expected) in molds {
+        let angles = |direction: f64| {
+            let text = format!(
+                "[ply]\ngrippers = [4, 3]\ncell = [0.1, 0.08]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
+                 [grippers]\nspacing = [0.098, 0.078]\nheight = 0.1\norigin = \"centered\"\n\
+                 [target]\nseed = \"middle\"\ndirection = \"{direction} deg\"\n\
+                 [motion]\nkind = \"straight\"\nsteps = 10\n",
+            );
+            let families = Strategy::families(&parse(&text), |_| 0.4);
+            let directed = families.into_iter().filter(|strategy| strategy.ratio > 1.0);
+            directed.map(|strategy| strategy.angle.to_degrees()).collect::<Vec<_>>()
+        };
+        let (level, turned) = (angles(0.0), angles(40.0));
+        assert!(level.len() > 4 && level.len() == turned.len(), "{mold}");
+        for (before, after) in level.iter().zip(&turned) {
+            let off = (after - before - expected).rem_euclid(180.0);
+            assert!(off.min(180.0 - off) < 0.5, "{mold}: {before}° {after}°");
+        }
+    }
+}
+
 /// A strategy is a point of the search's cube and back; a point outside the cube is reflected into it.
 #[test]
 fn a_strategy_is_a_point_of_the_search_and_back() {

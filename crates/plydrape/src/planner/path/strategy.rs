@@ -3,9 +3,10 @@
 use super::fronts::flattest;
 use super::preload::{against_errors, loads};
 use super::tuning::TUNING;
-use crate::mold::Mold;
+use crate::ply::Neighbors;
 use crate::scene::Scene;
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// Parameters of a front: where it starts, its shape, and how steep and how taut the ply is ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,18 +104,17 @@ impl Strategy {
     /// grippers leaves to a front of this shape.
     #[must_use]
     pub fn families(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
-        let [first, second] =
-            principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
+        let [first, second] = principal_directions(scene);
         let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring() };
-        let shapes = [
-            shape(1.0, 0.0),
-            shape(2.5, second),
-            shape(2.5, first),
-            shape(LINE, second),
-            shape(LINE, first),
-        ];
+        let lines = [shape(LINE, second), shape(LINE, first)];
+        let ellipses = [shape(2.5, second), shape(2.5, first)];
         let on_mounts = scene.layup.settings.pad.gives();
-        let shapes = if on_mounts { shapes.map(|shape| shape.preloaded(scene)) } else { shapes };
+        let shapes = match on_mounts {
+            true => [&[shape(1.0, 0.0)][..], &lines, &ellipses].concat(),
+            false => [&[shape(1.0, 0.0)][..], &ellipses, &lines].concat(),
+        };
+        let preloaded = |shape: &Strategy| if on_mounts { shape.preloaded(scene) } else { *shape };
+        let shapes: Vec<Strategy> = shapes.iter().map(preloaded).collect();
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
@@ -225,18 +225,45 @@ fn middle_of_cell(cells: usize) -> f64 {
     ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64
 }
 
-/// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape.
-fn principal_directions(scene: &Scene) -> Option<[f64; 2]> {
-    let (mold, target) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?);
-    if matches!(mold.bare(), Mold::Plane(_)) {
-        return None;
-    }
+/// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape; those of the lines of grippers
+/// where it curves alike in all directions.
+fn principal_directions(scene: &Scene) -> [f64; 2] {
+    let lines = line_directions(scene);
+    let (Some(mold), Some(target)) = (scene.layup.mold.as_ref(), scene.layup.target.as_ref())
+    else {
+        return lines;
+    };
     let count = target.grippers.len() as f64;
     let sum = |n: usize| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count;
     let curvatures = mold.curvatures([sum(0), sum(1), sum(2)]);
     let [a, b] = curvatures.principal;
+    if (a - b).abs() <= TUNING.front.umbilic * a.abs().max(b.abs()) {
+        return lines;
+    }
     let angles = curvatures.directions.map(|d| folded(d[1].atan2(d[0])));
-    Some(if a.abs() >= b.abs() { angles } else { [angles[1], angles[0]] })
+    if a.abs() >= b.abs() { angles } else { [angles[1], angles[0]] }
+}
+
+/// Directions in plan (rad) of the lines of grippers on the mold, along the first of them and across it.
+fn line_directions(scene: &Scene) -> [f64; 2] {
+    let ply = &scene.layup.ply;
+    let Some(target) = scene.layup.target.as_ref() else { return [0.0, FRAC_PI_2] };
+    let plane = |places: [[f64; 2]; 2]| [places[1][0] - places[0][0], places[1][1] - places[0][1]];
+    let neighbors = ply.neighbors();
+    let fabric = |pair: &Neighbors| plane(pair.grippers.map(|n| ply.place(n)));
+    let Some(first) = neighbors.first().map(fabric) else { return [0.0, FRAC_PI_2] };
+    // a line has no sense: its mean direction is half of that of the doubled angles
+    let mut sums = [[0.0; 2]; 2];
+    for pair in &neighbors {
+        let way = fabric(pair);
+        let along = way[0] * first[0] + way[1] * first[1];
+        let aside = way[0] * first[1] - way[1] * first[0];
+        let [x, y] = plane(pair.grippers.map(|n| [target.grippers[n][0], target.grippers[n][1]]));
+        let sum = &mut sums[usize::from(aside.abs() > along.abs())];
+        *sum = [sum[0] + x * x - y * y, sum[1] + 2.0 * x * y];
+    }
+    let [along, across] = sums.map(|[cos, sin]| 0.5 * sin.atan2(cos));
+    [folded(along), if sums[1] == [0.0; 2] { folded(along + FRAC_PI_2) } else { folded(across) }]
 }
 
 /// A direction without a sense, between ±90° (rad).

@@ -93,6 +93,8 @@ pub struct Front {
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
     pub finer: usize,
+    /// Difference of the principal curvatures of a mold, as a share of the larger, up to which it curves alike in all directions.
+    pub umbilic: f64,
     /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
     pub steepest: f64,
     /// Steepest slope that is tried first for grippers on mounts.
@@ -200,6 +202,7 @@ pub const TUNING: PathTuning = PathTuning {
         table_error: 1e-6,
         beyond: 0.02,
         finer: 4,
+        umbilic: 0.1,
         steepest: 0.6,
         steepest_on_mounts: 0.85,
         tilt_share: 0.95,
