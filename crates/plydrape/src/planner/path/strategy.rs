@@ -106,15 +106,15 @@ impl Strategy {
     pub fn families(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
         let [first, second] = principal_directions(scene);
         let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring() };
-        let lines = [shape(LINE, second), shape(LINE, first)];
-        let ellipses = [shape(2.5, second), shape(2.5, first)];
+        let shapes = [
+            shape(1.0, 0.0),
+            shape(LINE, second),
+            shape(LINE, first),
+            shape(2.5, second),
+            shape(2.5, first),
+        ];
         let on_mounts = scene.layup.settings.pad.gives();
-        let shapes = match on_mounts {
-            true => [&[shape(1.0, 0.0)][..], &lines, &ellipses].concat(),
-            false => [&[shape(1.0, 0.0)][..], &ellipses, &lines].concat(),
-        };
-        let preloaded = |shape: &Strategy| if on_mounts { shape.preloaded(scene) } else { *shape };
-        let shapes: Vec<Strategy> = shapes.iter().map(preloaded).collect();
+        let shapes = if on_mounts { shapes.map(|shape| shape.preloaded(scene)) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
@@ -138,7 +138,7 @@ impl Strategy {
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
             return first.chain(others).collect();
         }
-        let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
+        let [ring, second_line, first_line, second_ellipse, first_ellipse] = shapes[..] else {
             return shapes;
         };
         let flatter = |share: f64, base: Strategy| Strategy { slope: share * base.slope, ..base };
