@@ -18,15 +18,18 @@ pub fn judge(
     interrupt: &Interrupt,
     quiet: bool,
 ) -> bool {
-    let samples = robustness.sampled().map_or(0, |errors| errors.samples);
+    // a planner has judged its plan by the sample
+    let sampled = robustness.sampled().filter(|_| result.summary.sample.is_none());
+    let samples = sampled.map_or(0, |errors| errors.samples);
     let template =
         "draping {pos} of at most {len} cells with errors{msg} {bar:40} at most {eta} left";
     let eyes = Eyes::new(interrupt, bar(samples, template, quiet), samples, quiet);
     if let Some(report) = result.summary.sheet.as_ref().filter(|_| samples > 0) {
         let effort = Effort { nodes: report.nodes, solves: report.solves, time: drape };
         let forecast = robustness.forecast(effort);
-        eyes.bar.set_message(format!(", {}", forecast::about(forecast.sample(samples))));
-        eyes.lines.begin(&format!("draping {}", forecast::sample(&forecast, samples)));
+        let takes = forecast::sample(&forecast, None, samples);
+        eyes.bar.set_message(format!(", {takes}"));
+        eyes.lines.begin(&format!("draping at most {samples} cells with errors, {takes}"));
     }
     if !eyes.judge_by(|watch| robustness.judge_sample(&mut result.summary, watch)) {
         return false;

@@ -31,7 +31,7 @@ pub struct Search<'a> {
     ended: Option<Ended>,
     /// What a search counts.
     unit: &'static str,
-    /// Cells with errors of the sample that follows the search.
+    /// Cells with errors of the sample that judges a plan.
     cells: usize,
     bar: ProgressBar,
     lines: Option<Lines>,
@@ -129,7 +129,12 @@ impl<'a> Search<'a> {
         }
         let ended = if progress.finishing {
             let late = self.interrupt.is_late().then_some(Ended::TimeOver);
-            if self.interrupt.is_signaled_again() { Some(Ended::Interrupted) } else { late }
+            // a drape is finished after the first signal, a sample is not
+            let signaled = match progress.sample {
+                Some(_) => self.interrupt.is_signaled(),
+                None => self.interrupt.is_signaled_again(),
+            };
+            if signaled { Some(Ended::Interrupted) } else { late }
         } else if self.interrupt.is_signaled() {
             Some(Ended::Interrupted)
         } else {
@@ -153,16 +158,20 @@ impl<'a> Search<'a> {
             self.bar.set_position(progress.candidates as u64);
             self.bar.set_message(state(progress, self.cells, true));
         }
-        let decision = progress.forecast.map(|forecast| forecast.decision());
-        if self.lines.as_mut().is_some_and(|lines| lines.is_due(elapsed, decision)) {
+        // a sample takes as long as many decisions
+        let work = match progress.sample {
+            Some(_) => Some(Duration::MAX),
+            None => progress.forecast.map(|forecast| forecast.decision()),
+        };
+        if self.lines.as_mut().is_some_and(|lines| lines.is_due(elapsed, work)) {
             // where standard error cannot be written, the search is no worse
             let _ = writeln!(io::stderr(), "{}", line(progress, self.unit, self.cells, elapsed));
         }
     }
 }
 
-/// The plain lines of a search: one a minute, none within the first; and one before the first decision and each that takes longer
-/// than a minute.
+/// The plain lines of a search: one a minute, none within the first; and one before the first decision, and before each decision or sample
+/// that takes longer than a minute.
 #[derive(Debug, Default)]
 struct Lines {
     minutes: u64,
@@ -227,12 +236,19 @@ fn line(progress: &Progress, unit: &str, cells: usize, elapsed: Duration) -> Str
 
 /// What is being done, and how good the best plan so far is.
 fn state(progress: &Progress, cells: usize, at_terminal: bool) -> String {
-    let again = if at_terminal { " (Ctrl-C twice ends that too)" } else { "" };
-    let again = if progress.finishing { again } else { "" };
-    let step = progress.step.map(|[done, of]| format!(", step {done} of {of}"));
-    let takes = progress.forecast.map(|takes| {
-        let left = progress.left.filter(|_| step.is_some());
-        format!(": {}", forecast::decision(&takes, left, cells))
+    let again = match progress.sample {
+        None if at_terminal && progress.finishing => " (Ctrl-C twice ends that too)",
+        _ => "",
+    };
+    let step = match (progress.step, progress.sample) {
+        (Some([done, of]), Some(_)) => Some(format!(", {done} of at most {of}")),
+        (None, Some(cells)) => Some(format!(", at most {cells}")),
+        (step, None) => step.map(|[done, of]| format!(", step {done} of {of}")),
+    };
+    let left = progress.left.filter(|_| progress.step.is_some());
+    let takes = progress.forecast.map(|takes| match progress.sample {
+        Some(cells) => format!(": {}", forecast::sample(&takes, left, cells)),
+        None => format!(": {}", forecast::decision(&takes, left, cells)),
     });
     let [step, takes] = [step, takes].map(Option::unwrap_or_default);
     let done = format!("{}{step}{again}{takes}", progress.stage);
@@ -245,7 +261,7 @@ fn state(progress: &Progress, cells: usize, at_terminal: bool) -> String {
         _ if progress.best.is_empty() => return done,
         (Some(worst), _) => table::measure_text(worst),
         (None, _) if !progress.accepted => "all limits are kept".into(),
-        // a sample of them judges after the search
+        // a sample of them judges
         (None, _) if cells > 0 => "all limits are kept without errors".into(),
         (None, Some(closest)) => format!("accepted, {}", table::measure_text(closest)),
         (None, None) => "accepted".into(),
@@ -292,6 +308,7 @@ mod tests {
             finishing: false,
             stage: "deciding",
             forecast: None,
+            sample: None,
             step: None,
             left: None,
             best,

@@ -10,7 +10,7 @@ use crate::scene::{SceneArgument, blocks, warn};
 use crate::work::{Watch, parallel, run};
 use plydrape::motion::TimedMotion;
 use plydrape::outcome::{self, Robustness};
-use plydrape::planner::{self, Checkpoint, PlanRecord};
+use plydrape::planner::{self, Checkpoint, PlanRecord, Progress};
 use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
 use plydrape_io::result::{SceneEcho, sheet};
@@ -261,12 +261,15 @@ pub fn plan(
         }
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);
         let cells = errors.map_or(0, |errors| errors.samples);
-        let planned = planner::plan_without_errors(&scene, checkpoint.as_ref(), &mut |progress| {
+        let plan = if without_errors { planner::plan_without_errors } else { planner::plan };
+        let planned = plan(&scene, checkpoint.as_ref(), &mut |progress: &Progress| {
             let over = time.is_some_and(|time| began.elapsed() >= time);
-            let stage = match &progress.forecast {
-                Some(takes) => {
-                    format!("{}: {}", progress.stage, forecast::decision(takes, None, cells)).into()
-                }
+            let takes = progress.forecast.map(|takes| match progress.sample {
+                Some(cells) => forecast::sample(&takes, None, cells),
+                None => forecast::decision(&takes, None, cells),
+            });
+            let stage = match takes {
+                Some(takes) => format!("{}: {takes}", progress.stage).into(),
                 None => Cow::Borrowed(progress.stage),
             };
             match watch.tell(progress.candidates, progress.most, stage) {
@@ -370,6 +373,12 @@ impl Plan {
     #[getter]
     fn decisions(&self) -> usize {
         self.decisions
+    }
+
+    /// After how many plans that the sample of cells with errors had refused the search went on.
+    #[getter]
+    fn refused(&self) -> usize {
+        self.record.refused.unwrap_or(0)
     }
 
     /// Whether the search ended because its time was over.

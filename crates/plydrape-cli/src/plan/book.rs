@@ -14,8 +14,8 @@ use crate::search::{Search, SharedLines};
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::measure::Verdict;
+use plydrape::planner::Progress;
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape::planner::{self, Progress};
 use plydrape_io::scene::{Book, BookPly, read_book};
 use plydrape_io::store::folder::write_together;
 use plydrape_io::text::foreseen::foreseen;
@@ -236,7 +236,7 @@ fn plan_ply(
     let search = Search::new(scene, arguments.without_errors, time, &interrupt, true);
     let mut search = search.kept_in(&folder, scene);
     let watch = &mut |progress: &Progress| eyes.watch(&mut search, progress);
-    let planned = planner::plan_without_errors(scene, earlier.as_ref(), watch);
+    let planned = arguments.planned(scene, earlier.as_ref(), watch);
     let (_, ended) = search.finish();
     let found = arguments.judged(scene, planned?, folder.stage(), &interrupt, true)?;
     let Found { result, checkpoint, .. } = &found;

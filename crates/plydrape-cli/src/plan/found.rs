@@ -7,7 +7,7 @@ use crate::search::Ended;
 use crate::watch::Interrupt;
 use crate::{errors, model};
 use plydrape::outcome::Robustness;
-use plydrape::planner::{self, Checkpoint, LimitedBy, Planned};
+use plydrape::planner::{self, Checkpoint, LimitedBy, Planned, Watcher};
 use plydrape_io::ResultFile;
 use plydrape_io::scene::SceneFile;
 use serde::Serialize;
@@ -73,8 +73,21 @@ impl Found {
 }
 
 impl Arguments {
+    /// Plans, and judges by the sample of the scene unless the options say otherwise.
+    pub(super) fn planned(
+        &self,
+        scene: &SceneFile,
+        earlier: Option<&Checkpoint>,
+        watcher: Watcher,
+    ) -> Result<Planned, plydrape::Error> {
+        match self.without_errors {
+            true => planner::plan_without_errors(scene, earlier, watcher),
+            false => planner::plan(scene, earlier, watcher),
+        }
+    }
+
     /// What becomes of a planned motion: its result, with the sheet's states in a stage, with the other model beside if that is asked for, and
-    /// judged with errors unless the options say otherwise.
+    /// with what it tolerates unless the options say otherwise.
     pub(super) fn judged(
         &self,
         scene: &SceneFile,

@@ -18,7 +18,7 @@ use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use found::{Found, Motion};
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape::planner::{self, Checkpoint, Progress};
+use plydrape::planner::{Checkpoint, Progress};
 use plydrape::scene::{PlanMethod, Scene};
 use plydrape_io::rerun::is_better;
 use plydrape_io::result::SceneEcho;
@@ -41,6 +41,8 @@ struct Printed<'a> {
     plan_time_s: f64,
     evaluations: usize,
     decisions: usize,
+    /// Plans that the sample refused before the search went on.
+    refused: usize,
     motion: &'a Motion,
     /// Samples a second that the scene asks for and that motion.csv has (Hz).
     #[serde(skip)]
@@ -92,7 +94,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let search = Search::new(&scene, arguments.without_errors, time, &interrupt, quiet);
     let mut search = search.kept_in(&folder, &scene);
     let watch = &mut |progress: &Progress| search.watch(progress);
-    let planned = planner::plan_without_errors(&scene, earlier.as_ref(), watch);
+    let planned = arguments.planned(&scene, earlier.as_ref(), watch);
     let (took, ended) = search.finish();
     let found = arguments.judged(&scene, planned?, folder.stage(), &interrupt, quiet)?;
     let Found { result, checkpoint, motion, decisions, solving, .. } = &found;
@@ -106,14 +108,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     }
     // what is beside is where the search goes on from
     kept.map_or(Ok(()), |kept| kept.remove(plan::RUNNING))?;
+    let plan = result.plan.as_ref();
     let printed = Printed {
         drape: outcome::Printed::new(result, *solving),
         method: scene.plan.method,
         plan_time_s: took.as_secs_f64(),
-        evaluations: result.plan.as_ref().map_or(0, |plan| plan.evaluations),
+        evaluations: plan.map_or(0, |plan| plan.evaluations),
         decisions: *decisions,
+        refused: plan.and_then(|plan| plan.refused).unwrap_or(0),
         motion,
-        rates: [scene.plan.rate, result.plan.as_ref().map_or(scene.plan.rate, |plan| plan.rate)],
+        rates: [scene.plan.rate, plan.map_or(scene.plan.rate, |plan| plan.rate)],
     };
     let mut text = asked.text(result, &text(&printed, ended, time));
     text += errors::left_out(result, found.broken_off, &interrupt);
@@ -202,6 +206,11 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
         ),
         _ => String::new(),
     };
+    let refused = match printed.refused {
+        0 => String::new(),
+        1 => ", going on after the sample had refused a plan".into(),
+        refused => format!(", going on after the sample had refused {refused} plans"),
+    };
     let ended = match (ended, time) {
         (Some(Ended::Interrupted), _) => ", interrupted: the best so far".into(),
         (Some(Ended::TimeOver), Some(time)) => {
@@ -211,7 +220,7 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
     };
     let Motion { duration_s, max_speed, max_acceleration, max_jerk, .. } = printed.motion;
     format!(
-        "{tried} in {:.1} s{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³{rate}",
+        "{tried} in {:.1} s{refused}{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³{rate}",
         printed.plan_time_s,
         short(*max_speed),
         short(*max_acceleration),

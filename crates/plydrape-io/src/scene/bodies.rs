@@ -11,16 +11,14 @@ use crate::Error;
 use plydrape::bodies::{Bodies, Body, Obstacle, Shape};
 use plydrape::geometry::Pose;
 use std::ops::Range;
-use std::path::Path;
 
-/// Checks the tables `[[bodies]]` and `[[obstacles]]`, beside the links of an arm; files that they name are relative to `base`.
+/// Checks the tables `[[bodies]]` and `[[obstacles]]`, beside the links of an arm.
 pub(super) fn bodies(
     file: &SceneKeys,
     links: Vec<Body>,
     document: &Document,
-    base: &Path,
 ) -> Result<Bodies, Error> {
-    let reader = Reader { document, base, carried: file.tool.is_some() };
+    let reader = Reader { document, carried: file.tool.is_some() };
     let mut names: Vec<&Located<String>> = Vec::new();
     let mut bodies = Vec::with_capacity(file.bodies.len());
     for table in &file.bodies {
@@ -47,7 +45,6 @@ pub(super) fn bodies(
 
 struct Reader<'a> {
     document: &'a Document,
-    base: &'a Path,
     /// Whether a robot carries the grippers by its flange.
     carried: bool,
 }
@@ -135,7 +132,7 @@ impl Reader<'_> {
                 let own = Pose::upright([0.0; 3]);
                 let purpose = Purpose { what: "body", tolerance: 0.0 };
                 let unit = keys.unit.as_ref();
-                let (mesh, _) = mesh_file(file, unit, &purpose, &own, document, self.base)?;
+                let (mesh, _) = mesh_file(file, unit, &purpose, &own, document, &document.folder)?;
                 let (vertices, triangles) = (mesh.vertices().to_vec(), mesh.triangles().to_vec());
                 Ok(Shape::Mesh { vertices, triangles })
             }

@@ -88,7 +88,6 @@ struct Reading<'a> {
     keys: SceneKeys,
     /// The text that its keys are from: the book's or that of its own scene file.
     document: Document,
-    base: PathBuf,
     /// Header in the book.
     header: Range<usize>,
     book: &'a Document,
@@ -97,7 +96,7 @@ struct Reading<'a> {
 /// Whether a file is a book: whether it has `[[plies]]`. One that cannot be read is none.
 #[must_use]
 pub fn is_book(path: &Path) -> bool {
-    open(path).is_ok_and(|(document, _)| has_plies(&document))
+    open(path).is_ok_and(|document| has_plies(&document))
 }
 
 /// Whether a text has `[[plies]]`.
@@ -112,8 +111,8 @@ pub(super) fn has_plies(document: &Document) -> bool {
 /// # Errors
 /// The first fault found, with its place, a remedy and the ply that it is of.
 pub fn read_book(path: &Path) -> Result<Book, Error> {
-    let (document, base) = open(path)?;
-    let mut book = book(&document, base)?;
+    let document = open(path)?;
+    let mut book = book(&document)?;
     book.files.insert(0, path.into());
     Ok(book)
 }
@@ -123,7 +122,7 @@ pub fn read_book(path: &Path) -> Result<Book, Error> {
 /// # Errors
 /// As [`read_book`].
 pub fn parse_book(text: &str, base: &Path, name: &str) -> Result<Book, Error> {
-    book(&Document::new(name, text), base)
+    book(&Document::new(name, text).within(base))
 }
 
 /// Refuses a book in place of a scene.
@@ -137,7 +136,7 @@ pub(super) fn refused_as_scene(document: &Document) -> Error {
     )
 }
 
-fn book(document: &Document, base: &Path) -> Result<Book, Error> {
+fn book(document: &Document) -> Result<Book, Error> {
     // the book as a table, without the plies
     let fault = |fault: Fault| diagnostic::scene_error(document, fault);
     let root = DeTable::parse(&document.text).map_err(|error| fault(error.into()))?;
@@ -162,7 +161,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
         }
         read_table(table, 0..0).map_err(fault)?
     };
-    let title = check::title(head.title.as_ref(), document, base)?;
+    let title = check::title(head.title.as_ref(), document)?;
     shared.remove("title");
     shared.remove("mold");
 
@@ -173,7 +172,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
         let label = label.filter(|name| !name.trim().is_empty());
         let label = label.map_or_else(|| (n + 1).to_string(), str::to_owned);
         let named = |fault| in_ply(fault, &label);
-        let reading = reading(entry, span, &shared, &whole, document, base).map_err(named)?;
+        let reading = reading(entry, span, &shared, &whole, document).map_err(named)?;
         if let Some(twin) = readings.iter().position(|other| other.name == reading.name) {
             return Err(document.error(
                 reading.header,
@@ -205,11 +204,11 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     let first = &readings[0];
     let (mold, mesh) = {
         let grippers = first.keys.grippers.as_ref().map(|table| &table.value);
-        let (ply, _) = check::ply(&first.keys.ply, grippers, &first.document, &first.base)
+        let (ply, _) = check::ply(&first.keys.ply, grippers, &first.document)
             .map_err(|fault| in_ply(fault, &first.name))?;
         let contact = settings::contact(&first.keys, &ply, &first.document)
             .map_err(|fault| in_ply(fault, &first.name))?;
-        mold::mold(&head.mold.value, &ply, contact.tolerance, document, base)?
+        mold::mold(&head.mold.value, &ply, contact.tolerance, document)?
     };
 
     // from below upwards, because a ply lies on those before it
@@ -220,7 +219,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, Error> {
     }
 
     // all files that were read, each once
-    let mut files = named(document, base);
+    let mut files = named(document);
     files.extend(plies.iter().flat_map(|ply| ply.scene.files.iter().cloned()));
     files.sort();
     files.dedup();
@@ -271,7 +270,6 @@ fn reading<'a>(
     shared: &DeTable<'_>,
     whole: &Range<usize>,
     document: &'a Document,
-    base: &Path,
 ) -> Result<Reading<'a>, Error> {
     // faults show the header of the ply in the book
     let fault = |fault: Fault| diagnostic::scene_error(document, fault);
@@ -333,7 +331,7 @@ fn reading<'a>(
                 "move them into the scene file, or remove `scene`",
             );
         }
-        return reading_of_file(name, file, header, document, base);
+        return reading_of_file(name, file, header, document);
     }
 
     // what the ply says itself goes over what all plies share
@@ -354,14 +352,7 @@ fn reading<'a>(
     }
 
     let keys: SceneKeys = read_table(keys, whole.clone()).map_err(fault)?;
-    Ok(Reading {
-        name,
-        keys,
-        document: document.clone(),
-        base: base.into(),
-        header,
-        book: document,
-    })
+    Ok(Reading { name, keys, document: document.clone(), header, book: document })
 }
 
 /// The table of a ply merged over the shared one, key by key; a value that is no table is the ply's own.
@@ -385,10 +376,8 @@ fn reading_of_file<'a>(
     file: &Located<String>,
     header: Range<usize>,
     book: &'a Document,
-    base: &Path,
 ) -> Result<Reading<'a>, Error> {
-    let path = base.join(&file.value);
-    let document = read::text(&path, &file.value, read::LARGEST_TOML)
+    let document = read::text(&book.path(&file.value), &file.value, read::LARGEST_TOML)
         .map_err(|error| book.error_of_named(&file.span, error, "book"))?;
     let keys = super::keys(&document)?;
     if let Some(mold) = &keys.mold {
@@ -398,8 +387,7 @@ fn reading_of_file<'a>(
             "remove [mold]: all plies of a book lie on the book's",
         ));
     }
-    let base = path.parent().unwrap_or(Path::new("")).to_owned();
-    Ok(Reading { name, keys, document, base, header, book })
+    Ok(Reading { name, keys, document, header, book })
 }
 
 /// Reads the scene of a ply on the mold with the plies below it, and where the ply itself lies.
@@ -411,7 +399,7 @@ fn ply_on_others(
     readings: &[Reading],
 ) -> Result<BookPly, Error> {
     // without a target it is not known which plies lie below
-    let Reading { name, keys, document, base, header, .. } = reading;
+    let Reading { name, keys, document, header, .. } = reading;
     if keys.target.as_ref().is_none_or(|target| target.value.positions.is_some()) {
         let place = keys.target.as_ref().map_or(header, |target| &target.span);
         let document = if keys.target.is_some() { document } else { reading.book };
@@ -423,7 +411,7 @@ fn ply_on_others(
     }
 
     // where the ply lies, as if the mold were bare
-    let bare = check::scene(keys, Some(mold.clone()), document, base)?;
+    let bare = check::scene(keys, Some(mold.clone()), document)?;
     let region = region(&bare, mold).ok_or_else(|| {
         let message = "the ply has no place on the mold that another ply could lie on";
         reading.book.error(
@@ -465,7 +453,7 @@ fn ply_on_others(
     } else {
         let layered = Raised { mold: mold.clone(), relief: Layers(layers) };
         let layered = Mold::Layered(Arc::new(layered));
-        let scene = check::scene(keys, Some(layered), document, base)?;
+        let scene = check::scene(keys, Some(layered), document)?;
         let region = self::region(&scene, mold).unwrap_or(region);
         (scene, region)
     };

@@ -10,7 +10,6 @@ use crate::store::shown;
 use plydrape::ply::Ply;
 use plydrape::scene::{Cell, CellPreset};
 use std::ops::Range;
-use std::path::Path;
 
 /// The cell that a scene names.
 pub(super) struct NamedCell {
@@ -26,7 +25,6 @@ pub(super) fn cell(
     table: &Located<CellTable>,
     ply: &Ply,
     document: &Document,
-    base: &Path,
 ) -> Result<NamedCell, Error> {
     let Located { value: name, span } = &table.value.preset;
     let found = CellPreset::ALL.iter().find(|preset| preset.name() == name);
@@ -40,7 +38,7 @@ pub(super) fn cell(
             ));
         }
         None => {
-            let file = read::text(&base.join(name), name, read::LARGEST_TOML)
+            let file = read::text(&document.path(name), name, read::LARGEST_TOML)
                 .map_err(|error| document.error_of_named(span, error, "scene"))?;
             from_file(&file, ply)?
         }
@@ -83,6 +81,7 @@ mod tests {
     use super::super::{SceneFile, parse};
     use super::*;
     use plydrape::errors::{Errors, Term};
+    use std::path::Path;
 
     const SCENE: &str = "ply.grippers = [2, 2]\nply.cell = [0.1, 0.1]\nply.material = \"krogh2018\"\n\
         grippers.spacing = [0.098, 0.098]\ngrippers.height = 0.1\n";

@@ -36,25 +36,23 @@ use std::sync::Arc;
 /// Most grippers along u or v.
 const MOST_GRIPPERS: i128 = 1000;
 
-/// Checks a scene file, on a mold of its own or on one that a program has `made`; other files it names are relative to `base`.
+/// Checks a scene file, on a mold of its own or on one that a program has `made`.
 pub(super) fn scene(
     file: &SceneKeys,
     made: Option<Mold>,
     document: &Document,
-    base: &Path,
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let (ply, CutRead { cups, drawn }) = ply(&file.ply, grippers, document, base)?;
+    let (ply, CutRead { cups, drawn }) = ply(&file.ply, grippers, document)?;
     let tolerance = settings::contact(file, &ply, document)?.tolerance;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
-            let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
+            let (mold, report) = mold::mold(&table.value, &ply, tolerance, document)?;
             (Some(mold), report)
         }
         None => (made, None),
     };
-    let named_cell =
-        file.cell.as_ref().map(|table| cell(table, &ply, document, base)).transpose()?;
+    let named_cell = file.cell.as_ref().map(|table| cell(table, &ply, document)).transpose()?;
     let cell = named_cell.as_ref().map_or_else(Cell::default, |named| named.cell);
     let settings = settings(file, &cell, &ply, document)?;
     let models = Models::named(file, settings.model, document)?;
@@ -67,20 +65,19 @@ pub(super) fn scene(
         mold: mold.as_ref(),
         tolerance: settings.contact.tolerance,
         document,
-        base,
     };
     // too many grippers for a single step are refused before a net is draped for them
     places.fits(file.grippers_span(), 1)?;
     let target = match &file.target {
-        Some(table) => Some(target::target(table, &ply, turn, mold.as_ref(), document, base)?),
+        Some(table) => Some(target::target(table, &ply, turn, mold.as_ref(), document)?),
         None => None,
     };
     let motion = places.motion(file, target.as_ref())?;
     places.fits(file.grippers_span(), motion.positions.len())?;
     let sheets = models.check_sheets(&ply, &settings, motion.positions.len())?;
     let plan = plan(&file.plan, ply.grippers(), document)?;
-    let (arm, links) = robot::robot(file, document, base)?;
-    let bodies = bodies(file, links, document, base)?;
+    let (arm, links) = robot::robot(file, document)?;
+    let bodies = bodies(file, links, document)?;
     let errors = match (&file.errors, cell.errors) {
         (None, None) => None,
         (table, of_cell) => {
@@ -107,7 +104,7 @@ pub(super) fn scene(
     }
     let mut notices = file.limits.notices();
     notices.extend(not_measured(&limits, &layup));
-    let title = title(file.title.as_ref(), document, base)?;
+    let title = title(file.title.as_ref(), document)?;
     let thickness = read_given(&file.ply.value.thickness, document)?;
     Ok(SceneFile {
         scene: Scene {
@@ -120,7 +117,7 @@ pub(super) fn scene(
             book_ply: None,
         },
         input: Some(document.text.clone()),
-        files: named(document, base),
+        files: named(document),
         mesh,
         cups,
         drawn,
@@ -136,12 +133,11 @@ pub(super) fn scene_on(
     file: &SceneKeys,
     made: Mold,
     document: &Document,
-    base: &Path,
 ) -> Result<SceneFile, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let (ply, _) = ply(&file.ply, grippers, document, base)?;
+    let (ply, _) = ply(&file.ply, grippers, document)?;
     let tolerance = settings::contact(file, &ply, document)?.tolerance;
-    scene(file, Some(seen_by_plies(made, &ply, tolerance)), document, base)
+    scene(file, Some(seen_by_plies(made, &ply, tolerance)), document)
 }
 
 /// A mold that a program has made, with boundaries of its faces stitched and pits and holes spanned as those of a file are.
@@ -159,13 +155,12 @@ fn seen_by_plies(mold: Mold, ply: &Ply, tolerance: f64) -> Mold {
 pub(super) fn title(
     written: Option<&Located<String>>,
     document: &Document,
-    base: &Path,
 ) -> Result<String, Error> {
     if let Some(title) = written {
         return line(title, document);
     }
     let stem = Path::new(&document.file).file_stem().unwrap_or_default();
-    let name = match base.file_name() {
+    let name = match document.folder.file_name() {
         Some(folder) if stem == "scene" => folder,
         _ => stem,
     };
@@ -198,10 +193,9 @@ pub(super) fn ply(
     ply: &Located<PlyTable>,
     grippers: Option<&GrippersTable>,
     document: &Document,
-    base: &Path,
 ) -> Result<(Ply, CutRead), Error> {
     let table = &ply.value;
-    let mut material = material::material(&table.material, document, base)?;
+    let mut material = material::material(&table.material, document)?;
     if let Some(temperature) = &table.temperature {
         rate::set_temperature(&mut material, temperature, document)?;
     }
@@ -209,7 +203,7 @@ pub(super) fn ply(
         let radius = grippers.and_then(|grippers| grippers.pad_radius.clone());
         let radius = read_or(&radius, 0.0, document)?;
         let cut::Shape { grid, cell, warp, cut, array: cups, drawn } =
-            cut::shape(ply, radius, document, base)?;
+            cut::shape(ply, radius, document)?;
         let (cut, found) = (Some(cut), FoundLines::default());
         let ply = Ply { grid, cell, material, warp, length_factor: 1.0, cut, found };
         return Ok((ply, CutRead { cups, drawn }));
@@ -287,7 +281,6 @@ pub(super) struct Surroundings<'a> {
     /// Depth in the mold that still counts as touching it (m).
     pub tolerance: f64,
     pub document: &'a Document,
-    pub base: &'a Path,
 }
 
 impl Surroundings<'_> {
@@ -301,7 +294,7 @@ impl Surroundings<'_> {
     }
 
     fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, Error> {
-        let &Surroundings { ply, document, base, .. } = self;
+        let &Surroundings { ply, document, .. } = self;
         let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
         if let Some(table) = from_file {
             if let Some(grippers) = &file.grippers
@@ -315,7 +308,7 @@ impl Surroundings<'_> {
                     ),
                 ));
             }
-            let (motion, start) = trajectory(table, ply, document, base)?;
+            let (motion, start) = trajectory(table, ply, document)?;
             start::check(&start, self)?;
             return Ok(motion);
         }

@@ -16,7 +16,6 @@ use plydrape::LayupError;
 use plydrape::ply::{Cut, Direction, Grid, GripperId, Held, Outline, Ply, Ring, gripper_name};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
-use std::path::Path;
 
 /// Sides of the polygon that stands for a circle: it is a thousandth of the radius off at most.
 const SIDES: usize = 72;
@@ -116,7 +115,6 @@ pub(super) fn shape(
     ply: &Located<PlyTable>,
     radius: f64,
     document: &Document,
-    base: &Path,
 ) -> Result<Shape, Error> {
     let table = &ply.value;
     if let Some(overhang) = &table.overhang {
@@ -126,7 +124,7 @@ pub(super) fn shape(
             "remove `overhang`: the outline says where the ply ends",
         ));
     }
-    let (outline, drawn) = outline(ply, document, base)?;
+    let (outline, drawn) = outline(ply, document)?;
     let warp = match &table.warp {
         None | Some(Located { value: WarpChoice::U, .. }) => 0.0,
         Some(Located { value: WarpChoice::V, .. }) => FRAC_PI_2,
@@ -145,10 +143,9 @@ pub(super) fn shape(
 fn outline(
     ply: &Located<PlyTable>,
     document: &Document,
-    base: &Path,
 ) -> Result<(Outline, Option<Drawn>), Error> {
     let table = &ply.value;
-    let drawn = super::dxf::drawn(table, document, base)?;
+    let drawn = super::dxf::drawn(table, document)?;
 
     // the boundary is of a file, of points or a rectangle; a file may bring holes
     let (boundary, mut holes, span) = match (&table.outline, &table.size) {

@@ -9,17 +9,12 @@ use super::source::Document;
 use super::units::{self, Dimension};
 use crate::Error;
 use crate::read::outline::{self, Drawn, Options, Piece};
-use std::path::Path;
 
 /// How far a curve may be from the lines that stand for it, and the widest gap that is closed (m), unless given: what a cutter keeps.
 pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// Reads the file that an outline names; `None` for an outline that is points.
-pub(super) fn drawn(
-    ply: &PlyTable,
-    document: &Document,
-    base: &Path,
-) -> Result<Option<Drawn>, Error> {
+pub(super) fn drawn(ply: &PlyTable, document: &Document) -> Result<Option<Drawn>, Error> {
     let choice = ply.outline.as_ref().map(|key| (&key.value, &key.span));
     let (name, span, mut options) = match choice {
         None | Some((OutlineChoice::Points(_), _)) => {
@@ -38,7 +33,7 @@ pub(super) fn drawn(
         }
     };
     options.piece = ply.piece.as_ref().map(|table| piece(table, document)).transpose()?;
-    let bytes = read::bytes(&base.join(name), name, outline::LARGEST)
+    let bytes = read::bytes(&document.path(name), name, outline::LARGEST)
         .map_err(|error| document.error_of_named(span, error, "scene"))?;
     outline::read_dxf(name, &bytes, &options).map(Some).map_err(|error| {
         // what the drawing lacks without a choice too is no fault of the choice

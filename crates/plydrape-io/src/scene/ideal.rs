@@ -13,7 +13,7 @@ use plydrape::mold::Mold;
 use plydrape::motion::Motion;
 use plydrape::net::{Net, Seeds, TargetBoundary};
 use plydrape::ply::Ply;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The ideal drape of a scene, whether or not grippers could bring the ply there.
 #[derive(Debug, Clone)]
@@ -39,13 +39,9 @@ pub struct IdealDrape {
 }
 
 /// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
-pub(super) fn ideal_drape(
-    file: &SceneKeys,
-    document: &Document,
-    base: &Path,
-) -> Result<IdealDrape, Error> {
+pub(super) fn ideal_drape(file: &SceneKeys, document: &Document) -> Result<IdealDrape, Error> {
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let (ply, _) = ply(&file.ply, grippers, document, base)?;
+    let (ply, _) = ply(&file.ply, grippers, document)?;
     let Some(table) = &file.mold else {
         return Err(document.error_anywhere(
             "the scene has no [mold] to lay the ply on",
@@ -53,7 +49,7 @@ pub(super) fn ideal_drape(
         ));
     };
     let tolerance = contact(file, &ply, document)?.tolerance;
-    let (mold, report) = mold::mold(&table.value, &ply, tolerance, document, base)?;
+    let (mold, report) = mold::mold(&table.value, &ply, tolerance, document)?;
     let Some(table) = &file.target else {
         return Err(document.error_anywhere(
             "the scene has no [target], which says how the ply is laid on the mold",
@@ -68,14 +64,13 @@ pub(super) fn ideal_drape(
         ));
     }
     let turn = cut::from_warp(&file.ply.value, &ply, document)?;
-    let target::Laid { net, seeds, wanted } =
-        target::net(table, &ply, turn, &mold, document, base)?;
+    let target::Laid { net, seeds, wanted } = target::net(table, &ply, turn, &mold, document)?;
     let motion = Motion { times: Vec::new(), positions: Vec::new() };
     let layup = Layup::new(ply, Settings::default(), motion);
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
-    let title = title(file.title.as_ref(), document, base)?;
+    let title = title(file.title.as_ref(), document)?;
     let mesh = report.map_or_else(Vec::new, |report| report.warnings());
     let warnings = [file.limits.notices(), mesh].concat();
-    let (ply, files) = (layup.ply, super::named(document, base));
+    let (ply, files) = (layup.ply, super::named(document));
     Ok(IdealDrape { title, ply, mold, net, seeds, wanted, shear_limit, warnings, files })
 }

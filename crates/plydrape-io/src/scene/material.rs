@@ -54,27 +54,21 @@ pub fn shipped_material(name: &str) -> Option<&'static str> {
 /// # Errors
 /// The first fault found, with its place and a remedy; an unknown name lists the shipped ones.
 pub fn read_material(name: &str) -> Result<Material, Error> {
-    named(name, &(0..name.len()), &Document::new("the name of the material", name), Path::new(""))
+    named(name, &(0..name.len()), &Document::new("the name of the material", name))
 }
 
-/// The material that a scene chose; files are relative to `base`.
+/// The material that a scene chose.
 pub(super) fn material(
     choice: &Located<MaterialChoice>,
     document: &Document,
-    base: &Path,
 ) -> Result<Material, Error> {
     match &choice.value {
         MaterialChoice::Table(table) => from_table(table, document, &choice.span, "inline"),
-        MaterialChoice::Named(name) => named(name, &choice.span, document, base),
+        MaterialChoice::Named(name) => named(name, &choice.span, document),
     }
 }
 
-fn named(
-    name: &str,
-    span: &Range<usize>,
-    scene: &Document,
-    base: &Path,
-) -> Result<Material, Error> {
+fn named(name: &str, span: &Range<usize>, scene: &Document) -> Result<Material, Error> {
     // A shipped name.
     if let Some(text) = shipped_material(name) {
         let document = Document::new(format!("materials/{name}.toml"), text);
@@ -93,8 +87,7 @@ fn named(
     }
 
     // A file beside the scene.
-    let path = base.join(name);
-    let document = read::text(&path, name, read::LARGEST_TOML)
+    let document = read::text(&scene.path(name), name, read::LARGEST_TOML)
         .map_err(|error| scene.error_of_named(span, error, "scene"))?;
     if document.text == scene.text {
         return Err(scene.error(

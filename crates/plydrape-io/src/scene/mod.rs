@@ -102,10 +102,10 @@ pub fn read_for(
     model: Option<Model>,
     also: Option<Model>,
 ) -> Result<SceneFile, Error> {
-    let (document, base) = open(path)?;
+    let document = open(path)?;
     let mut file = keys(&document)?;
     choose_models(&mut file, model, also);
-    let mut scene = check::scene(&file, None, &document, base)?;
+    let mut scene = check::scene(&file, None, &document)?;
     scene.files.push(path.into());
     Ok(scene)
 }
@@ -129,14 +129,14 @@ fn choose_models(file: &mut file::SceneKeys, model: Option<Model>, also: Option<
 /// # Errors
 /// The first fault found, with its place and a remedy. A ply that runs off the mold or folds is none.
 pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, Error> {
-    let (document, base) = open(path)?;
-    let mut ideal = ideal::ideal_drape(&keys(&document)?, &document, base)?;
+    let document = open(path)?;
+    let mut ideal = ideal::ideal_drape(&keys(&document)?, &document)?;
     ideal.files.push(path.into());
     Ok(ideal)
 }
 
-/// The text of a scene file, and the folder of the files it names.
-fn open(path: &Path) -> Result<(source::Document, &Path), Error> {
+/// The text of a scene file.
+fn open(path: &Path) -> Result<source::Document, Error> {
     let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
     if let Err(Error::Scene(error)) = &mut document {
         if path.is_dir() {
@@ -155,7 +155,7 @@ fn open(path: &Path) -> Result<(source::Document, &Path), Error> {
             return Err(other);
         }
     }
-    Ok((document?, path.parent().unwrap_or(Path::new(""))))
+    document
 }
 
 /// What to give in place of a folder: a scene in it, or what else is there.
@@ -195,10 +195,10 @@ pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, Error> {
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, Error> {
-    let document = source::Document::new(name, text);
+    let document = source::Document::new(name, text).within(base);
     let keys = keys(&document)?;
     let grippers = keys.grippers.as_ref().map(|table| &table.value);
-    check::ply(&keys.ply, grippers, &document, base).map(|(ply, _)| ply)
+    check::ply(&keys.ply, grippers, &document).map(|(ply, _)| ply)
 }
 
 /// As [`parse`], on a mold that a program has made if one is given, the text having no `[mold]` then, and for models as [`read_for`].
@@ -213,7 +213,7 @@ pub fn parse_for(
     model: Option<Model>,
     also: Option<Model>,
 ) -> Result<SceneFile, Error> {
-    let document = source::Document::new(name, text);
+    let document = source::Document::new(name, text).within(base);
     let mut file = keys(&document)?;
     choose_models(&mut file, model, also);
     match (&file.mold, made) {
@@ -222,18 +222,18 @@ pub fn parse_for(
             "the scene has two molds",
             "leave out [mold], or give no other mold",
         )),
-        (_, Some(made)) => check::scene_on(&file, made, &document, base),
-        (_, None) => check::scene(&file, None, &document, base),
+        (_, Some(made)) => check::scene_on(&file, made, &document),
+        (_, None) => check::scene(&file, None, &document),
     }
 }
 
-/// Files that a text may name: every value that is the path of one, relative to `base`, and those that such a file names if it is TOML, as
+/// Files that a text may name: every value that is the path of one, and those that such a file names if it is TOML, as
 /// that of a material or of a cell.
-fn named(document: &source::Document, base: &Path) -> Vec<PathBuf> {
-    let mut out = named_in(&document.text, base);
+fn named(document: &source::Document) -> Vec<PathBuf> {
+    let mut out = named_in(&document.text, &document.folder);
     for path in out.clone().iter().filter(|path| path.extension() == Some("toml".as_ref())) {
         let text = input::text(path, read::LARGEST_TOML).unwrap_or_default();
-        out.extend(named_in(&text, path.parent().unwrap_or(base)));
+        out.extend(named_in(&text, path.parent().unwrap_or(&document.folder)));
     }
     out
 }

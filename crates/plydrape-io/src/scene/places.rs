@@ -12,7 +12,6 @@ use crate::Error;
 use plydrape::LayupError;
 use plydrape::ply::{Grid, GripperId, Ply, gripper_name};
 use std::ops::Range;
-use std::path::Path;
 
 /// Largest coordinate of a gripper (m).
 const FARTHEST: f64 = 1e4;
@@ -56,12 +55,11 @@ impl Places {
         positions: &Located<Positions>,
         ply: &Ply,
         scene: &Document,
-        base: &Path,
     ) -> Result<Self, Error> {
         match &positions.value {
             Positions::Table(rows) => from_table(rows, &positions.span, ply, scene),
             Positions::File(name) => {
-                let document = csv_file(name, &positions.span, scene, base)?;
+                let document = csv_file(name, &positions.span, scene)?;
                 from_csv(document, ply)
             }
         }
@@ -141,9 +139,8 @@ pub(super) fn csv_file(
     name: &str,
     span: &Range<usize>,
     scene: &Document,
-    base: &Path,
 ) -> Result<Document, Error> {
-    read::table(&base.join(name), name).map_err(|error| scene.error_of_named(span, error, "scene"))
+    read::table(&scene.path(name), name).map_err(|error| scene.error_of_named(span, error, "scene"))
 }
 
 fn from_table(

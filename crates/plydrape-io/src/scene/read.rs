@@ -109,7 +109,8 @@ pub(super) const BACKSLASHES: &str =
 
 /// Reads a text file, named `name` in messages.
 pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Error> {
-    decoded(bytes(path, name, largest)?, name, Old::Refused)
+    let folder = path.parent().unwrap_or(Path::new(""));
+    Ok(decoded(bytes(path, name, largest)?, name, Old::Refused)?.within(folder))
 }
 
 /// Reads a table, named `name` in messages: where it is not UTF-8 it is taken for Latin-1, as spreadsheets of Western Europe save CSV files.

@@ -22,11 +22,10 @@ const SHIPPED: [(&str, &str); 3] = [
 /// Sides of the prism around a round link.
 const SIDES: u32 = 24;
 
-/// Checks the table `[robot]`, if the scene has one; files that it names are relative to `base`.
+/// Checks the table `[robot]`, if the scene has one.
 pub(super) fn robot(
     file: &SceneKeys,
     document: &Document,
-    base: &Path,
 ) -> Result<(Option<Arm>, Vec<Body>), Error> {
     let Some(table) = &file.robot else { return Ok((None, Vec::new())) };
     if file.tool.is_none() {
@@ -56,7 +55,7 @@ pub(super) fn robot(
                 ),
             ));
         }
-        (Some(name), None) => from_file(name, &table.value, document, base)?,
+        (Some(name), None) => from_file(name, &table.value, document)?,
         (None, Some(dh)) => {
             let (joints, flange) = from_table(&dh.value.0, document)?;
             ("arm".into(), joints, flange, Vec::new())
@@ -77,7 +76,6 @@ fn from_file(
     name: &Located<String>,
     table: &RobotTable,
     document: &Document,
-    base: &Path,
 ) -> Result<Parts, Error> {
     // an arm that comes with plydrape, or a URDF file beside the scene
     let file = &name.value;
@@ -94,7 +92,7 @@ fn from_file(
             ));
         }
         None => {
-            read::text(&base.join(file), file, urdf::LARGEST)
+            read::text(&document.path(file), file, urdf::LARGEST)
                 .map_err(|error| document.error_of_named(&name.span, error, "scene"))?
                 .text
         }
@@ -109,7 +107,8 @@ fn from_file(
     // the shapes of its links are bodies, numbered where a link has several
     let mut bodies = Vec::new();
     if table.bodies.unwrap_or(true) {
-        let folder = base.join(file).parent().unwrap_or(base).to_path_buf();
+        let path = document.path(file);
+        let folder = path.parent().unwrap_or(&document.folder);
         let count = |name: &str| read.bodies.iter().filter(|body| body.name == name).count();
         for (n, body) in read.bodies.iter().enumerate() {
             let before = read.bodies[..n].iter().filter(|other| other.name == body.name).count();
@@ -120,7 +119,7 @@ fn from_file(
             bodies.push(Body {
                 name: format!("arm's {label}"),
                 on: Mount::Link(body.link),
-                shape: link_shape(body, name, document, &folder)?,
+                shape: link_shape(body, name, document, folder)?,
             });
         }
     }

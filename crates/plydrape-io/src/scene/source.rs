@@ -5,6 +5,7 @@ use crate::Error;
 use crate::error::Diagnostic;
 use crate::store::shown;
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A text under reading, with the name it goes by in messages.
@@ -14,11 +15,23 @@ pub(super) struct Document {
     pub file: String,
     /// Whole text.
     pub text: Arc<str>,
+    /// Folder of the files that it names.
+    pub folder: PathBuf,
 }
 
 impl Document {
     pub fn new(file: impl Into<String>, text: &str) -> Self {
-        Document { file: file.into(), text: text.into() }
+        Document { file: file.into(), text: text.into(), folder: PathBuf::new() }
+    }
+
+    /// The text of a file, or of one that names files in a folder.
+    pub fn within(self, folder: &Path) -> Self {
+        Document { folder: folder.into(), ..self }
+    }
+
+    /// Where a file lies that this text names.
+    pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.folder.join(name)
     }
 
     /// An error at some bytes of this text.

@@ -23,7 +23,7 @@ pub(super) fn start(
     target: Option<&Target>,
 ) -> Result<Places, Error> {
     let keys = &table.value;
-    let &Surroundings { ply, document, base, .. } = around;
+    let &Surroundings { ply, document, .. } = around;
     match (&keys.positions, &keys.spacing, &keys.height) {
         (Some(positions), None, None) => {
             if let Some(key) = other_key(keys) {
@@ -33,7 +33,7 @@ pub(super) fn start(
                     format!("remove `{key}`: positions say all"),
                 ));
             }
-            Places::read(positions, ply, document, base)
+            Places::read(positions, ply, document)
         }
         (Some(positions), ..) => Err(document.error(
             positions.span.clone(),

@@ -14,7 +14,6 @@ use plydrape::mold::mesh::DetailKind;
 use plydrape::mold::{Mesh, Mold};
 use plydrape::net::{Free, Missing, Net, Reason, Seeds, TargetBoundary};
 use plydrape::ply::{Ply, gripper_name};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Widest detail that is named where the ply folds, in widths that it spans unless given.
@@ -27,7 +26,6 @@ pub(super) fn target(
     turn: f64,
     mold: Option<&Mold>,
     document: &Document,
-    base: &Path,
 ) -> Result<Target, Error> {
     let keys = &table.value;
     if let Some(positions) = &keys.positions {
@@ -40,7 +38,7 @@ pub(super) fn target(
                 ),
             ));
         }
-        let places = Places::read(positions, ply, document, base)?;
+        let places = Places::read(positions, ply, document)?;
         places.check_run(ply, "at the target")?;
         return Ok(Target { grippers: places.points, drape: None });
     }
@@ -51,7 +49,7 @@ pub(super) fn target(
             "add [mold] with kind = \"plane\", or give the target's `positions`",
         ));
     };
-    let Laid { net, .. } = net(table, ply, turn, mold, document, base)?;
+    let Laid { net, .. } = net(table, ply, turn, mold, document)?;
     // nodes that hang straight above each other have no span between them
     let places = Places {
         points: at_grippers(&net, ply, mold, table, document)?,
@@ -80,14 +78,13 @@ pub(super) fn net(
     turn: f64,
     mold: &Mold,
     document: &Document,
-    base: &Path,
 ) -> Result<Laid, Error> {
     let keys = &table.value;
     let placement = placement(keys, &table.span, ply, turn, mold, document)?;
     let outline = ply.cut.as_ref().map(|cut| &cut.outline);
     let mesh = placement.mesh[0].min(placement.mesh[1]);
     let wanted = match &keys.trim {
-        Some(file) => Some(wanted(file, mold, mesh, document, base)?),
+        Some(file) => Some(wanted(file, mold, mesh, document)?),
         None => None,
     };
     let no_net = |error: LayupError| no_net(keys, table, &error, document);
@@ -107,9 +104,8 @@ fn wanted(
     mold: &Mold,
     mesh: f64,
     scene: &Document,
-    base: &Path,
 ) -> Result<TargetBoundary, Error> {
-    let document = csv_file(&file.value, &file.span, scene, base)?;
+    let document = csv_file(&file.value, &file.span, scene)?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
     let columns = [X, Y, Z];
     let csv = Table::new(&document, &columns, &[])?;

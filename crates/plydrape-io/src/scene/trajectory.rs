@@ -13,7 +13,6 @@ use plydrape::measure::Practice;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS, Motion, SHORTEST_STEP, is_too_short};
 use plydrape::ply::{GripperId, Ply, gripper_name, read_gripper_name};
 use std::ops::Range;
-use std::path::Path;
 
 /// The columns of a motion file; others, such as the attitude `qx` … `qw`, are ignored.
 const COLUMNS: [Column; 5] = [
@@ -29,7 +28,6 @@ pub(super) fn trajectory(
     table: &Located<MotionTable>,
     ply: &Ply,
     scene: &Document,
-    base: &Path,
 ) -> Result<(Motion, Places), Error> {
     let Some(name) = &table.value.file else {
         return Err(scene.error(
@@ -47,7 +45,7 @@ pub(super) fn trajectory(
             "remove `steps` and `duration`, or write kind = \"straight\"",
         ));
     }
-    let document = csv_file(&name.value, &name.span, scene, base)?;
+    let document = csv_file(&name.value, &name.span, scene)?;
     let mut steps = Steps::new(&document, ply);
     let csv = Table::new(&document, &COLUMNS, &[])?;
     for row in csv.rows() {

@@ -6,24 +6,24 @@ use std::time::Duration;
 /// What a decision takes, or how long it still does where that is known, and a sample of this many cells that may follow it.
 #[must_use]
 pub fn decision(forecast: &Forecast, left: Option<Duration>, cells: usize) -> String {
-    let nodes = forecast.nodes;
-    let decision = match left {
-        Some(left) => format!("{} left", about(left)),
-        None => about(forecast.decision()),
-    };
+    let (nodes, decision) = (forecast.nodes, takes(forecast.decision(), left));
     match cells {
         0 => format!("{nodes} nodes, {decision}"),
         cells => {
-            let sample = sample(forecast, cells);
-            format!("{nodes} nodes, {decision}, then {sample}")
+            let sample = sample(forecast, None, cells);
+            format!("{nodes} nodes, {decision}, then at most {cells} cells with errors, {sample}")
         }
     }
 }
 
-/// What a sample of cells takes.
+/// What a sample of cells takes, or how long it still does where that is known.
 #[must_use]
-pub fn sample(forecast: &Forecast, cells: usize) -> String {
-    format!("at most {cells} cells with errors, {}", about(forecast.sample(cells)))
+pub fn sample(forecast: &Forecast, left: Option<Duration>, cells: usize) -> String {
+    takes(forecast.sample(cells), left)
+}
+
+fn takes(whole: Duration, left: Option<Duration>) -> String {
+    left.map_or_else(|| about(whole), |left| format!("{} left", about(left)))
 }
 
 /// A time in words, with no more digits than it has where it is known within a factor of 1.5.
@@ -54,7 +54,8 @@ mod tests {
         assert_eq!(decision(&forecast, left, 0), "961 nodes, about 2 s left");
         let shown = decision(&forecast, None, 64);
         assert_eq!(shown, "961 nodes, about 4 s, then at most 64 cells with errors, about 120 s");
-        assert_eq!(sample(&forecast, 1), "at most 1 cells with errors, about 4 s");
+        assert_eq!(sample(&forecast, None, 1), "about 4 s");
+        assert_eq!(sample(&forecast, left, 64), "about 2 s left");
     }
 
     #[test]

@@ -139,11 +139,17 @@ impl Forecast {
         self.drape.mul_f64(CONSTANTS.between + alone) + self.sample(self.cells)
     }
 
-    /// Time of what is left of that decision after a time, once the drape is done up to one of its steps: what was forecast, or, where that is
-    /// over, what the steps that are done took for each of the others.
+    /// Time of what is left of that decision after a time, or of a sample of cells, once the drape is done up to one of its steps, or cells are:
+    /// what was forecast, or, where that is over, what the steps that are done took for each of the others.
     #[must_use]
-    pub fn left(&self, elapsed: Duration, step: Option<[usize; 2]>) -> Duration {
-        let left = self.decision().saturating_sub(elapsed);
+    pub fn left(
+        &self,
+        sample: Option<usize>,
+        elapsed: Duration,
+        step: Option<[usize; 2]>,
+    ) -> Duration {
+        let whole = sample.map_or_else(|| self.decision(), |cells| self.sample(cells));
+        let left = whole.saturating_sub(elapsed);
         let by_steps = step
             .filter(|[done, _]| left.is_zero() && *done > 0)
             .map(|[done, of]| elapsed.mul_f64(of.saturating_sub(done) as f64 / done as f64));

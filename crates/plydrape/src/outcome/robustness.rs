@@ -55,10 +55,12 @@ impl Robustness {
         Forecast::like(drape).along(&self.scene.layup)
     }
 
-    /// Drapes the sample and judges by it too. Returns whether that was done to its end; if not, the drape is not accepted,
-    /// because nobody knows whether enough of its cells are.
+    /// Drapes the sample and judges by it too, unless that was done. Returns whether it was done to its end; if not, the drape is not
+    /// accepted, because nobody knows whether enough of its cells are.
     pub fn judge_sample(&self, summary: &mut Summary, watch: &Watch) -> bool {
-        let Some(errors) = &self.sample else { return true };
+        let Some(errors) = self.sample.as_ref().filter(|_| summary.sample.is_none()) else {
+            return true;
+        };
         summary.sample = errors.judge(&self.scene_of(summary), watch);
         match summary.sample {
             Some(_) => summary.world = World::Errors,

@@ -8,8 +8,7 @@ use super::journal::Known;
 use super::path::Strategy;
 use super::quickest::quickest;
 use super::record::LimitedBy;
-use super::search_state::SearchState;
-use super::tuning::TUNING;
+use super::search_state::{Proof, SearchState};
 use crate::Error;
 use crate::errors::Errors;
 use crate::geometry::Point;
@@ -17,7 +16,9 @@ use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
 use crate::measure::{Course, MotionPeaks, Name, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
-use crate::outcome::{self, Drape, Effort, Flight, Forecast, Judged, RateTolerance, Watch};
+use crate::outcome::{
+    self, Drape, Effort, Flight, Forecast, Judged, RateTolerance, Robustness, SampleVerdict, Watch,
+};
 use crate::scene::Scene;
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
@@ -188,6 +189,36 @@ impl Decision {
         }
         self.limited_by = Some(limited_by);
         Ok(())
+    }
+
+    /// Judges a finished plan by the sample of its scene, unless that was done; `None` if somebody ended that, and of a scene without
+    /// errors.
+    ///
+    /// # Errors
+    /// As [`Decision::whole_motion`].
+    pub fn sample(
+        &mut self,
+        scene: &Scene,
+        state: &SearchState,
+    ) -> Result<Option<&SampleVerdict>, Error> {
+        let robustness = Robustness::of_planned(scene, self.whole_motion()?.steps());
+        let Drape { summary, sheet, .. } = &mut self.decided.drape;
+        if let (None, false, Some(errors)) =
+            (&summary.sample, summary.interrupted(), robustness.sampled())
+        {
+            let samples = errors.samples;
+            let effort = sheet.as_ref().map(|sheet| Effort::new(&sheet.drape));
+            let before = state.begin("draping cells with errors");
+            state.set_sample(effort.map(|effort| robustness.forecast(effort)), samples);
+            let stop = || state.report().is_break();
+            let done = |done: usize, of: usize| state.set_step(done, of);
+            state.while_finishing(|| {
+                robustness.judge_sample(summary, &Watch { stop: &stop, done: &done })
+            });
+            state.set_forecast(None);
+            state.begin(before);
+        }
+        Ok(summary.sample.as_ref())
     }
 
     /// The motion with all that grippers do before it and after it.
@@ -363,7 +394,7 @@ fn forecast(
     }
     let errors = scene.errors.filter(Errors::is_drawn);
     let changed = outcome::minute_changes(&scene.layup).samples;
-    let cells = changed + errors.map_or(0, |_| TUNING.proving);
+    let cells = changed + errors.map_or(0, |_| state.proof().cells);
     let forecast = Forecast::new(nodes, solves, state.pace()).along(&scene.layup);
     Some(Forecast { cells, ..forecast })
 }
@@ -405,21 +436,21 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     let mut refused_by = None;
     if judged.accepted() {
         let layup = sheet::event::at_these_times(&followed, &drape.summary.events);
-        // those that refused another plan first; a ply at the ends of its scatter is none of sixteen
-        let proving = ENDS.len()..ENDS.len() + TUNING.proving;
+        // those that refused another plan first; a ply at the ends of its scatter is none of so few
+        let Proof { cells: proving, spare } = state.proof();
+        let proving = ENDS.len()..ENDS.len() + proving;
         let mut cells = state.cells();
         cells.retain(|cell| proving.contains(cell));
         let others: Vec<usize> = proving.filter(|n| !cells.contains(n)).collect();
         cells.extend(others);
         let stop = || state.report().is_break();
         let flight = drape.sheet.as_ref().and_then(|sheet| sheet.flight.as_ref());
-        let drapes =
-            evaluation::with_errors(&layup, scene.errors, judged, &cells, TUNING.spare, |cell| {
-                let judged = Flight::judge(flight, &cell, &scene.limits, &stop);
-                // the errors may have left nothing that could be draped
-                let judged = judged.unwrap_or_else(|_| Judged::nothing());
-                (!judged.interrupted).then_some(judged)
-            });
+        let drapes = evaluation::with_errors(&layup, scene.errors, judged, &cells, spare, |cell| {
+            let judged = Flight::judge(flight, &cell, &scene.limits, &stop);
+            // the errors may have left nothing that could be draped
+            let judged = judged.unwrap_or_else(|_| Judged::nothing());
+            (!judged.interrupted).then_some(judged)
+        });
         (judged, refused_by) = (drapes.worst, drapes.refused_by);
         score = evaluation::score(&judged);
     }

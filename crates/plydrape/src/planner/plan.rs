@@ -12,10 +12,9 @@ use crate::Error;
 use crate::layup::Model;
 use crate::measure::{Name, Verdict, Worst};
 use crate::motion::{Attitudes, TimedMotion};
-use crate::outcome::{self, Outcome, Robustness, Watch};
+use crate::outcome::{self, Outcome};
 use crate::scene::{PlanMethod, Scene};
 use crate::state::Site;
-use std::ops::ControlFlow;
 
 /// A finished plan.
 #[derive(Debug, Clone)]
@@ -61,23 +60,26 @@ pub fn plan(
     checkpoint: Option<&Checkpoint>,
     watcher: Watcher,
 ) -> Result<Planned, Error> {
-    let mut planned = plan_without_errors(scene, checkpoint, watcher)?;
-    let Outcome { drape, also } = &mut planned.outcome;
-    let robustness = Robustness::of_planned(scene, planned.motion.steps());
-    robustness.judge_sample(&mut drape.summary, &Watch { stop: &|| false, done: &|_, _| {} });
-    let followed = along(scene, &planned.motion);
-    *also = outcome::also(&followed, &drape.summary, &mut |_| ControlFlow::Continue(()))?;
-    Ok(planned)
+    searched(scene, checkpoint, true, watcher)
 }
 
-/// Plans as [`plan`], and leaves it to the caller to judge the sample of cells with errors ([`Robustness`]) and to drape by the other model
-/// ([`outcome::also`]).
+/// Plans as [`plan`], and judges the plan without the errors of the scene, by the sample of which it may then be refused.
 ///
 /// # Errors
 /// As [`plan`].
 pub fn plan_without_errors(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
+    watcher: Watcher,
+) -> Result<Planned, Error> {
+    searched(scene, checkpoint, false, watcher)
+}
+
+/// A plan, judged by the sample of the scene or not.
+fn searched(
+    scene: &Scene,
+    checkpoint: Option<&Checkpoint>,
+    sampled: bool,
     watcher: Watcher,
 ) -> Result<Planned, Error> {
     if scene.layup.mold.is_none() {
@@ -101,7 +103,7 @@ pub fn plan_without_errors(
         checkpoint.map_or_else(Default::default, |checkpoint| checkpoint.origin(scene));
     let state = SearchState::new(most, watcher).going_on(scene, checkpoint, journal);
     let (mut decision, own_limits) = match scene.plan.method {
-        PlanMethod::Path => by_path(scene, checkpoint, &state)?,
+        PlanMethod::Path => by_path(scene, checkpoint, sampled, &state)?,
         PlanMethod::Stepwise => by_steps(scene, &state)?,
     };
     state.finish();
@@ -109,6 +111,9 @@ pub fn plan_without_errors(
     // the motion in time, with its own limits, judged as it is driven
     decision.finish(scene, own_limits, &state, true)?;
     decision.decided.drape.summary.judge_rest(&scene.layup, &scene.limits);
+    if sampled {
+        decision.sample(scene, &state)?;
+    }
     let whole = decision.whole_motion()?;
     let Decision { strategy, mut positions, motion, cycle, decided, limited_by, slowed, .. } =
         decision;
@@ -121,6 +126,7 @@ pub fn plan_without_errors(
     let (method, rate) = (scene.plan.method, whole.fitting_rate(scene.plan.rate));
     let limited_by = limited_by.unwrap_or_default();
     let record = PlanRecord {
+        refused: Some(state.refusals()).filter(|refused| *refused > 0),
         slowed: Some(slowed).filter(|slowed| *slowed != 1.0),
         cycle,
         ..PlanRecord::new(method, evaluations, rate, positions.clone(), &motion, limited_by)
@@ -149,9 +155,10 @@ type Found = (Decision, Vec<Verdict>);
 fn by_path(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
+    sampled: bool,
     state: &SearchState,
 ) -> Result<Found, Error> {
-    let best = path::search(scene, checkpoint, state)?.ok_or(Error::NoTarget)?;
+    let best = path::search(scene, checkpoint, sampled, state)?.ok_or(Error::NoTarget)?;
     Ok((best, Vec::new()))
 }
 

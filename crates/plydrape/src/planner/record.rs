@@ -17,6 +17,9 @@ pub struct PlanRecord {
     pub method: PlanMethod,
     /// Drapes that the search took; of the stepwise planner, steps.
     pub evaluations: usize,
+    /// After how many plans that the sample of cells with errors had refused the search went on; `None` if after none.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub refused: Option<usize>,
     /// Samples a second of the motion as it is written (Hz).
     pub rate: f64,
     /// What limits the time of the motion; what does for the longest comes first.
@@ -77,10 +80,11 @@ impl PlanRecord {
         limited_by: Vec<LimitedBy>,
     ) -> Self {
         let (spacing, law) = (motion.spacing(), motion.law());
-        let (slowed, cycle, picked_up) = (None, None, None);
+        let (refused, slowed, cycle, picked_up) = (None, None, None, None);
         PlanRecord {
             method,
             evaluations,
+            refused,
             rate,
             limited_by,
             slowed,

@@ -27,18 +27,20 @@ pub struct Progress<'a> {
     pub finishing: bool,
     /// Name of the present stage of the search.
     pub stage: &'static str,
-    /// How long the decision under way takes in all, as expected before it began; `None` while none is made.
+    /// How long the decision under way takes in all, as expected before it began, or each drape of a sample; `None` while none is made.
     pub forecast: Option<Forecast>,
-    /// The step up to which the drape that decides is done, and how many it has; `None` while none is made.
+    /// Cells of the sample under way at most; `None` while none is draped.
+    pub sample: Option<usize>,
+    /// The step up to which the drape that decides is done, and how many it has, or so the cells of the sample; `None` while none is made.
     pub step: Option<[usize; 2]>,
-    /// How long the decision under way still takes, by the forecast and by the steps that are done.
+    /// How long that still takes, by the forecast and by what is done.
     pub left: Option<Duration>,
     /// Limits of the best plan so far; empty before there is one.
     pub best: &'a [Verdict],
     /// Whether on the best plan so far was decided; else these are the limits of its ranking.
     pub decided: bool,
-    /// Whether the best plan so far keeps them all, as was decided, with those of its motion and of the tool; a sample of cells with errors
-    /// that judges after the search is not in it.
+    /// Whether the best plan so far keeps them all, as was decided, with those of its motion and of the tool, and no sample of cells with
+    /// errors has refused it.
     pub accepted: bool,
     /// Makes the checkpoint from which a search that is cut off now goes on to the same end; `None` before there is a plan.
     pub checkpoint: &'a dyn Fn() -> Option<Checkpoint>,
@@ -54,9 +56,12 @@ pub struct SearchState<'a> {
     finishing: AtomicBool,
     candidates: AtomicUsize,
     decisions: AtomicUsize,
+    refusals: AtomicUsize,
     most: usize,
     /// Cells with errors by which candidates are ranked.
     cells: Mutex<Vec<usize>>,
+    /// By how many cells a plan is proven that is decided on, and how many of them may break a limit.
+    proof: Mutex<Proof>,
     best: Mutex<Best<'a>>,
     /// What is searched, and the checkpoint from which that goes on.
     origin: Option<(&'a Scene, Option<&'a Checkpoint>)>,
@@ -64,6 +69,15 @@ pub struct SearchState<'a> {
     /// All that was judged so far was in the journal. The watcher is not asked then: that takes no time to speak of, and a search that is
     /// ended within it would lose what the one before had.
     repeats: AtomicBool,
+}
+
+/// By how many cells with errors a plan is proven, and how many of them may break a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Proof {
+    /// Cells.
+    pub cells: usize,
+    /// Those that may break a limit.
+    pub spare: usize,
 }
 
 /// Positions of all grippers (m), step by step, and the strategy behind them.
@@ -79,6 +93,7 @@ struct Best<'a> {
     /// The plan itself.
     plan: Option<BestPlan>,
     forecast: Option<Forecast>,
+    sample: Option<usize>,
     /// When the decision under way began.
     began: Instant,
     step: Option<[usize; 2]>,
@@ -94,8 +109,10 @@ impl<'a> SearchState<'a> {
             finishing: AtomicBool::new(false),
             candidates: AtomicUsize::new(0),
             decisions: AtomicUsize::new(0),
+            refusals: AtomicUsize::new(0),
             most,
             cells: Mutex::new((0..TUNING.cells).collect()),
+            proof: Mutex::new(Proof { cells: TUNING.proving, spare: TUNING.spare }),
             best: Mutex::new(Best {
                 watcher,
                 score: f64::INFINITY,
@@ -105,6 +122,7 @@ impl<'a> SearchState<'a> {
                 stage: "",
                 plan: None,
                 forecast: None,
+                sample: None,
                 began: Instant::now(),
                 step: None,
                 pace: Pace::default(),
@@ -213,6 +231,26 @@ impl<'a> SearchState<'a> {
         }
     }
 
+    /// By how many cells a plan is proven that is decided on.
+    pub fn proof(&self) -> Proof {
+        *lock(&self.proof)
+    }
+
+    /// Plans that a sample has refused.
+    pub fn refusals(&self) -> usize {
+        self.refusals.load(Ordering::Relaxed)
+    }
+
+    /// A sample has refused the best plan, although the cells of the planner had proven it: these are its limits now, and the plans that
+    /// follow are proven by more cells.
+    pub fn refuse(&self, proof: Proof, limits: &[Verdict], score: f64) {
+        self.refusals.fetch_add(1, Ordering::Relaxed);
+        *lock(&self.proof) = proof;
+        let mut best = lock(&self.best);
+        best.limits = limits.to_vec();
+        (best.accepted, best.score) = (false, score);
+    }
+
     /// Sets the number of steps of the stepwise planner.
     pub fn set_steps(&self, done: usize) {
         self.candidates.store(done, Ordering::Relaxed);
@@ -246,6 +284,15 @@ impl<'a> SearchState<'a> {
         self.begin("finishing the best plan");
     }
 
+    /// Does what belongs to a finished plan, and is not broken off by the time of the search, before the search may go on.
+    pub fn while_finishing<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.repeats.store(false, Ordering::Relaxed);
+        let before = self.finishing.swap(true, Ordering::Relaxed);
+        let done = work();
+        self.finishing.store(before, Ordering::Relaxed);
+        done
+    }
+
     /// Begins a stage of the search; returns the one before.
     pub fn begin(&self, stage: &'static str) -> &'static str {
         let mut best = lock(&self.best);
@@ -257,13 +304,23 @@ impl<'a> SearchState<'a> {
 
     /// Says how long the decision that begins will take, or that it has ended.
     pub fn set_forecast(&self, forecast: Option<Forecast>) {
+        self.set_work(forecast, None);
+    }
+
+    /// Says how long a sample of so many cells that begins will take.
+    pub fn set_sample(&self, forecast: Option<Forecast>, cells: usize) {
+        self.set_work(forecast, Some(cells));
+    }
+
+    fn set_work(&self, forecast: Option<Forecast>, sample: Option<usize>) {
         let mut best = lock(&self.best);
-        (best.forecast, best.step, best.began) = (forecast, None, Instant::now());
+        (best.forecast, best.sample, best.step) = (forecast, sample, None);
+        best.began = Instant::now();
         drop(best);
         let _ = self.report();
     }
 
-    /// Says up to which of this many steps the drape that decides is done.
+    /// Says up to which of this many steps the drape that decides is done, or cells of a sample.
     pub fn set_step(&self, done: usize, of: usize) {
         if let Ok(mut best) = self.best.try_lock() {
             best.step = best.forecast.and(Some([done, of]));
@@ -318,11 +375,11 @@ impl<'a> SearchState<'a> {
         }
         // another thread that reports now says the same
         let Ok(mut best) = self.best.try_lock() else { return ControlFlow::Continue(()) };
-        let Best { watcher, limits, decided, accepted, stage, plan, forecast, began, step, .. } =
-            &mut *best;
+        let (sample, step, elapsed) = (best.sample, best.step, best.began.elapsed());
+        let Best { watcher, limits, decided, accepted, stage, plan, forecast, .. } = &mut *best;
         // made only where the watcher asks for it, because it copies a motion
         let checkpoint = || self.checkpoint_of(plan.as_ref()?);
-        let left = forecast.map(|forecast| forecast.left(began.elapsed(), *step));
+        let left = forecast.map(|forecast| forecast.left(sample, elapsed, step));
         let progress = Progress {
             candidates: self.candidates(),
             most: self.most,
@@ -330,7 +387,8 @@ impl<'a> SearchState<'a> {
             finishing: self.is_finishing(),
             stage,
             forecast: *forecast,
-            step: *step,
+            sample,
+            step,
             left,
             best: limits,
             decided: *decided,

@@ -11,7 +11,6 @@ use crate::scene::source::Document;
 use plydrape::mold::{Graph, Mold, Saddle, Surface};
 use plydrape::ply::Ply;
 use std::ops::Range;
-use std::path::Path;
 
 /// Checks the keys of a saddle.
 pub(super) fn saddle(keys: &Keys) -> Result<Mold, Error> {
@@ -55,10 +54,10 @@ pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, Error> {
 }
 
 /// Checks the keys of a height grid, and reads its file.
-pub(super) fn height_grid(keys: &Keys, base: &Path) -> Result<Mold, Error> {
+pub(super) fn height_grid(keys: &Keys) -> Result<Mold, Error> {
     let file =
         keys.required(&keys.table.file, "file", "\"heights.csv\" with the columns x, y, z")?;
-    let grid = heights(file, keys.document, base)?;
+    let grid = heights(file, keys.document)?;
     let domain = Some(grid.range());
     let pose = keys.upward_pose()?;
     Ok(Mold::Graph(Graph { pose, surface: Surface::HeightGrid(grid), domain }))

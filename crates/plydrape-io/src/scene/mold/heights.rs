@@ -8,18 +8,13 @@ use crate::scene::table::Table;
 use plydrape::LayupError;
 use plydrape::mold::HeightGrid;
 use std::ops::Range;
-use std::path::Path;
 
 /// Places along an axis closer than this share of its length are one place.
 const SAME: f64 = 1e-7;
 
 /// Reads the file of a height grid.
-pub(super) fn heights(
-    file: &Located<String>,
-    scene: &Document,
-    base: &Path,
-) -> Result<HeightGrid, Error> {
-    let document = csv_file(&file.value, &file.span, scene, base)?;
+pub(super) fn heights(file: &Located<String>, scene: &Document) -> Result<HeightGrid, Error> {
+    let document = csv_file(&file.value, &file.span, scene)?;
     let columns = [X, Y, Z];
     let csv = Table::new(&document, &columns, &[])?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());

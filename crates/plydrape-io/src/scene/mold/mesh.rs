@@ -15,12 +15,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Checks the keys of a mesh, and reads its file.
-pub(super) fn mesh(
-    keys: &Keys,
-    ply: &Ply,
-    tolerance: f64,
-    base: &Path,
-) -> Result<(Mold, MeshReport), Error> {
+pub(super) fn mesh(keys: &Keys, ply: &Ply, tolerance: f64) -> Result<(Mold, MeshReport), Error> {
     let file =
         keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let unit = keys.table.unit.as_ref();
@@ -31,7 +26,7 @@ pub(super) fn mesh(
         &Purpose { what: "mold", tolerance },
         &keys.pose()?,
         keys.document,
-        base,
+        &keys.document.folder,
     )?;
     if let Some(unit) = unit {
         check_size(&mesh, unit, ply, keys.document)?;
@@ -117,17 +112,17 @@ pub(in crate::scene) struct Purpose {
     pub tolerance: f64,
 }
 
-/// Reads a mesh file, whose coordinates are in a unit, and places it.
+/// Reads a mesh file in a folder, whose coordinates are in a unit, and places it.
 pub(in crate::scene) fn mesh_file(
     file: &Located<String>,
     unit: Option<&Located<String>>,
     purpose: &Purpose,
     pose: &Pose,
     document: &Document,
-    base: &Path,
+    folder: &Path,
 ) -> Result<(Mesh, MeshReport), Error> {
     let at_file = |error: Error| document.error(file.span.clone(), error.to_string(), error.help());
-    let bytes = read::bytes(&base.join(&file.value), &file.value, mesh::LARGEST)
+    let bytes = read::bytes(&folder.join(&file.value), &file.value, mesh::LARGEST)
         .map_err(|error| document.error_of_named(&file.span, error, "scene"))?;
     let parse =
         |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose, purpose.tolerance);

@@ -15,7 +15,6 @@ use crate::store::shown::listed;
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::ops::Range;
-use std::path::Path;
 
 pub(super) use mesh::{Purpose, mesh_file, usual_width};
 
@@ -28,14 +27,13 @@ struct Keys<'a> {
     document: &'a Document,
 }
 
-/// Checks the table `[mold]`; files that it names are relative to `base`. A mesh comes with what was found in it; boundaries
+/// Checks the table `[mold]`. A mesh comes with what was found in it; boundaries
 /// of its faces that are no farther apart than `tolerance` (m) are stitched.
 pub(super) fn mold(
     table: &MoldTable,
     ply: &Ply,
     tolerance: f64,
     document: &Document,
-    base: &Path,
 ) -> Result<(Mold, Option<MeshReport>), Error> {
     let keys = Keys { table, document };
     keys.check_belonging()?;
@@ -46,9 +44,9 @@ pub(super) fn mold(
         MoldKind::Torus => round::torus(&keys),
         MoldKind::Saddle => graph::saddle(&keys),
         MoldKind::Formula => graph::formula(&keys, ply),
-        MoldKind::HeightGrid => graph::height_grid(&keys, base),
+        MoldKind::HeightGrid => graph::height_grid(&keys),
         MoldKind::Mesh => {
-            let (mesh, report) = mesh::mesh(&keys, ply, tolerance, base)?;
+            let (mesh, report) = mesh::mesh(&keys, ply, tolerance)?;
             return Ok((mesh, Some(report)));
         }
     };

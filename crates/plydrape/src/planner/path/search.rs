@@ -10,14 +10,16 @@ use super::fronts::Fronts;
 use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
 use crate::Error;
+use crate::errors::Errors;
 use crate::geometry::Point;
 use crate::layup::Model;
+use crate::outcome::SampleVerdict;
 use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
-use crate::planner::evaluation::{Bias, Drapes, Mesh, first_mesh};
+use crate::planner::evaluation::{self, Bias, Drapes, Mesh, first_mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::journal::{self, Known};
-use crate::planner::search_state::{SearchState, lock};
+use crate::planner::search_state::{Proof, SearchState, lock};
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
@@ -63,11 +65,13 @@ struct Choice {
     known: Known,
     /// The decision itself; `None` if a search before has made it.
     decision: Option<Decision>,
+    /// Whether a sample has refused it.
+    refused: bool,
 }
 
 impl Choice {
     fn is_accepted(&self) -> bool {
-        self.known.judged.accepted()
+        !self.refused && self.known.judged.accepted()
     }
 
     fn score(&self) -> f64 {
@@ -90,13 +94,15 @@ struct Search<'a, 'b> {
 }
 
 /// The best plan that is found: families first, or the result of an earlier search, then evolution. None without
-/// a mold or a target.
+/// a mold or a target. Where it is `sampled`, a plan that is accepted is judged by the sample of the scene too, and the search goes on
+/// if that refuses it.
 ///
 /// # Errors
 /// If no candidate can become a motion.
 pub fn search(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
+    sampled: bool,
     state: &SearchState,
 ) -> Result<Option<Decision>, Error> {
     let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
@@ -115,6 +121,9 @@ pub fn search(
     search.first(checkpoint);
     if infeasible_limits(scene).is_empty() {
         search.improve(checkpoint);
+        while sampled && search.is_refused_by_sample()? {
+            search.go_on(checkpoint);
+        }
     }
     // at least one is decided on, even if the search was stopped
     if search.best.is_none() {
@@ -129,7 +138,7 @@ pub fn search(
     // a decision that an earlier search made is only known by its score, so it is draped again
     match (best, fault) {
         (None, Some(fault)) => Err(fault),
-        (Some(Choice { decision: None, strategy, positions, known }), _) => {
+        (Some(Choice { decision: None, strategy, positions, known, .. }), _) => {
             state.finish();
             Decision::again(scene, Some(strategy), positions, &known, state).map(Some)
         }
@@ -258,8 +267,9 @@ impl Search<'_, '_> {
         let Some((_, start)) = start else { return };
         let shared = self.shared;
         shared.state.begin("improving the best by evolution");
-        // a seed of its own for each call, so that a continued search does not draw the same samples
+        // a seed of its own for each call, so that a search that goes on does not draw the same samples
         let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations as u64);
+        let seed = before + (left + shared.state.refusals()) as u64;
         let found: Mutex<Vec<Candidate>> = Mutex::new(Vec::new());
         let objective = |unit: &DVector<f64>| -> f64 {
             let strategy = Strategy::of_unit(unit.as_slice());
@@ -278,7 +288,7 @@ impl Search<'_, '_> {
         }
         let options = CMAESOptions::new(unit, step)
             .population_size(TUNING.search.generation)
-            .seed(shared.scene.plan.seed.wrapping_add(before + left as u64));
+            .seed(shared.scene.plan.seed.wrapping_add(seed));
         let Ok(mut evolution) = options.build(objective) else { return };
         // each generation is ranked, and its best is decided on the whole sheet
         while !self.is_done() && self.left >= left + TUNING.search.generation {
@@ -290,6 +300,43 @@ impl Search<'_, '_> {
             if ended {
                 break;
             }
+        }
+    }
+
+    /// Whether the sample of the scene refuses the plan with which the search would end. From then on plans are proven by as many cells
+    /// as the sample has, of the planner's own: those of the sample judge, and nothing is learned from them.
+    fn is_refused_by_sample(&mut self) -> Result<bool, Error> {
+        let Shared { scene, state, .. } = self.shared;
+        let Some(errors) = scene.errors.filter(Errors::is_drawn) else { return Ok(false) };
+        let Some(best) = self.best.as_mut().filter(|best| best.is_accepted()) else {
+            return Ok(false);
+        };
+        let Choice { strategy, positions, known, decision, refused } = best;
+        let mut made = match decision.take() {
+            Some(made) => made,
+            None => Decision::again(scene, Some(*strategy), positions.clone(), known, state)?,
+        };
+        let sample = made.sample(scene, state)?.filter(|sample| !sample.ok).cloned();
+        *decision = Some(made);
+        let Some(SampleVerdict { limits, .. }) = sample else { return Ok(false) };
+        *refused = true;
+        known.judged.limits = limits;
+        known.score = evaluation::score(&known.judged);
+        let spare = errors.samples - errors.needed(errors.samples);
+        let proof = Proof { cells: errors.samples, spare };
+        state.refuse(proof, &known.judged.limits, known.score);
+        Ok(true)
+    }
+
+    /// The search behind a sample that has refused the best plan: those that wait and kept all limits in the cells that ranked them, and
+    /// then evolution.
+    fn go_on(&mut self, checkpoint: Option<&Checkpoint>) {
+        let waits = |search: &Self| search.candidates.first().is_some_and(|c| c.score < 1.0);
+        while waits(self) && !self.is_done() {
+            self.decide();
+        }
+        if !self.is_done() {
+            self.evolve(checkpoint, 0);
         }
     }
 
@@ -370,14 +417,14 @@ impl Search<'_, '_> {
                     let plan = Some((Some(strategy), positions.as_slice()));
                     state.record(&known.judged, known.score, true, plan);
                 }
-                Ok(Choice { strategy, positions, known, decision: None })
+                Ok(Choice { strategy, positions, known, decision: None, refused: false })
             }
             None => {
                 let made = Decision::on(scene, Some(strategy), positions.clone(), ranked, state);
                 made.map(|decision| {
                     let known = decision.known();
                     state.keep_decision(key, &known);
-                    Choice { strategy, positions, known, decision: Some(decision) }
+                    Choice { strategy, positions, known, decision: Some(decision), refused: false }
                 })
             }
         };
