@@ -33,13 +33,6 @@ pub enum Mesh {
     Own,
 }
 
-/// The mesh with which candidates for a scene are ranked first: what mounts make of errors a coarse one does not know.
-#[must_use]
-pub fn first_mesh(layup: &Layup) -> Mesh {
-    let own = layup.settings.model == Model::Sheet && layup.settings.pad.gives();
-    if own { Mesh::Own } else { Mesh::Coarse }
-}
-
 /// The drapes along planned positions: the one without errors, and those of cells with errors.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

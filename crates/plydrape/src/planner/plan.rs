@@ -96,7 +96,7 @@ fn searched(
     }
     // a plan that goes on begins with the journal of the one before
     let most = match scene.plan.method {
-        PlanMethod::Path => scene.plan.evaluations,
+        PlanMethod::Path => path::most_candidates(scene),
         PlanMethod::Stepwise => scene.plan.steps,
     };
     let (checkpoint, journal) =

@@ -10,7 +10,7 @@ use crate::motion::Motion;
 use crate::motion::TimedMotion;
 use crate::outcome::{self, DrapeWatch, Judged};
 use crate::planner::decision::{Decided, Decision};
-use crate::planner::evaluation::{Bias, first_mesh};
+use crate::planner::evaluation::{Bias, Mesh};
 use crate::planner::path::tuning::TUNING;
 use crate::planner::path::{Fronts, Strategy};
 use crate::planner::plan;
@@ -69,7 +69,7 @@ pub fn best_front(
         let positions = fronts.positions(*strategy)?;
         let score = match strategies {
             [_] => 0.0,
-            _ => match fronts.rank(&positions, first_mesh(&scene.layup), &Bias::default(), state) {
+            _ => match fronts.rank(&positions, Mesh::Coarse, &Bias::default(), state) {
                 Ok((score, _)) => score,
                 Err(fault) => return Some(Err(fault)),
             },

@@ -10,13 +10,12 @@ use super::fronts::Fronts;
 use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
 use crate::Error;
-use crate::errors::Errors;
 use crate::geometry::Point;
 use crate::layup::Model;
 use crate::outcome::SampleVerdict;
 use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
-use crate::planner::evaluation::{self, Bias, Drapes, Mesh, first_mesh};
+use crate::planner::evaluation::{self, Bias, Drapes, Mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::journal::{self, Known};
 use crate::planner::search_state::{Proof, SearchState, lock};
@@ -91,6 +90,17 @@ struct Search<'a, 'b> {
     idle: usize,
     /// Drapes that may be tried.
     left: usize,
+    /// Drapes that may be tried with the other mesh beside these, on mounts; 0 where both meshes share them.
+    spare: usize,
+}
+
+/// Most candidates that a search drapes: on mounts that give as many as the scene says with its mesh, and as many before with a coarse one,
+/// which costs a tenth.
+#[must_use]
+pub fn most_candidates(scene: &Scene) -> usize {
+    let (layup, most) = (&scene.layup, scene.plan.evaluations);
+    let doubled = layup.settings.model == Model::Sheet && layup.settings.pad.gives();
+    if doubled { most.saturating_mul(2) } else { most }
 }
 
 /// The best plan that is found: families first, or the result of an earlier search, then evolution. None without
@@ -106,8 +116,7 @@ pub fn search(
     state: &SearchState,
 ) -> Result<Option<Decision>, Error> {
     let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
-    let mesh = first_mesh(&scene.layup);
-    let ranking = Mutex::new(Ranking { mesh, bias: Bias::default() });
+    let ranking = Mutex::new(Ranking { mesh: Mesh::Coarse, bias: Bias::default() });
     let shared = Shared { scene, fronts, state, ranking, fault: Mutex::new(None) };
     let mut search = Search {
         shared: &shared,
@@ -116,6 +125,7 @@ pub fn search(
         fault: None,
         idle: 0,
         left: scene.plan.evaluations.max(1),
+        spare: most_candidates(scene).saturating_sub(scene.plan.evaluations.max(1)),
     };
     // infeasible limits are not searched for: no motion could keep them
     search.first(checkpoint);
@@ -180,7 +190,7 @@ impl Search<'_, '_> {
                 order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
                 families = order.into_iter().map(|n| families[n]).collect();
                 for batch in families.chunks(TUNING.search.batch) {
-                    if self.is_done() {
+                    if self.is_done() || self.left == 0 {
                         break;
                     }
                     let batch = &batch[..batch.len().min(self.left)];
@@ -215,25 +225,35 @@ impl Search<'_, '_> {
         if catenaries || coarse.mesh == Mesh::Own {
             return self.evolve(checkpoint, 0);
         }
-        let is_accepted = |search: &Self| search.best.as_ref().is_some_and(Choice::is_accepted);
-        if !is_accepted(self) {
+        if !self.is_accepted() {
             self.rank_with_own_mesh();
         }
         if self.is_done() {
             return;
         }
         let score = self.best.as_ref().map_or(f64::INFINITY, Choice::score);
-        if is_accepted(self) || score > TUNING.search.near {
+        if self.is_accepted() || score > TUNING.search.near {
             // a plan has only to become better, or none is near: many coarse drapes
             if lock(&self.shared.ranking).mesh == Mesh::Own {
                 self.candidates.clear();
-                *lock(&self.shared.ranking) = coarse;
+                self.rank_with(coarse);
             }
-            let fine = (TUNING.search.fine * self.left as f64) as usize;
+            let fine = match self.spare {
+                0 => (TUNING.search.fine * self.left as f64) as usize,
+                _ => 0,
+            };
             self.evolve(checkpoint, fine);
             self.rank_with_own_mesh();
         }
         self.evolve(checkpoint, 0);
+    }
+
+    /// Ranks candidates so from now on.
+    fn rank_with(&mut self, ranking: Ranking) {
+        let before = std::mem::replace(&mut *lock(&self.shared.ranking), ranking.clone());
+        if self.shared.scene.layup.settings.pad.gives() && before.mesh != ranking.mesh {
+            std::mem::swap(&mut self.left, &mut self.spare);
+        }
     }
 
     /// Ranks candidates with the mesh of the scene from now on, and the best of those that wait, too.
@@ -241,7 +261,7 @@ impl Search<'_, '_> {
         if self.is_done() {
             return;
         }
-        *lock(&self.shared.ranking) = Ranking { mesh: Mesh::Own, bias: Bias::default() };
+        self.rank_with(Ranking { mesh: Mesh::Own, bias: Bias::default() });
         let mut waiting = std::mem::take(&mut self.candidates);
         waiting.truncate(TUNING.search.batch.min(self.left));
         let strategies: Vec<Strategy> = waiting.into_iter().map(|c| c.strategy).collect();
@@ -307,7 +327,8 @@ impl Search<'_, '_> {
     /// as the sample has, of the planner's own: those of the sample judge, and nothing is learned from them.
     fn is_refused_by_sample(&mut self) -> Result<bool, Error> {
         let Shared { scene, state, .. } = self.shared;
-        let Some(errors) = scene.errors.filter(Errors::is_drawn) else { return Ok(false) };
+        let errors = scene.errors.filter(|errors| errors.is_drawn() && !state.is_stopped());
+        let Some(errors) = errors else { return Ok(false) };
         let Some(best) = self.best.as_mut().filter(|best| best.is_accepted()) else {
             return Ok(false);
         };
@@ -332,12 +353,16 @@ impl Search<'_, '_> {
     /// then evolution.
     fn go_on(&mut self, checkpoint: Option<&Checkpoint>) {
         let waits = |search: &Self| search.candidates.first().is_some_and(|c| c.score < 1.0);
-        while waits(self) && !self.is_done() {
+        while waits(self) && !self.is_accepted() && !self.is_done() {
             self.decide();
         }
         if !self.is_done() {
-            self.evolve(checkpoint, 0);
+            self.improve(checkpoint);
         }
+    }
+
+    fn is_accepted(&self) -> bool {
+        self.best.as_ref().is_some_and(Choice::is_accepted)
     }
 
     /// Whether the search shall end: an accepted plan is not improved for long, unless the scene asks for it.
@@ -352,7 +377,9 @@ impl Search<'_, '_> {
             let good = best.score() <= TUNING.search.good;
             !improve && best.is_accepted() && (good || self.idle >= patience)
         };
-        self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(enough)
+        (self.left == 0 && self.spare == 0)
+            || self.shared.state.is_stopped()
+            || self.best.as_ref().is_some_and(enough)
     }
 
     /// Drapes along strategies.
@@ -392,8 +419,7 @@ impl Search<'_, '_> {
         }
         self.decide_on_best(promising);
         let gained = score(&self.best) < TUNING.search.gain * before;
-        let accepted = self.best.as_ref().is_some_and(Choice::is_accepted);
-        self.idle = if accepted && !gained { self.idle + 1 } else { 0 };
+        self.idle = if self.is_accepted() && !gained { self.idle + 1 } else { 0 };
     }
 
     /// Decides on the best candidate if its score is at most `promising`.
