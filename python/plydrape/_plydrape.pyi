@@ -1002,6 +1002,11 @@ class Plan:
         Planned positions of the grippers (m), shape (steps, grippers, 3): control points of the smooth motion.
         """
     @property
+    def refused(self, /) -> int:
+        """
+        How many plans the sample of cells with errors refused in the search.
+        """
+    @property
     def result(self, /) -> Result:
         """
         The drape along the planned motion, with all limits judged.

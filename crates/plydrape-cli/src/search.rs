@@ -349,6 +349,17 @@ mod tests {
         );
         let shown = line(&deciding, "candidates", 64, seconds(9));
         assert!(shown.ends_with(", then at most 64 cells with errors, about 20 min"), "{shown}");
+        let sampled = Progress { sample: Some(64), decisions: 1, ..deciding };
+        let shown = line(&sampled, "candidates", 64, seconds(21));
+        assert!(shown.ends_with("deciding, at most 64: about 20 min"), "{shown}");
+        let half = Progress {
+            step: Some([30, 64]),
+            left: Some(Duration::from_secs(600)),
+            sample: Some(64),
+            ..deciding
+        };
+        let shown = line(&half, "candidates", 64, seconds(21));
+        assert!(shown.ends_with("deciding, 30 of at most 64: about 10 min left"), "{shown}");
         let under_way =
             Progress { step: Some([34, 90]), left: Some(Duration::from_secs(25)), ..deciding };
         let shown = line(&under_way, "candidates", 0, seconds(24));

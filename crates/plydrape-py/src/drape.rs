@@ -375,7 +375,7 @@ impl Plan {
         self.decisions
     }
 
-    /// After how many plans that the sample of cells with errors had refused the search went on.
+    /// How many plans the sample of cells with errors refused in the search.
     #[getter]
     fn refused(&self) -> usize {
         self.record.refused.unwrap_or(0)

@@ -41,7 +41,7 @@ struct Printed<'a> {
     plan_time_s: f64,
     evaluations: usize,
     decisions: usize,
-    /// Plans that the sample refused before the search went on.
+    /// Plans that the sample refused in the search.
     refused: usize,
     motion: &'a Motion,
     /// Samples a second that the scene asks for and that motion.csv has (Hz).
@@ -208,8 +208,8 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
     };
     let refused = match printed.refused {
         0 => String::new(),
-        1 => ", going on after the sample had refused a plan".into(),
-        refused => format!(", going on after the sample had refused {refused} plans"),
+        1 => ", in which the sample refused a plan".into(),
+        refused => format!(", in which the sample refused {refused} plans"),
     };
     let ended = match (ended, time) {
         (Some(Ended::Interrupted), _) => ", interrupted: the best so far".into(),

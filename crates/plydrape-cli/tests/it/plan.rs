@@ -470,7 +470,7 @@ fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
 #[test]
 fn a_second_signal_ends_the_last_drape_too() {
     let folder = tempfile::tempdir().unwrap();
-    let path = scene(folder.path(), &long_sheet("3 mm"));
+    let path = scene(folder.path(), &long_sheet("1.5 mm"));
     let output = signaled(&path, &[], &[(1000, "-INT"), (1000, "-TERM")]);
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -1,9 +1,11 @@
 //! Searches that are ended from outside: there is a plan all the same, and its drape is complete.
 
-use crate::common::examples;
+use crate::common::{examples, parse};
 use plydrape::layup::Model;
 use plydrape::measure::Name;
+use plydrape::outcome::{Robustness, Watch};
 use plydrape::planner::{self, Checkpoint, Planned, Progress};
+use plydrape::scene::Scene;
 use plydrape_io::plan;
 use plydrape_io::result::SceneEcho;
 use plydrape_io::scene::{self, SceneFile};
@@ -134,4 +136,56 @@ fn a_search_that_was_cut_off_goes_on_to_the_same_plan() {
     other.limits.set(Name::Height, Some(7e-3));
     let state = plan::read(&last.1, &SceneEcho::new(&other, None)).unwrap();
     assert!(!state.is_unfinished() && !whole.checkpoint.is_unfinished());
+}
+
+/// 2 × 2 cups on mounts over a cylinder, each off by a deviation.
+fn off_by(deviation: &str) -> Scene {
+    parse(&format!(
+        "cell.preset = \"usual\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"prepreg_warm\"\n\
+         [mold]\nkind = \"cylinder\"\nradius = \"0.8 m\"\nposition = [0, 0, \"-0.8 m\"]\n[target]\nseed = \"middle\"\n\
+         [grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"60 mm\"\norigin = \"centered\"\n[sheet]\nmesh = \"20 mm\"\n\
+         [errors]\nseed = 1\ngripper.position = {{ deviation = \"{deviation}\" }}\n"
+    ))
+}
+
+/// A plan that the cells of the planner have proven, and that the sample of the scene refuses, does not end the search: it ends with one that
+/// the sample accepts. From a state behind a refusal it goes on to the same plan.
+#[test]
+fn a_search_goes_on_behind_a_sample_that_refuses() {
+    let scene = off_by("0.65 mm");
+    let mut behind = None;
+    let watcher = &mut |progress: &Progress| {
+        if progress.sample.is_none() && progress.stage == "improving the best by evolution" {
+            behind = behind.take().or_else(|| (progress.checkpoint)());
+        }
+        ControlFlow::Continue(())
+    };
+    let planned = planner::plan(&scene, None, watcher).unwrap();
+    assert!(planned.record.refused.is_some_and(|refused| refused > 0), "it shows nothing");
+    let sample = planned.outcome.drape.summary.sample.as_ref().unwrap();
+    assert!(planned.accepted() && sample.ok, "{} of {}", sample.accepted(), sample.cells.len());
+
+    let go = &mut |_: &Progress| ControlFlow::Continue(());
+    let again = planner::plan(&scene, behind.as_ref(), go).unwrap();
+    assert_eq!(again.record, planned.record);
+
+    // the plan that is refused is the one that a search without the sample ends with
+    let proven = planner::plan_without_errors(&scene, None, go).unwrap();
+    assert!(proven.accepted() && proven.record.path != planned.record.path);
+    let mut summary = proven.outcome.drape.summary;
+    let robustness = Robustness::of_planned(&scene, proven.motion.steps());
+    robustness.judge_sample(&mut summary, &Watch { stop: &|| false, done: &|_, _| {} });
+    assert!(!summary.accepted() && summary.sample.is_some_and(|sample| !sample.ok));
+}
+
+/// What the sample refuses is not asked again without end: of errors that no plan keeps it judges five plans at most.
+#[test]
+fn a_sample_judges_few_plans_of_a_search() {
+    let mut scene = off_by("0.65 mm");
+    scene.errors.as_mut().unwrap().seed = 4;
+    scene.plan.evaluations = 40;
+    let planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+    let refused = planned.record.refused.unwrap_or(0);
+    assert!((1..=5).contains(&refused), "{refused}");
+    assert!(!planned.accepted() && planned.outcome.drape.summary.sample.is_some());
 }

@@ -283,7 +283,9 @@ fn nothing_is_accepted_that_was_not_draped() {
     assert_eq!(summary.verdict(), "accepted");
     let stop = Watch { stop: &|| true, done: &|_, _| {} };
     assert!(!with_errors.judge_tolerance(&mut summary, &stop) && summary.accepted());
-    let mut broken_off = summary.clone();
+    // what was judged is not judged again
+    assert!(with_errors.judge_sample(&mut summary, &stop) && summary.accepted());
+    let mut broken_off = Summary { sample: None, ..summary.clone() };
     assert!(!with_errors.judge_sample(&mut broken_off, &stop));
     assert!(!broken_off.accepted() && broken_off.sample.is_none() && broken_off.interrupted());
 

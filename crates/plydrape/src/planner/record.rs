@@ -17,7 +17,7 @@ pub struct PlanRecord {
     pub method: PlanMethod,
     /// Drapes that the search took; of the stepwise planner, steps.
     pub evaluations: usize,
-    /// After how many plans that the sample of cells with errors had refused the search went on; `None` if after none.
+    /// How many plans the sample of cells with errors refused in the search; `None` if it refused none.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub refused: Option<usize>,
     /// Samples a second of the motion as it is written (Hz).

@@ -14,7 +14,7 @@ pub struct PlanSettings {
     /// Seed of the search.
     pub seed: u64,
     /// Most candidates that the search may drape. Those on which is decided are draped once more, in the time of their
-    /// motion and where the sheet decides with the mesh of the scene.
+    /// motion and where the sheet decides with the mesh of the scene. On mounts that give as many are draped by a coarse sheet before.
     pub evaluations: usize,
     /// Whether the search goes on improving a plan that keeps every limit with a margin.
     pub improve: bool,

@@ -131,7 +131,8 @@ pub fn search(
     search.first(checkpoint);
     if infeasible_limits(scene).is_empty() {
         search.improve(checkpoint);
-        while sampled && search.is_refused_by_sample()? {
+        while sampled && search.is_refused_by_sample()? && state.refusals() < TUNING.search.samples
+        {
             search.go_on(checkpoint);
         }
     }

@@ -165,6 +165,8 @@ pub struct Search {
     pub patience: usize,
     /// Ratio of scores that is a gain.
     pub gain: f64,
+    /// Plans that a sample of the scene judges: few, because who draws often enough wins.
+    pub samples: usize,
 }
 
 /// The constants in use.
@@ -242,5 +244,6 @@ pub const TUNING: PathTuning = PathTuning {
         generation: 8,
         patience: 2,
         gain: 0.95,
+        samples: 5,
     },
 };
