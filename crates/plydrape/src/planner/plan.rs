@@ -45,7 +45,7 @@ impl Planned {
 }
 
 /// Plans the gripper motion of a scene, from where it starts, or higher if that is too low ([`LowStart`]), to its target, and judges it by the
-/// model that decides, with the errors of the scene if it has any.
+/// model that decides, with the errors of the scene if it has any. To drape by the other model ([`outcome::also`]) is left to the caller.
 ///
 /// The search continues from `checkpoint`, that of an earlier search for the same ply; one that was cut off must be of the same scene, or else
 /// without its judgments ([`Checkpoint::finished`]), because these are taken as they are. `watcher` receives the progress;

@@ -344,8 +344,8 @@ impl Search<'_, '_> {
         *refused = true;
         known.judged.limits = limits;
         known.score = evaluation::score(&known.judged);
-        let spare = errors.samples - errors.needed(errors.samples);
-        let proof = Proof { cells: errors.samples, spare };
+        let cells = errors.samples.max(state.proof().cells);
+        let proof = Proof { cells, spare: cells - errors.needed(cells) };
         state.refuse(proof, &known.judged.limits, known.score);
         Ok(true)
     }
