@@ -18,8 +18,10 @@ pub fn judge(
     interrupt: &Interrupt,
     quiet: bool,
 ) -> bool {
-    // a planner has judged its plan by the sample
-    let sampled = robustness.sampled().filter(|_| result.summary.sample.is_none());
+    // a planner has judged its plan by the sample, or was broken off
+    let summary = &result.summary;
+    let open = summary.sample.is_none() && !summary.interrupted();
+    let sampled = robustness.sampled().filter(|_| open);
     let samples = sampled.map_or(0, |errors| errors.samples);
     let template =
         "draping {pos} of at most {len} cells with errors{msg} {bar:40} at most {eta} left";
