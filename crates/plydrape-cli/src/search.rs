@@ -4,6 +4,7 @@ use crate::outcome::warn;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::planner::Progress;
+use plydrape::planner::path::most_candidates;
 use plydrape::scene::{PlanMethod, Scene};
 use plydrape_io::result::SceneEcho;
 use plydrape_io::text::{forecast, table};
@@ -81,7 +82,7 @@ impl<'a> Search<'a> {
         quiet: bool,
     ) -> Self {
         let (most, unit) = match scene.plan.method {
-            PlanMethod::Path => (scene.plan.evaluations, "candidates"),
+            PlanMethod::Path => (most_candidates(scene), "candidates"),
             PlanMethod::Stepwise => (scene.plan.steps, "steps"),
         };
         let errors = scene.errors.filter(|errors| errors.is_drawn() && !without_errors);

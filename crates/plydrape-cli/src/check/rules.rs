@@ -4,6 +4,7 @@ use super::SummaryLine;
 use crate::numbers::{degrees, millimeters, short};
 use plydrape::geometry::Pose;
 use plydrape::layup::{ContactEnd, Model, PickUp, Release, ReleaseOrder, SlopeRule, Stepping};
+use plydrape::planner::path::most_candidates;
 use plydrape::scene::{PlanMethod, Scene};
 
 /// Rules of the models, and of contact.
@@ -61,7 +62,7 @@ pub(super) fn plan(scene: &Scene) -> Option<SummaryLine> {
         "{method}, {} steps{}, up to {} drapes, seed {}, motion at {} Hz",
         plan.steps,
         far.unwrap_or_default(),
-        plan.evaluations,
+        most_candidates(scene),
         plan.seed,
         short(plan.rate)
     );

@@ -24,7 +24,7 @@ impl Document {
         Document { file: file.into(), text: text.into(), folder: PathBuf::new() }
     }
 
-    /// The text of a file, or of one that names files in a folder.
+    /// This text, with the folder of the files that it names.
     pub fn within(self, folder: &Path) -> Self {
         Document { folder: folder.into(), ..self }
     }

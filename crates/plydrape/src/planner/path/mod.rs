@@ -15,7 +15,8 @@ pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
 pub(super) use fronts::Fronts;
-pub(super) use search::{most_candidates, search};
+pub use search::most_candidates;
+pub(super) use search::search;
 pub use start::LowStart;
 pub use strategy::Strategy;
 pub use trajectory::trajectory;
