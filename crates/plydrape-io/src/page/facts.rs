@@ -28,12 +28,17 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     let scene = &result.scene;
     let motion = match (&result.plan, result.steps.last()) {
         (Some(plan), last) => format!(
-            "planned by {}, {} drapes tried{}; {} s",
+            "planned by {}, {} drapes tried{}{}; {} s",
             match plan.method {
                 PlanMethod::Path => "whole paths",
                 PlanMethod::Stepwise => "steps",
             },
             plan.evaluations,
+            match plan.refused {
+                None => String::new(),
+                Some(1) => ", one plan refused by the sample".into(),
+                Some(refused) => format!(", {refused} plans refused by the sample"),
+            },
             crate::store::shown::picked_up(plan)
                 .map_or_else(String::new, |text| format!(", {text}")),
             shown(last.map_or(0.0, |step| step.time)),
