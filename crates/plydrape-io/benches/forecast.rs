@@ -153,7 +153,7 @@ impl Measured {
     fn add(&mut self, scene: &Scene, motion: &TimedMotion, decided: Effort, sample: Option<f64>) {
         let drape = |layup: &Layup| {
             let go = |_: &sheet::Sheet, _: &sheet::ClothState, _| ControlFlow::Continue(());
-            let drape = sheet::drape(layup, SheetTuning::default(), 0.5e-3, &|| false, go);
+            let drape = sheet::drape(layup, SheetTuning::default(), &|| false, go);
             Effort::new(&drape.expect("it was draped before"))
         };
         let own = planner::along(scene, motion).layup;

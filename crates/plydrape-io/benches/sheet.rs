@@ -55,7 +55,7 @@ fn rolled(scene: Scene) -> Layup {
 fn row(name: &str, layup: &Layup) {
     let mut height = 0.0_f64;
     let start = Instant::now();
-    let done = sheet::drape(layup, SheetTuning::default(), 0.5e-3, &|| false, |_, state, last| {
+    let done = sheet::drape(layup, SheetTuning::default(), &|| false, |_, state, last| {
         if last {
             height = state.heights.iter().copied().fold(0.0, f64::max);
         }

@@ -52,8 +52,7 @@ fn variants() -> Vec<(String, f64, SheetTuning)> {
 /// Prints one row.
 fn row(name: &str, varied: &str, scene: &Scene, tuning: SheetTuning) {
     let layup = &scene.layup;
-    let low = scene.limits.most(Name::Height);
-    let draped = drape(layup, tuning, low, &|| false, |_, _, _| ControlFlow::Continue(()));
+    let draped = drape(layup, tuning, &|| false, |_, _, _| ControlFlow::Continue(()));
     let SheetDrape { sheet, status, report, last, .. } = match draped {
         Ok(draped) => draped,
         Err(error) => return println!("| {name} | {varied} | {error} | | | |"),

@@ -63,7 +63,7 @@ fn a_time_step_of_a_sheet_allocates_nothing() {
         }
         false
     };
-    let draped = drape(&scene.layup, SheetTuning::default(), 5e-4, &stop, |_, _, _| {
+    let draped = drape(&scene.layup, SheetTuning::default(), &stop, |_, _, _| {
         began.set(None);
         ControlFlow::Continue(())
     });

@@ -97,12 +97,12 @@ pub(super) fn release(scene: &Scene) -> Option<SummaryLine> {
         (ReleaseOrder::End, true) => {
             format!("all pads press for {dwell} s after the motion and then let go")
         }
-        (ReleaseOrder::Landed, false) => {
-            "each pad lets go as soon as the ply around it lies, the others as the motion ends"
+        (ReleaseOrder::HollowsFirst, false) => {
+            "each pad over a hollow lets go as its gripper comes to its last place, the others as the motion ends"
                 .into()
         }
-        (ReleaseOrder::Landed, true) => format!(
-            "each pad lets go when the ply around it has lain for {dwell} s; the others press for {dwell} s after the motion"
+        (ReleaseOrder::HollowsFirst, true) => format!(
+            "each pad over a hollow lets go {dwell} s after its gripper comes to its last place; the others press for {dwell} s after the motion"
         ),
     };
     Some(("release", format!("{when}; the verdict is that of the ply without pads")))

@@ -229,12 +229,12 @@ fn the_line_of_a_release_says_which_pads_let_go_when() {
             "all pads press for 0.5 s after the motion and then let go",
         ),
         (
-            "[release]\norder = \"landed\"\n",
-            "each pad lets go as soon as the ply around it lies, the others as the motion ends",
+            "[release]\norder = \"hollows-first\"\n",
+            "each pad over a hollow lets go as its gripper comes to its last place, the others as the motion ends",
         ),
         (
-            "[release]\norder = \"landed\"\ndwell = \"2 s\"\n",
-            "each pad lets go when the ply around it has lain for 2 s; the others press for 2 s after the motion",
+            "[release]\norder = \"hollows-first\"\ndwell = \"2 s\"\n",
+            "each pad over a hollow lets go 2 s after its gripper comes to its last place; the others press for 2 s after the motion",
         ),
     ] {
         assert_eq!(line(table), Some(format!("{expected}{ends}")));

@@ -1,12 +1,14 @@
 //! The cell of a scene: how grippers hold the ply and how far all may be off, where the scene does not say so itself.
 
 use super::errors::errors;
-use super::file::{CellFile, CellTable};
+use super::file::{CellFile, CellTable, OrderKey};
 use super::located::Located;
+use super::quantity::read_or;
 use super::source::Document;
 use super::{check, read, settings, start};
 use crate::Error;
 use crate::store::shown;
+use plydrape::layup::ReleaseOrder;
 use plydrape::ply::Ply;
 use plydrape::scene::{Cell, CellPreset};
 use std::ops::Range;
@@ -70,6 +72,10 @@ fn from_file(document: &Document, ply: &Ply) -> Result<Cell, Error> {
         }
         cell = settings::held(table, &cell, document)?;
     }
+    if let Some(table) = &file.release {
+        cell.release = Some(table.order.map_or(ReleaseOrder::End, OrderKey::into));
+        cell.dwell = read_or(&table.dwell, 0.0, document)?;
+    }
     if let Some(table) = &file.errors {
         cell.errors = Some(errors(table, None, ply, true, document)?);
     }
@@ -101,6 +107,7 @@ mod tests {
 
     fn assert_same(a: &SceneFile, b: &SceneFile) {
         assert_eq!((a.layup.settings, a.errors), (b.layup.settings, b.errors));
+        assert_eq!(a.layup.release, b.layup.release);
         assert_eq!((&a.layup.ply, &a.layup.motion), (&b.layup.ply, &b.layup.motion));
     }
 
@@ -108,20 +115,39 @@ mod tests {
     #[test]
     fn a_preset_equals_its_keys_written_out() {
         let folder = tempfile::tempdir().unwrap();
+        let on_mold = |keys: &str| format!("mold.kind = \"plane\"\ntarget.origin = [0, 0]\n{keys}");
         for preset in CellPreset::ALL {
-            let named = scene(&format!("cell.preset = \"{}\"", preset.name()), Path::new(""));
+            let named =
+                scene(&on_mold(&format!("cell.preset = \"{}\"", preset.name())), Path::new(""));
             assert_eq!(named.cell.as_deref(), Some(preset.name()));
             let keys = keys(*preset);
-            assert_same(&named, &scene(&keys, Path::new("")));
+            assert_same(&named, &scene(&on_mold(&keys), Path::new("")));
             std::fs::write(folder.path().join("ours.toml"), format!("source = \"us\"\n{keys}"))
                 .unwrap();
-            assert_same(&named, &scene("cell.preset = \"ours.toml\"", folder.path()));
+            assert_same(&named, &scene(&on_mold("cell.preset = \"ours.toml\""), folder.path()));
         }
         let usual = scene("cell.preset = \"usual\"", Path::new(""));
         let errors = usual.errors.expect("errors");
         assert_eq!(errors.material.shear, Term::Factor(2.0));
         assert!(usual.layup.settings.pad.gives() && usual.layup.settings.pad.radius == 0.0);
         assert_eq!((errors.seed, errors.samples, errors.share), (0, 64, 0.95));
+    }
+
+    /// Pads let go of a ply on a mold in the order of their cell unless the scene has one, and hold a ply without a mold.
+    #[test]
+    fn pads_let_go_as_the_cell_says_unless_the_scene_does() {
+        let order = |keys: &str| {
+            let keys = format!("cell.preset = \"usual\"\n{keys}");
+            let scene = scene(&keys, Path::new(""));
+            scene.layup.release.as_ref().map(|rule| (rule.order, rule.dwell))
+        };
+        let mold = "mold.kind = \"plane\"\ntarget.origin = [0, 0]\n";
+        assert_eq!(order(""), None);
+        assert_eq!(order(mold), Some((ReleaseOrder::HollowsFirst, 0.0)));
+        let dwell = format!("{mold}release.dwell = 2\n");
+        assert_eq!(order(&dwell), Some((ReleaseOrder::HollowsFirst, 2.0)));
+        let end = format!("{mold}release.order = \"end\"\n");
+        assert_eq!(order(&end), Some((ReleaseOrder::End, 0.0)));
     }
 
     /// A key of the scene changes what it says and nothing else: a stiffness as a whole, an error term by term.

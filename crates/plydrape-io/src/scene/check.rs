@@ -86,7 +86,7 @@ pub(super) fn scene(
             Some(errors(table, of_cell, &ply, mold.is_some(), document)?)
         }
     };
-    let release = release(file, settings.model, mold.is_some(), document)?;
+    let release = release(file, &cell, settings.model, mold.is_some(), document)?;
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));

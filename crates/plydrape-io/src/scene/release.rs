@@ -6,18 +6,21 @@ use super::quantity::read_or;
 use super::source::Document;
 use crate::Error;
 use plydrape::layup::{Model, Release, ReleaseOrder};
+use plydrape::scene::Cell;
 
-/// Checks the table `[release]` of a scene that this model drapes; `on_mold` says whether it has a mold. Pads that pick a ply up let go of
-/// it at the end, with the table or without it.
+/// Checks the table `[release]` of a scene that this model drapes; `on_mold` says whether it has a mold. What it does not say is that of the
+/// cell. Pads that pick a ply up let go of it at the end, with the table or without it.
 pub(super) fn release(
     file: &SceneKeys,
+    cell: &Cell,
     model: Model,
     on_mold: bool,
     document: &Document,
 ) -> Result<Option<Release>, Error> {
     let Some(Located { value: ReleaseTable { order, dwell }, span }) = &file.release else {
-        let lets_go = file.pick_up.is_some() && on_mold;
-        return Ok(lets_go.then(|| Release::new(ReleaseOrder::End, 0.0)));
+        let picked_up = file.pick_up.is_some().then_some(ReleaseOrder::End);
+        let order = cell.release.or(picked_up).filter(|_| on_mold);
+        return Ok(order.map(|order| Release::new(order, cell.dwell)));
     };
     if model == Model::Catenaries {
         return Err(document.error(
@@ -33,6 +36,7 @@ pub(super) fn release(
             "say what the mold is in [mold], or leave out [release]",
         ));
     }
-    let dwell = read_or(dwell, 0.0, document)?;
-    Ok(Some(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell)))
+    let dwell = read_or(dwell, cell.dwell, document)?;
+    let order = order.map(OrderKey::into).or(cell.release).unwrap_or(ReleaseOrder::End);
+    Ok(Some(Release::new(order, dwell)))
 }

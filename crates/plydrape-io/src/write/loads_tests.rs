@@ -43,7 +43,7 @@ fn states(scene: &Scene) -> Vec<ClothState> {
         seen.push(state.clone());
         ControlFlow::Continue(())
     };
-    plydrape::sheet::drape(&scene.layup, SheetTuning::default(), 5e-4, &|| false, see).unwrap();
+    plydrape::sheet::drape(&scene.layup, SheetTuning::default(), &|| false, see).unwrap();
     seen
 }
 

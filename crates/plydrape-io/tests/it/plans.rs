@@ -440,9 +440,7 @@ fn check_numerics(name: &str) {
     let motion = Motion { times, positions: positions.collect() };
     let mut layup = Layup { motion: motion.clone(), ..example.scene().layup };
     let height = |layup: &Layup, tuning: SheetTuning| {
-        let ended = sheet::drape(layup, tuning, HEIGHT * 1e-3, &|| false, |_, _, _| {
-            ControlFlow::Continue(())
-        });
+        let ended = sheet::drape(layup, tuning, &|| false, |_, _, _| ControlFlow::Continue(()));
         let ended = ended.unwrap();
         assert_eq!(ended.status, sheet::Status::Converged, "{name}");
         ended.last.heights.iter().copied().fold(0.0, f64::max) * 1e3

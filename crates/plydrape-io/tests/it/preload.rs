@@ -94,6 +94,36 @@ fn lines_over_a_hollow_are_given_up() {
     assert!(largest(&dome) > 1e-3, "{}", largest(&dome));
 }
 
+/// Where pads let go first over a hollow, grippers stay above it, by a tenth of a cell at most, and the line between two of them is left shorter than
+/// its place by six deviations of what their errors do to its length, √2 of one gripper's; a ply that slides needs no slack. On a dome they
+/// press as ever.
+#[test]
+fn a_ply_falls_slack_into_a_hollow_whose_pads_let_go_first() {
+    let hollow = |friction: &str, side: &str, z: f64| {
+        let text = format!(
+            "[ply]\ngrippers = [2, 1]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"sphere\"\nradius = \"0.8 m\"\n\
+             position = [0, 0, {z}]\nside = \"{side}\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"50 mm\"\norigin = \"centered\"\n\
+             stiffness = {{ lateral = \"2 N/mm\", axial = \"5 N/mm\" }}\n[errors]\ngripper = {{ position = {{ deviation = \"0.1 mm\" }} }}\n\
+             [release]\norder = \"hollows-first\"\n[contact]\nfriction = {friction}\n[target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 10\n"
+        );
+        let scene = parse(&text);
+        let (places, ends) = (targets(&scene), ends(&scene, &strategy(0.6, 0.8)));
+        let mold = scene.layup.mold.expect("a mold");
+        let along = |p: &[[f64; 3]]| p[1][0] - p[0][0];
+        let tilt = (along(&places) / 2.0 / 0.8).asin();
+        // the grippers rise along the normals, which lean together
+        let leaning = if side == "inside" { 2.0 * 6e-3 * tilt.sin() } else { 0.0 };
+        (mold.signed_distance(ends[0]), along(&places) - leaning - along(&ends))
+    };
+    let (above, shorter) = hollow("\"stick\"", "inside", 0.8);
+    assert!((above - 6e-3).abs() < 5e-5, "{above}");
+    assert!((shorter - 6.0 * 2_f64.sqrt() * 1e-4).abs() < 1e-5, "{shorter}");
+    let (above, shorter) = hollow("0.3", "inside", 0.8);
+    assert!((above - 6e-3).abs() < 1e-9 && shorter.abs() < 1e-9, "{above} {shorter}");
+    let (below, shorter) = hollow("\"stick\"", "outside", -0.8);
+    assert!(below < -1e-4 && shorter < 0.0, "{below} {shorter}");
+}
+
 /// Errors of 1 mm change the pull of a line between two mounts of 2 N/mm by 1.41 N (standard deviation), and three times that is
 /// more than the largest pull, 2.5 N of a load of 10 N; those of 0.4 mm ask for 1.70 N of it, and those of 0.1 mm for less
 /// than is pulled without errors.

@@ -36,8 +36,8 @@ fn the_table_release_says_order_and_dwell() {
     let end = ReleaseOrder::End;
     assert_eq!(read("[release]\n"), Some(Release::new(end, 0.0)));
     assert_eq!(read("[release]\ndwell = \"2 s\"\n"), Some(Release::new(end, 2.0)));
-    let landed = Release::new(ReleaseOrder::Landed, 0.5);
-    assert_eq!(read("[release]\norder = \"landed\"\ndwell = \"500 ms\"\n"), Some(landed));
+    let first = Release::new(ReleaseOrder::HollowsFirst, 0.5);
+    assert_eq!(read("[release]\norder = \"hollows-first\"\ndwell = \"500 ms\"\n"), Some(first));
 }
 
 /// The result has the events, its sheet one state more, held before and at rest without pads, and the file reads back to the same

@@ -11,14 +11,14 @@ pub struct Release {
     pub order: ReleaseOrder,
     /// How long a pad presses before it lets go (s).
     pub dwell: f64,
-    /// When each pad lets go (s), as an earlier drape along the same motion has found it: a robot does so at that time, wherever
-    /// the ply is. None to find that out.
+    /// When the pad of each gripper lets go (s) by the program of a robot, in a cell whose motion has errors; `None` if that follows
+    /// from the motion.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub times: Option<Arc<[f64]>>,
 }
 
 impl Release {
-    /// A release in an order, after a dwell (s), at times that a drape is to find.
+    /// A release in an order, after a dwell (s).
     #[must_use]
     pub fn new(order: ReleaseOrder, dwell: f64) -> Self {
         Release { order, dwell, times: None }
@@ -32,6 +32,6 @@ impl Release {
 pub enum ReleaseOrder {
     /// All at once, after the motion.
     End,
-    /// Each when the ply around it lies, the others after the motion.
-    Landed,
+    /// Over a hollow of the mold each when its gripper has come to its last place, all others after the motion.
+    HollowsFirst,
 }

@@ -15,11 +15,12 @@
 
 use super::draw::{Draw, MaterialError, PickUpError, RelativeError, RigidError};
 use crate::geometry::vector::{along, between, sub, turned};
-use crate::layup::Layup;
+use crate::layup::{Layup, Release};
 use crate::material::{Material, Section};
 use crate::mold::{Mold, Raised};
 use crate::motion::Motion;
 use crate::ply::{Ply, tangents};
+use crate::sheet::release::times;
 use crate::tool::Tool;
 use std::sync::Arc;
 
@@ -35,7 +36,10 @@ impl Draw {
     #[must_use]
     pub fn apply(&self, layup: &Layup) -> Layup {
         let (carried, _) = layup.carried();
+        // a robot lets go when its program says, wherever it is
+        let release = layup.release.clone().map(|rule| Release { times: times(&carried), ..rule });
         Layup {
+            release,
             ply: self.ply(&layup.ply),
             mold: layup.mold.as_ref().map(|mold| self.mold(mold)),
             motion: self.motion(&carried),

@@ -9,7 +9,7 @@ use crate::Error;
 use crate::draping::spans::Equilibrium;
 use crate::draping::{self, Draping, Follow};
 use crate::layup::{Layup, Model};
-use crate::measure::{Judge, Limits, Name, Scope, Verdict};
+use crate::measure::{Judge, Limits, Scope, Verdict};
 use crate::scene::Scene;
 use crate::sheet::{self, HandOver};
 use std::ops::ControlFlow;
@@ -129,7 +129,7 @@ pub(crate) fn drape_places(
     let mut recorder = Recorder::new(&carried, &scene.limits);
     let (mut summary, steps, sheet, solving) = match model {
         Model::Sheet => {
-            let (drape, flight) = drape_sheet(&carried, &scene.limits, &mut recorder, watch)?;
+            let (drape, flight) = drape_sheet(&carried, &mut recorder, watch)?;
             let solving = drape.duration;
             let (summary, steps) = recorder.finish_sheet(&drape);
             (summary, steps, Some(DrapedSheet { drape, states: Vec::new(), flight }), solving)
@@ -181,15 +181,14 @@ fn follow_catenaries(
 /// Follows the sheet of a layup and records every step; gives its flight too, if there is one to share.
 fn drape_sheet(
     layup: &Layup,
-    limits: &Limits,
     recorder: &mut Recorder,
     watch: &mut DrapeWatch,
 ) -> Result<(sheet::SheetDrape, Option<Flight>), Error> {
-    let (mut hand_over, low) = (HandOver::default(), limits.get(Name::Height).unwrap_or(0.0));
+    let mut hand_over = HandOver::default();
     let (mut ended, mut lookout) = (false, Lookout::new(layup));
     let DrapeWatch { stop, see } = watch;
     let tuning = sheet::SheetTuning::default();
-    let drape = sheet::drape(layup, tuning, low, *stop, |sheet, state, last| {
+    let drape = sheet::drape(layup, tuning, *stop, |sheet, state, last| {
         ended = last;
         recorder.add(&hand_over.state(layup, sheet, state, last), None, last);
         if let Some(lookout) = &mut lookout {
@@ -284,11 +283,9 @@ pub(super) fn judge_sheet(
         Some(flight) => flight.go_on(carried, limits),
         None => (Judge::new(carried, limits, false), HandOver::default()),
     };
-    // pads let go of a ply that lies: nodes up to the limit of the height do
-    let low = limits.get(Name::Height).unwrap_or(0.0);
     let (tuning, air) = (sheet::SheetTuning::default(), flight.map(|flight| &flight.air));
     let mut ended = false;
-    let drape = sheet::drape_from(carried, tuning, low, air, stop, |sheet, state, last| {
+    let drape = sheet::drape_from(carried, tuning, air, stop, |sheet, state, last| {
         ended = last;
         judge.see(&hand_over.state(carried, sheet, state, last), last);
         see(Seen { sheet, state, judge: &judge, hand_over: &hand_over })

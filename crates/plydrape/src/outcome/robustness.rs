@@ -10,7 +10,6 @@ use crate::layup::Stepping;
 use crate::measure::{Scope, Verdict};
 use crate::motion::Motion;
 use crate::scene::{Scene, World};
-use crate::sheet::event::at_these_times;
 
 /// With which errors a finished drape is judged.
 #[derive(Debug, Clone)]
@@ -61,17 +60,12 @@ impl Robustness {
         let Some(errors) = self.sample.as_ref().filter(|_| summary.sample.is_none()) else {
             return true;
         };
-        summary.sample = errors.judge(&self.scene_of(summary), watch);
+        summary.sample = errors.judge(&self.scene, watch);
         match summary.sample {
             Some(_) => summary.world = World::Errors,
             None => summary.status = Status::Interrupted,
         }
         summary.sample.is_some()
-    }
-
-    /// The scene with pads that let go when the drape that is judged found that they do: a robot knows no other time.
-    fn scene_of(&self, summary: &Summary) -> Scene {
-        Scene { layup: at_these_times(&self.scene.layup, &summary.events), ..self.scene.clone() }
     }
 
     /// Finds what the motion tolerates: nothing if it is not accepted without errors; and how fast a ply with resin may be draped along it.
@@ -81,7 +75,7 @@ impl Robustness {
             let timeless = |v: &&Verdict| v.name.measure().scope() != Scope::Time;
             let is_kept = summary.status == Status::Converged
                 && summary.limits.iter().filter(timeless).all(|verdict| verdict.ok);
-            summary.rate_tolerance = RateTolerance::new(&self.scene_of(summary), is_kept, watch);
+            summary.rate_tolerance = RateTolerance::new(&self.scene, is_kept, watch);
             if summary.rate_tolerance.is_none() {
                 return false;
             }
@@ -90,7 +84,7 @@ impl Robustness {
             return true;
         }
         summary.tolerance = match summary.accepted_without_errors() {
-            true => Tolerance::new(&self.scene_of(summary), watch),
+            true => Tolerance::new(&self.scene, watch),
             false => Some(Tolerance::NOTHING),
         };
         summary.tolerance.is_some()

@@ -4,7 +4,7 @@ use super::{Flight, Judged, Status, Summary};
 use crate::errors::{Errors, Term};
 use crate::layup::{Layup, Model};
 use crate::measure::{Limits, Name, Scope, Verdict, Worst, Worth};
-use crate::sheet::{self, event::at_these_times};
+use crate::sheet;
 use rayon::prelude::*;
 
 /// Drapes with minute changes: if one of two ridges stays by accident, all of them agree with the drape itself once in 16 times.
@@ -42,11 +42,9 @@ pub(super) fn judge_sensitivity(
     if summary.model != Model::Sheet || summary.status != Status::Converged || !accepted {
         return;
     }
-    // pads let go when they did: a robot knows no other time
-    let layup = at_these_times(layup, &summary.events);
-    let changes = minute_changes(&layup);
+    let changes = minute_changes(layup);
     let changed_drape = |n: usize| {
-        let changed = changes.draw(n, layup.ply.grippers()).apply(&layup);
+        let changed = changes.draw(n, layup.ply.grippers()).apply(layup);
         Flight::judge(flight, &changed, limits, stop).unwrap_or_else(|_| Judged::nothing())
     };
     let drapes: Vec<Judged> = (0..changes.samples).into_par_iter().map(changed_drape).collect();

@@ -284,10 +284,9 @@ impl Decision {
         counted: bool,
     ) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.motion, motion);
-        let dwells_on_the_way =
-            scene.layup.release.as_ref().is_some_and(|release| {
-                release.order == ReleaseOrder::Landed && release.dwell > 0.0
-            });
+        let dwells_on_the_way = scene.layup.release.as_ref().is_some_and(|release| {
+            release.order == ReleaseOrder::HollowsFirst && release.dwell > 0.0
+        });
         if scene.layup.settings.sheet.time == SheetTime::Real || dwells_on_the_way {
             // strategies that are compared decide at once: one forecast would not be that of all
             if state.is_finishing() {
@@ -435,7 +434,6 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
     }
     let mut refused_by = None;
     if judged.accepted() {
-        let layup = sheet::event::at_these_times(&followed, &drape.summary.events);
         // those that refused another plan first; a ply at the ends of its scatter is none of so few
         let Proof { cells: proving, spare } = state.proof();
         let proving = ENDS.len()..ENDS.len() + proving;
@@ -445,12 +443,13 @@ fn decide(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Result<De
         cells.extend(others);
         let stop = || state.report().is_break();
         let flight = drape.sheet.as_ref().and_then(|sheet| sheet.flight.as_ref());
-        let drapes = evaluation::with_errors(&layup, scene.errors, judged, &cells, spare, |cell| {
-            let judged = Flight::judge(flight, &cell, &scene.limits, &stop);
-            // the errors may have left nothing that could be draped
-            let judged = judged.unwrap_or_else(|_| Judged::nothing());
-            (!judged.interrupted).then_some(judged)
-        });
+        let drapes =
+            evaluation::with_errors(&followed, scene.errors, judged, &cells, spare, |cell| {
+                let judged = Flight::judge(flight, &cell, &scene.limits, &stop);
+                // the errors may have left nothing that could be draped
+                let judged = judged.unwrap_or_else(|_| Judged::nothing());
+                (!judged.interrupted).then_some(judged)
+            });
         (judged, refused_by) = (drapes.worst, drapes.refused_by);
         score = evaluation::score(&judged);
     }

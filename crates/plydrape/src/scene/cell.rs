@@ -1,10 +1,10 @@
 //! Named cells: what holds the ply and how far it may be off, with a source for each figure.
 //!
-//! A preset gives what a scene leaves out of its grippers and its errors. It describes no machine: the figures are of usual size, and those of
+//! A preset gives what a scene leaves out of its grippers, its release and its errors. It describes no machine: the figures are of usual size, and those of
 //! your own cell are better.
 
 use crate::errors::{Errors, Term};
-use crate::layup::{PadSettings, Settings};
+use crate::layup::{PadSettings, ReleaseOrder, Settings};
 
 /// What a scene takes of its cell where it does not say so itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,24 +13,28 @@ pub struct Cell {
     pub pad: PadSettings,
     /// Largest tilt of the ball joints (rad).
     pub max_tilt: f64,
+    /// In which order pads let go of a ply on a mold; `None` if they hold it to the end.
+    pub release: Option<ReleaseOrder>,
+    /// How long pads press before they let go (s).
+    pub dwell: f64,
     /// How far the cell may be from the scene, if that is known.
     pub errors: Option<Errors>,
 }
 
-/// A cell that is held rigidly and has no errors.
+/// A cell that holds the ply rigidly and to the end, and has no errors.
 impl Default for Cell {
     fn default() -> Self {
         let usual = Settings::default();
-        Cell { pad: usual.pad, max_tilt: usual.max_tilt, errors: None }
+        Cell { pad: usual.pad, max_tilt: usual.max_tilt, release: None, dwell: 0.0, errors: None }
     }
 }
 
 /// A named cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellPreset {
-    /// Vacuum cups with bellows on a robot, and the scatter of a ply.
+    /// Vacuum cups with bellows on a robot, which let go of the ply, and the scatter of a ply.
     Usual,
-    /// Rigid grippers, and no errors.
+    /// Rigid grippers that hold the ply to the end, and no errors.
     Ideal,
 }
 
@@ -43,7 +47,7 @@ pub struct CellFigure {
     pub written: &'static str,
     /// Where it comes from.
     pub source: &'static str,
-    /// The value (SI).
+    /// The value (SI); 0 of a word.
     value: f64,
     /// Where the value goes.
     set: fn(&mut Cell, f64),
@@ -66,6 +70,9 @@ const GRIPPERS: &str = "robots repeat their place within 0.02 to 0.1 mm, that of
 differ from each other by as much is a choice of this program";
 /// Where a ply is picked up.
 const PICK_UP: &str = "a choice of this program: how far a cut ply is from its place on the table, as the frame; no source gives it";
+/// When a cell lets go.
+const LETS_GO: &str = "a cell switches its vacuum off before it takes the next ply, and what counts is the ply that then lies on the mold; the order is a choice of \
+this program";
 /// Scatter without a source.
 const SCATTER: &str = "a choice of this program for a woven ply; no source gives it";
 /// Scatter of shear.
@@ -85,6 +92,9 @@ const USUAL: &[CellFigure] = &[
         cell.pad.holding_force = Some(x)
     }),
     figure("grippers.max_tilt", "40 deg", 40_f64.to_radians(), JOINTS, |cell, x| cell.max_tilt = x),
+    figure("release.order", "hollows-first", 0.0, LETS_GO, |cell, _| {
+        cell.release = Some(ReleaseOrder::HollowsFirst);
+    }),
     figure("errors.frame.position.bound", "0.5 mm", 5e-4, ROBOT, |cell, x| {
         errors(cell).frame.position = Term::Bound(x);
     }),
@@ -143,8 +153,12 @@ impl CellPreset {
     #[must_use]
     pub fn about(self) -> &'static str {
         match self {
-            CellPreset::Usual => "vacuum cups with bellows on a robot, with errors of usual size",
-            CellPreset::Ideal => "grippers that are rigid and hold any load, without errors",
+            CellPreset::Usual => {
+                "vacuum cups with bellows on a robot, which let go of the ply, with errors of usual size"
+            }
+            CellPreset::Ideal => {
+                "grippers that are rigid and hold any load to the end, without errors"
+            }
         }
     }
 

@@ -36,18 +36,17 @@ pub enum Status {
 /// Drapes the sheet of a layup along its motion; the motion is that of the grippers, so a tool has made it ([`Layup::carried`]).
 ///
 /// `see` is called with the sheet, the state of each step and whether it is the last one, and may end the drape; so may `stop`, which is
-/// asked before each time step. Nodes up to `low` (m) over the mold lie, as far as the release of pads asks for that.
+/// asked before each time step.
 ///
 /// # Errors
 /// The errors of [`Sheet::new`], and [`Error::SheetNoMotion`] if the motion has no steps for the grippers.
 pub fn drape(
     layup: &Layup,
     tuning: SheetTuning,
-    low: f64,
     stop: &dyn Fn() -> bool,
     see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
 ) -> Result<SheetDrape, Error> {
-    drape_from(layup, tuning, low, None, stop, see)
+    drape_from(layup, tuning, None, stop, see)
 }
 
 /// As [`drape`], from a ply of the same fabric in the air that has come to a step of nearly the same motion, if there is one: the grippers go
@@ -59,7 +58,6 @@ pub fn drape(
 pub fn drape_from(
     layup: &Layup,
     tuning: SheetTuning,
-    low: f64,
     air: Option<&ClothState>,
     stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
@@ -81,7 +79,7 @@ pub fn drape_from(
     if air.is_some() {
         cloth.energies.table = None;
     }
-    let releases = Releases::new(layup, &sheet, low);
+    let releases = Releases::new(layup, &sheet);
     let mut run = Run {
         layup,
         sheet: &sheet,

@@ -1,6 +1,5 @@
 //! What the vacuum of the pads does along a motion.
 
-use crate::layup::Layup;
 use crate::ply::GripperId;
 
 /// What happens to the hold of some pads, all at one time.
@@ -27,22 +26,6 @@ pub enum EventKind {
     Press,
     /// The vacuum is off: the pad is gone.
     Release,
-}
-
-/// The layup in which pads let go when a drape along its motion has found that they do.
-#[must_use]
-pub fn at_these_times(layup: &Layup, events: &[Event]) -> Layup {
-    let mut layup = layup.clone();
-    if let Some(release) = &mut layup.release {
-        let mut times = vec![f64::INFINITY; layup.ply.grippers()];
-        for event in events.iter().filter(|event| event.kind == EventKind::Release) {
-            for n in event.grippers.iter().filter_map(|id| layup.ply.index(*id)) {
-                times[n] = event.time;
-            }
-        }
-        release.times = Some(times.into());
-    }
-    layup
 }
 
 /// When the last pads let go (s); `None` if they hold to the end.

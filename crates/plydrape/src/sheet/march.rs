@@ -211,7 +211,7 @@ impl<'a> March<'a> {
     /// Lets go at a time (s) with the pads that are due by then, give or take the rounding (s).
     fn let_go(&mut self, time: f64, rounding: f64) {
         let Some(releases) = &mut self.releases else { return };
-        let gone = releases.see(time, rounding, &self.cloth);
+        let gone = releases.come_to(time, rounding);
         if !gone.is_empty() {
             self.cloth.release(&gone);
         }

@@ -35,7 +35,7 @@ mod mount;
 mod newton;
 mod pads;
 mod raised;
-mod release;
+pub(crate) mod release;
 mod report;
 mod resting;
 mod shear;

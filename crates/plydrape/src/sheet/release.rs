@@ -1,32 +1,35 @@
-//! When pads let go: the rule of the layup, applied to the ply as it comes to lie.
+//! When pads let go: the rule of the layup, applied to its motion.
 //!
-//! A pad's *surroundings* are the nodes of ply no farther from its middle, in the fabric, than neighboring grippers stand
-//! apart, those that it holds among them. They lie when the height of each over the mold is one that the layup accepts at
-//! the end; ply that hangs beyond the mold never does. With [`ReleaseOrder::Landed`] a pad whose surroundings have lain
-//! for the dwell, in the time of the motion, lets go. After the motion all pads that still hold press for the dwell, lying
-//! or not, and let go together. Where the layup says when pads let go, as in drapes of cells with errors, they do so then.
+//! With [`ReleaseOrder::HollowsFirst`] a pad over a hollow of the mold lets go when its gripper has come to its last place and stood there for the dwell,
+//! while others still move. After the motion all pads that still hold press for the dwell and let go together. So the times follow from the motion alone: no
+//! sensor looks at the ply, and a cell with errors lets go when its program says.
 
-use super::cloth::Cloth;
 use super::event::{Event, EventKind};
 use super::model::Sheet;
+use super::model::pitch;
+use crate::geometry::vector::{between, distance};
 use crate::layup::{Layup, Release, ReleaseOrder};
 use crate::mold::Mold;
 use crate::ply::Ply;
+use std::sync::Arc;
+
+/// How near a gripper is to its last place when it has come to it, as a share of the shortest distance of neighbors in the fabric: the pull
+/// of its lines turns a little while their other grippers move.
+const PLACED: f64 = 5e-3;
+
+/// Height over the mold of the middle of a line between two places on it, as a share of its length, above which it spans a hollow.
+const HOLLOW: f64 = 1e-3;
 
 /// What pads have done so far, and what they do next.
 #[derive(Debug)]
 pub struct Releases<'a> {
-    rule: &'a Release,
+    ply: &'a Ply,
+    /// How long a pad presses before it lets go (s).
+    dwell: f64,
     /// The end of the motion (s).
     end: f64,
-    ply: &'a Ply,
-    mold: Option<&'a Mold>,
-    /// Height (m) up to which a node lies.
-    low: f64,
-    /// The nodes around each gripper, the farthest first, because they come to lie last.
-    surroundings: Vec<Vec<usize>>,
-    /// Since when they lie (s).
-    lying_since: Vec<Option<f64>>,
+    /// When each pad lets go (s).
+    times: Arc<[f64]>,
     /// Whether each pad holds.
     holds: Vec<bool>,
     events: Vec<Event>,
@@ -34,65 +37,40 @@ pub struct Releases<'a> {
 
 impl<'a> Releases<'a> {
     /// By the rule of a layup, for the pads of its sheet, which grip the ply as the motion begins; `None` if they hold it to the end.
-    /// Nodes up to `low` (m) over the mold lie.
-    pub fn new(layup: &'a Layup, sheet: &'a Sheet, low: f64) -> Option<Self> {
-        let (rule, ply) = (layup.release.as_ref()?, &layup.ply);
-        let times = &layup.motion.times;
-        let grippers = sheet.grippers.len();
+    pub fn new(layup: &'a Layup, sheet: &Sheet) -> Option<Self> {
+        let Release { dwell, times: program, .. } = layup.release.as_ref()?;
+        let motion = &layup.motion.times;
+        let (grippers, end) = (sheet.grippers.len(), motion[motion.len() - 1]);
+        let times = program.clone().or_else(|| times(layup))?;
         let mut releases = Releases {
-            rule,
-            end: times[times.len() - 1],
-            ply,
-            mold: sheet.mold.as_ref(),
-            low: low.max(layup.settings.contact.tolerance),
-            surroundings: (0..grippers).map(|n| surroundings(sheet, n)).collect(),
-            lying_since: vec![None; grippers],
+            ply: &layup.ply,
+            dwell: *dwell,
+            end,
+            times,
             holds: vec![true; grippers],
             events: Vec::new(),
         };
-        releases.note(times[0], EventKind::Grip, (0..grippers).collect());
+        releases.note(motion[0], EventKind::Grip, (0..grippers).collect());
         Some(releases)
     }
 
-    /// The earliest time (s) at which a pad lets go on the way if what lies goes on lying.
+    /// When pads let go (s) that still hold and do so on the way.
+    fn coming(&self) -> impl Iterator<Item = (usize, f64)> {
+        let times = self.times.iter().copied().enumerate();
+        times.filter(|(n, time)| self.holds[*n] && *time < self.end)
+    }
+
+    /// The earliest time (s) at which a pad lets go on the way.
     pub fn due(&self) -> Option<f64> {
-        let pressing = (0..self.holds.len()).filter_map(|n| self.presses_since(n));
-        pressing.map(|since| since + self.rule.dwell).min_by(f64::total_cmp)
+        self.coming().map(|(_, due)| due).min_by(f64::total_cmp)
     }
 
-    /// Since when the pad of a gripper presses that lets go on the way (s); `None` if it holds on, or has let go.
-    fn presses_since(&self, gripper: usize) -> Option<f64> {
-        let since = match &self.rule.times {
-            Some(times) => {
-                Some(times[gripper]).filter(|t| *t < self.end).map(|t| t - self.rule.dwell)
-            }
-            None => self.lying_since[gripper],
-        };
-        since.filter(|_| self.holds[gripper] && self.rule.order == ReleaseOrder::Landed)
-    }
-
-    /// Looks at the ply at a time (s) of the motion; returns the grippers that let go now. What is due within `rounding` (s)
-    /// is due.
-    pub fn see(&mut self, time: f64, rounding: f64, cloth: &Cloth) -> Vec<usize> {
-        let (ReleaseOrder::Landed, Some(mold)) = (self.rule.order, self.mold) else {
-            return Vec::new();
-        };
-        let lies = |node: usize| {
-            let closest = mold.closest_point(cloth.now.x[node]);
-            !closest.beyond && closest.distance <= self.low
-        };
-        for (n, since) in self.lying_since.iter_mut().enumerate() {
-            if self.holds[n] && self.rule.times.is_none() {
-                let lying = self.surroundings[n].iter().all(|node| lies(*node));
-                *since = lying.then(|| since.unwrap_or(time));
-            }
-        }
-        let is_due = |since: f64| since + self.rule.dwell <= time + rounding;
-        let pressing = (0..self.holds.len()).map(|n| (n, self.presses_since(n)));
-        let due = pressing.filter_map(|(n, since)| Some((n, since.filter(|t| is_due(*t))?)));
-        let due: Vec<(usize, f64)> = due.collect();
-        for (n, since) in &due {
-            self.let_go(vec![*n], *since);
+    /// Comes to a time (s) of the motion; returns the grippers that let go now. What is due within `rounding` (s) is due.
+    pub fn come_to(&mut self, time: f64, rounding: f64) -> Vec<usize> {
+        let due: Vec<(usize, f64)> =
+            self.coming().filter(|(_, due)| *due <= time + rounding).collect();
+        for (n, due) in &due {
+            self.let_go(vec![*n], due - self.dwell);
         }
         due.into_iter().map(|(n, _)| n).collect()
     }
@@ -101,7 +79,7 @@ impl<'a> Releases<'a> {
     pub fn end(&mut self) -> (Vec<usize>, f64) {
         let all: Vec<usize> = (0..self.holds.len()).filter(|n| self.holds[*n]).collect();
         self.let_go(all.clone(), self.end);
-        (all, self.end + self.rule.dwell)
+        (all, self.end + self.dwell)
     }
 
     /// Everything so far, in the order of time.
@@ -123,10 +101,10 @@ impl<'a> Releases<'a> {
         for n in &grippers {
             self.holds[*n] = false;
         }
-        if self.rule.dwell > 0.0 {
+        if self.dwell > 0.0 {
             self.note(from, EventKind::Press, grippers.clone());
         }
-        self.note(from + self.rule.dwell, EventKind::Release, grippers);
+        self.note(from + self.dwell, EventKind::Release, grippers);
     }
 
     fn note(&mut self, time: f64, kind: EventKind, grippers: Vec<usize>) {
@@ -137,16 +115,44 @@ impl<'a> Releases<'a> {
     }
 }
 
-/// The nodes of ply around a gripper, as far as its nearest neighbor may stand, and those that it holds; the farthest first.
-fn surroundings(sheet: &Sheet, gripper: usize) -> Vec<usize> {
-    let [u, v] = sheet.grippers[gripper].place;
-    let reach = sheet.pitch * (1.0 + 1e-9);
-    let away = |node: usize| {
-        let [p, q] = sheet.fabric.places[node];
-        (p - u).hypot(q - v)
+/// When the pad of each gripper of a layup lets go (s), whose motion is that of the grippers; `None` if they hold to the end.
+pub fn times(layup: &Layup) -> Option<Arc<[f64]>> {
+    let Release { order, dwell, .. } = layup.release.as_ref()?;
+    let (times, steps) = (&layup.motion.times, &layup.motion.positions);
+    let (end, last) = (times[times.len() - 1], steps.last()?);
+    let over_hollow = match (order, &layup.mold) {
+        (ReleaseOrder::HollowsFirst, Some(mold)) => over_hollow(&layup.ply, mold, last),
+        _ => vec![false; last.len()],
     };
-    let within = |node: &usize| sheet.fabric.inside[*node] && away(*node) <= reach;
-    let mut nodes: Vec<usize> = (0..sheet.fabric.places.len()).filter(within).collect();
-    nodes.sort_by(|a, b| away(*b).total_cmp(&away(*a)));
-    nodes
+    let near = PLACED * pitch(&layup.ply);
+    let time = |n: usize| {
+        let placed = placed(steps, n, near).filter(|_| over_hollow[n]);
+        let time = placed.map(|step| times[step] + dwell).filter(|time| *time < end);
+        time.unwrap_or(end + dwell)
+    };
+    Some((0..last.len()).map(time).collect())
+}
+
+/// Whether a line of ply from each gripper to a neighbor spans a hollow of the mold, where the grippers are at `places` (m) on it or over it.
+fn over_hollow(ply: &Ply, mold: &Mold, places: &[[f64; 3]]) -> Vec<bool> {
+    let on: Vec<[f64; 3]> = places.iter().map(|p| mold.closest_point(*p).point).collect();
+    let mut over = vec![false; places.len()];
+    for pair in ply.neighbors() {
+        if spans_hollow(mold, pair.grippers.map(|n| on[n])) {
+            pair.grippers.iter().for_each(|n| over[*n] = true);
+        }
+    }
+    over
+}
+
+/// Whether the line between two places on a mold (m) spans a hollow.
+pub fn spans_hollow(mold: &Mold, [a, b]: [[f64; 3]; 2]) -> bool {
+    mold.signed_distance(between(a, b, 0.5)) > HOLLOW * distance(a, b)
+}
+
+/// The step in which a gripper has come to within a distance (m) of its last place for good; `None` if it stands there from the first one on, and so
+/// has not come.
+fn placed(steps: &[Vec<[f64; 3]>], gripper: usize, near: f64) -> Option<usize> {
+    let last = steps.last()?[gripper];
+    steps.iter().rposition(|step| distance(step[gripper], last) > near).map(|away| away + 1)
 }

@@ -9,15 +9,21 @@
 //! catch the fabric that crosses the line. A mount gives, so its gripper can be commanded to come down earlier and deeper
 //! than a rigid one: the line lands with its surroundings, and an error of height does not leave the gripper above the mold.
 //! Over a hollow grippers do not press: a pad that sticks early keeps its lines from the length that the hollow needs.
+//!
+//! Where a pad lets go as its gripper comes to its place, its ply falls into the hollow: the gripper stays above the mold, and of a ply that sticks its
+//! lines are left slack by as much as errors of the grippers could pull them taut. So the middle of a line touches first, the ply rolls on from there
+//! to its ends, and no error of a gripper remains in it, because nothing holds these ends.
 
 use super::strategy::Strategy;
 use super::tuning::TUNING;
 use crate::geometry::Point;
-use crate::geometry::vector::{along, between, direction, sub};
+use crate::geometry::vector::{along, direction, sub};
+use crate::layup::{Friction, ReleaseOrder};
 use crate::measure::Name;
 use crate::mold::distance;
 use crate::ply::Neighbors;
 use crate::scene::Scene;
+use crate::sheet::release::spans_hollow;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// The preload of a strategy's grippers; none for rigid ones.
@@ -33,8 +39,12 @@ pub struct Preload<'a> {
     border: f64,
     /// Share of the pull that is left at a gripper's place of a line over no hollow.
     kept: f64,
+    /// How slack a line over a hollow is left, by the pull that would make it taut again (as a share of the pull).
+    slack: f64,
     /// Load with which a gripper presses (N).
     press: f64,
+    /// How far above the mold grippers stay over a hollow (m), into which their ply falls.
+    fall: f64,
 }
 
 /// Pull of a line and press of a gripper (N) at which errors of the grippers make hardly a line slack and leave hardly a pad above
@@ -71,7 +81,15 @@ impl<'a> Preload<'a> {
         let spare = lateral_load / SQRT_2 - needed;
         let border =
             if pull > 0.0 { (spare / pull).clamp(1.0, TUNING.preload.border) } else { 1.0 };
-        let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
+        let share = if pull > 0.0 { needed / pull } else { 0.0 };
+        let kept = if pull > 0.0 { share.clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
+        let falls = scene
+            .layup
+            .release
+            .as_ref()
+            .is_some_and(|rule| rule.order == ReleaseOrder::HollowsFirst);
+        let sticks = !matches!(scene.layup.settings.contact.friction, Friction::Coulomb(_));
+        let cell = scene.layup.ply.shorter_side();
         Some(Preload {
             scene,
             neighbors: scene.layup.ply.neighbors(),
@@ -80,7 +98,9 @@ impl<'a> Preload<'a> {
             pull,
             border,
             kept,
+            slack: if falls && sticks { TUNING.preload.slack * share } else { 0.0 },
             press: strategy.press * TUNING.preload.press * axial_load,
+            fall: if falls { strategy.press * TUNING.preload.fall * cell } else { 0.0 },
         })
     }
 
@@ -95,20 +115,22 @@ impl<'a> Preload<'a> {
             let (lines, over_hollow) = self.lines(places, n, free);
             let pull = lines.map(|c| c * grown * self.pull);
             // a pad that is pressed down early sticks before its lines have the length that a hollow needs
-            let press = if over_hollow { 0.0 } else { self.press };
+            // a pad that is pressed down early sticks before its lines have the length that a hollow needs
+            let [press, rise] =
+                if over_hollow { [0.0, grown * self.fall] } else { [self.press, 0.0] };
             let pressed = press * (1.0 - smooth(away / TUNING.preload.press_reach));
             let mold = self.scene.layup.mold.as_ref();
             let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
-            [0, 1, 2].map(|c| place[c] - self.compliance[c] * (pull[c] + pressed * normal[c]))
+            let load = |c: usize| pull[c] + pressed * normal[c];
+            [0, 1, 2].map(|c| place[c] - self.compliance[c] * load(c) + rise * normal[c])
         };
         places.iter().enumerate().map(preloaded).collect()
     }
 
     /// Whether the line between the places of two grippers on the mold bridges a hollow.
     fn is_over_hollow(&self, a: usize, b: usize) -> bool {
-        let middle = between(self.targets[a], self.targets[b], 0.5);
-        let least = TUNING.preload.hollow * distance(self.targets[a], self.targets[b]);
-        self.scene.layup.mold.as_ref().is_some_and(|mold| mold.signed_distance(middle) > least)
+        let mold = self.scene.layup.mold.as_ref();
+        mold.is_some_and(|mold| spans_hollow(mold, [a, b].map(|n| self.targets[n])))
     }
 
     /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up; and whether one of them
@@ -121,9 +143,9 @@ impl<'a> Preload<'a> {
             let way = direction(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
             over_hollow |= hollow;
-            let kept = if hollow { 0.0 } else { self.kept };
-            let pull = if pair.border { self.border } else { 1.0 };
-            sum = along(sum, pull * (kept + (1.0 - kept) * free), way);
+            let border = if pair.border { self.border } else { 1.0 };
+            let left = if hollow { -self.slack } else { border * self.kept };
+            sum = along(sum, border * free + left * (1.0 - free), way);
         }
         (sum, over_hollow)
     }

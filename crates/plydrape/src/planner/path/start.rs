@@ -43,7 +43,7 @@ impl LowStart {
             Layup { mold: None, target: None, release: None, tool: None, ..layup.held_at_start() };
         let held = as_ranked(held, Mesh::Coarse);
         let go_on = |_: &sheet::Sheet, _: &sheet::ClothState, _| ControlFlow::Continue(());
-        let hung = sheet::drape(&held, SheetTuning::default(), 0.0, &|| false, go_on).ok()?;
+        let hung = sheet::drape(&held, SheetTuning::default(), &|| false, go_on).ok()?;
         // a ply that does not come to rest says nothing
         if hung.status != sheet::Status::Converged {
             return None;

@@ -119,9 +119,6 @@ pub struct Preload {
     pub border: f64,
     /// Distance of a gripper to its place from which on its pull is given up (cells).
     pub release: f64,
-    /// Height over the mold of the middle of a line between two grippers' places above which it bridges a hollow (of its
-    /// length).
-    pub hollow: f64,
     /// Share of the pull that is left at its place of a line over no hollow, because an error of the gripper makes its lines slack there first.
     pub kept: f64,
     /// Share of the steps in which the pull comes up.
@@ -130,6 +127,11 @@ pub struct Preload {
     pub press: f64,
     /// Distance of a gripper to its place from which on it presses (cells).
     pub press_reach: f64,
+    /// How slack a line over a hollow is left, as a multiple of what errors of its grippers could make it shorter: a line that is taut is lifted off, and
+    /// what is slack lies down beyond the gripper.
+    pub slack: f64,
+    /// Largest height from which a ply falls into a hollow (cells).
+    pub fall: f64,
     /// Deviations of the grippers' errors against which the first members pull and press: three, because one line of a few dozen
     /// that goes slack makes a ridge.
     pub deviations: f64,
@@ -225,11 +227,12 @@ pub const TUNING: PathTuning = PathTuning {
         pull: 0.25,
         border: 2.5,
         release: 0.4,
-        hollow: 1e-3,
         kept: 0.7,
         growing: 0.1,
         press: 0.5,
         press_reach: 0.3,
+        slack: 2.0,
+        fall: 0.1,
         deviations: 3.0,
     },
     search: Search {

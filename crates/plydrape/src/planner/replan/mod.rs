@@ -294,10 +294,9 @@ impl<'a> Replanner<'a> {
             true => motion.duration() / self.motion.duration(),
             false => 1.0,
         };
-        let dwells =
-            scene.layup.release.as_ref().is_some_and(|release| {
-                release.order == ReleaseOrder::Landed && release.dwell > 0.0
-            });
+        let dwells = scene.layup.release.as_ref().is_some_and(|release| {
+            release.order == ReleaseOrder::HollowsFirst && release.dwell > 0.0
+        });
         if longer > 1.0 && dwells {
             return Err(Error::ReplanDwells { longer });
         }

@@ -40,7 +40,7 @@ fn lifted() -> Layup {
 }
 
 fn draped(layup: &Layup, mut see: impl FnMut(&ClothState)) -> SheetDrape {
-    let found = drape(layup, SheetTuning::default(), 5e-4, &|| false, |_, state, _| {
+    let found = drape(layup, SheetTuning::default(), &|| false, |_, state, _| {
         see(state);
         ControlFlow::Continue(())
     });

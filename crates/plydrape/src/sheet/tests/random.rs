@@ -121,7 +121,7 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         layup.release = match seed % 3 {
             0 => None,
             1 => Some(Release::new(ReleaseOrder::End, 0.0)),
-            _ => Some(Release::new(ReleaseOrder::Landed, 0.05)),
+            _ => Some(Release::new(ReleaseOrder::HollowsFirst, 0.05)),
         };
         let left = std::cell::Cell::new(100);
         let stop = || {
@@ -136,7 +136,7 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
             strain += measures.value(Name::Strain).expect("segments");
             ControlFlow::Continue(())
         };
-        let drape = match drape(&layup, tuning, 0.0, &stop, see) {
+        let drape = match drape(&layup, tuning, &stop, see) {
             Ok(drape) => drape,
             Err(
                 Error::SheetCoarse { .. }
@@ -189,7 +189,7 @@ fn the_same_layup_gives_the_same_bytes() {
     let run = || {
         let layup = layup(WHOLE);
         let go_on = |_: &Sheet, _: &ClothState, _: bool| ControlFlow::Continue(());
-        drape(&layup, SheetTuning::default(), 0.0, &|| false, go_on).expect("a sheet")
+        drape(&layup, SheetTuning::default(), &|| false, go_on).expect("a sheet")
     };
     let first = run();
     let beside: Vec<_> = std::thread::scope(|scope| {
@@ -208,7 +208,7 @@ fn the_same_layup_gives_the_same_bytes() {
 fn a_stopped_drape_is_interrupted() {
     let layup = layup(WHOLE);
     let go_on = |_: &Sheet, _: &ClothState, _: bool| ControlFlow::Continue(());
-    let stopped = drape(&layup, SheetTuning::default(), 0.0, &|| true, go_on).expect("a sheet");
+    let stopped = drape(&layup, SheetTuning::default(), &|| true, go_on).expect("a sheet");
     assert_eq!(stopped.status, Status::Interrupted);
     let scene =
         Scene { layup: layup.clone(), ..Scene::new(layup.ply, layup.settings, layup.motion) };
