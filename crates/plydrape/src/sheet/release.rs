@@ -1,8 +1,9 @@
 //! When pads let go: the rule of the layup, applied to its motion.
 //!
-//! With [`ReleaseOrder::HollowsFirst`] a pad over a hollow of the mold lets go when its gripper has come to its last place and stood there for the dwell,
-//! while others still move. After the motion all pads that still hold press for the dwell and let go together. So the times follow from the motion alone: no
-//! sensor looks at the ply, and a cell with errors lets go when its program says.
+//! With [`ReleaseOrder::HollowsFirst`] a pad over a hollow of the mold lets go when its gripper has come to its last place and
+//! stood there for the dwell, while others still move. After the motion all pads that still hold press for the dwell and let go
+//! together. So the times follow from the motion alone: no sensor looks at the ply, and a cell with errors lets go when its
+//! program says.
 
 use super::event::{Event, EventKind};
 use super::model::Sheet;
@@ -133,7 +134,7 @@ pub fn times(layup: &Layup) -> Option<Arc<[f64]>> {
     Some((0..last.len()).map(time).collect())
 }
 
-/// Whether a line of ply from each gripper to a neighbor spans a hollow of the mold, where the grippers are at `places` (m) on it or over it.
+/// Whether a line of ply from each gripper to a neighbor spans a hollow of the mold, where the grippers are at `places` (m).
 fn over_hollow(ply: &Ply, mold: &Mold, places: &[[f64; 3]]) -> Vec<bool> {
     let on: Vec<[f64; 3]> = places.iter().map(|p| mold.closest_point(*p).point).collect();
     let mut over = vec![false; places.len()];
@@ -150,8 +151,8 @@ pub fn spans_hollow(mold: &Mold, [a, b]: [[f64; 3]; 2]) -> bool {
     mold.signed_distance(between(a, b, 0.5)) > HOLLOW * distance(a, b)
 }
 
-/// The step in which a gripper has come to within a distance (m) of its last place for good; `None` if it stands there from the first one on, and so
-/// has not come.
+/// The step in which a gripper has come to within a distance (m) of its last place for good; `None` if it stands there from the
+/// first one on, and so has not come.
 fn placed(steps: &[Vec<[f64; 3]>], gripper: usize, near: f64) -> Option<usize> {
     let last = steps.last()?[gripper];
     steps.iter().rposition(|step| distance(step[gripper], last) > near).map(|away| away + 1)

@@ -10,9 +10,9 @@
 //! than a rigid one: the line lands with its surroundings, and an error of height does not leave the gripper above the mold.
 //! Over a hollow grippers do not press: a pad that sticks early keeps its lines from the length that the hollow needs.
 //!
-//! Where a pad lets go as its gripper comes to its place, its ply falls into the hollow: the gripper stays above the mold, and of a ply that sticks its
-//! lines are left slack by as much as errors of the grippers could pull them taut. So the middle of a line touches first, the ply rolls on from there
-//! to its ends, and no error of a gripper remains in it, because nothing holds these ends.
+//! Where a pad lets go as its gripper comes to its place, its ply falls into the hollow: the gripper stays above the mold, and of a
+//! ply that sticks its lines are left slack, so that no errors of the grippers pull them taut. So the middle of a line touches
+//! first, the ply rolls on from there to its ends, and no error of a gripper remains in it, because nothing holds these ends.
 
 use super::strategy::Strategy;
 use super::tuning::TUNING;
@@ -39,7 +39,7 @@ pub struct Preload<'a> {
     border: f64,
     /// Share of the pull that is left at a gripper's place of a line over no hollow.
     kept: f64,
-    /// How slack a line over a hollow is left, by the pull that would make it taut again (as a share of the pull).
+    /// How slack a line over a hollow is left, by the pull that would make it taut again (N).
     slack: f64,
     /// Load with which a gripper presses (N).
     press: f64,
@@ -81,13 +81,9 @@ impl<'a> Preload<'a> {
         let spare = lateral_load / SQRT_2 - needed;
         let border =
             if pull > 0.0 { (spare / pull).clamp(1.0, TUNING.preload.border) } else { 1.0 };
-        let share = if pull > 0.0 { needed / pull } else { 0.0 };
-        let kept = if pull > 0.0 { share.clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
-        let falls = scene
-            .layup
-            .release
-            .as_ref()
-            .is_some_and(|rule| rule.order == ReleaseOrder::HollowsFirst);
+        let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
+        let order = scene.layup.release.as_ref().map(|rule| rule.order);
+        let falls = order == Some(ReleaseOrder::HollowsFirst);
         let sticks = !matches!(scene.layup.settings.contact.friction, Friction::Coulomb(_));
         let cell = scene.layup.ply.shorter_side();
         Some(Preload {
@@ -98,7 +94,7 @@ impl<'a> Preload<'a> {
             pull,
             border,
             kept,
-            slack: if falls && sticks { TUNING.preload.slack * share } else { 0.0 },
+            slack: if falls && sticks { TUNING.preload.slack * needed } else { 0.0 },
             press: strategy.press * TUNING.preload.press * axial_load,
             fall: if falls { strategy.press * TUNING.preload.fall * cell } else { 0.0 },
         })
@@ -113,8 +109,7 @@ impl<'a> Preload<'a> {
             let away = distance(*place, self.targets[n]) / cell;
             let free = smooth(away / TUNING.preload.release);
             let (lines, over_hollow) = self.lines(places, n, free);
-            let pull = lines.map(|c| c * grown * self.pull);
-            // a pad that is pressed down early sticks before its lines have the length that a hollow needs
+            let pull = lines.map(|c| c * grown);
             // a pad that is pressed down early sticks before its lines have the length that a hollow needs
             let [press, rise] =
                 if over_hollow { [0.0, grown * self.fall] } else { [self.press, 0.0] };
@@ -133,8 +128,7 @@ impl<'a> Preload<'a> {
         mold.is_some_and(|mold| spans_hollow(mold, [a, b].map(|n| self.targets[n])))
     }
 
-    /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up; and whether one of them
-    /// bridges a hollow.
+    /// Pull of its lines on a gripper (N), of which a share `free` is not yet given up; and whether one of them bridges a hollow.
     fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
         let (mut sum, mut over_hollow) = ([0.0; 3], false);
         let beside = self.neighbors.iter().filter(|pair| pair.grippers.contains(&gripper));
@@ -143,9 +137,9 @@ impl<'a> Preload<'a> {
             let way = direction(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
             over_hollow |= hollow;
-            let border = if pair.border { self.border } else { 1.0 };
-            let left = if hollow { -self.slack } else { border * self.kept };
-            sum = along(sum, border * free + left * (1.0 - free), way);
+            let pull = if pair.border { self.border * self.pull } else { self.pull };
+            let left = if hollow { -self.slack } else { pull * self.kept };
+            sum = along(sum, pull * free + left * (1.0 - free), way);
         }
         (sum, over_hollow)
     }
