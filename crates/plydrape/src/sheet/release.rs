@@ -120,7 +120,7 @@ impl<'a> Releases<'a> {
 pub fn times(layup: &Layup) -> Option<Arc<[f64]>> {
     let Release { order, dwell, .. } = layup.release.as_ref()?;
     let (times, steps) = (&layup.motion.times, &layup.motion.positions);
-    let (end, last) = (times[times.len() - 1], steps.last()?);
+    let (end, last) = (*times.last()?, steps.last()?);
     let over_hollow = match (order, &layup.mold) {
         (ReleaseOrder::HollowsFirst, Some(mold)) => over_hollow(&layup.ply, mold, last),
         _ => vec![false; last.len()],
