@@ -25,6 +25,9 @@ STEP = 5e-4
 FOLDS = "touch the mold first, and stick short of their places"
 """What `check` says of a ply whose edge hangs too far over on a mold that sticks."""
 
+SPRINGS_BACK = "it springs back"
+"""What `check` says of a ply that does not stay where it is laid, whatever the motion."""
+
 CRASH = 101
 """Exit code of a program that panics."""
 
@@ -71,13 +74,15 @@ class Plydrape:
         return done
 
     def check(self, scene: Path, *, may_fold: bool) -> None:
-        """Refuses what `check` refuses, and what it says of an edge that no motion lays flat.
+        """Refuses what `check` refuses, and what it says no motion lays flat.
 
         It may warn of straight ways, which no plan follows.
         """
         warnings = json.loads(self.run("check", str(scene), "--json").stdout)["warnings"]
         if not may_fold and any(FOLDS in warning for warning in warnings):
             raise RefusedError("an edge folds")
+        if any(SPRINGS_BACK in warning for warning in warnings):
+            raise RefusedError("springs back")
 
     def drape(self, scene: Path, ply: Array | None, height: Height) -> Drape:
         """The ideal drape; refused if there is none, or if it shears or tilts too much."""

@@ -9,7 +9,7 @@ use plydrape::layup::Model;
 use plydrape::material::Section;
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
-use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::planner::infeasible_limits::with_spring_back;
 use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
 use plydrape_io::result::sheet::SheetSize;
@@ -93,7 +93,7 @@ fn unplanned(scene: &SceneFile, seen: &[Name]) -> Vec<String> {
     if scene.layup.target.is_none() {
         return Vec::new();
     }
-    let limits = infeasible_limits(scene);
+    let limits = with_spring_back(scene, &|| false);
     let limits = limits
         .iter()
         .filter(|verdict| !seen.contains(&verdict.name))

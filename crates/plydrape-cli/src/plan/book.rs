@@ -15,7 +15,7 @@ use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::measure::Verdict;
 use plydrape::planner::Progress;
-use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::planner::infeasible_limits::with_spring_back;
 use plydrape_io::scene::{Book, BookPly, read_book};
 use plydrape_io::store::folder::write_together;
 use plydrape_io::text::foreseen::foreseen;
@@ -209,7 +209,7 @@ struct Infeasible<'a> {
 
 impl<'a> Infeasible<'a> {
     fn new(ply: &'a BookPly) -> Option<Self> {
-        let limits = infeasible_limits(&ply.scene);
+        let limits = with_spring_back(&ply.scene, &|| false);
         (!limits.is_empty()).then_some(Infeasible { ply: &ply.name, limits })
     }
 

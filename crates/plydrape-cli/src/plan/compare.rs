@@ -7,7 +7,7 @@ use crate::search::Search;
 use crate::watch::Interrupt;
 use plydrape::measure::Verdict;
 use plydrape::planner::comparison::{StrategyName, compare};
-use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::planner::infeasible_limits::with_spring_back;
 use plydrape_io::Folder;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::text::strategy::Row;
@@ -41,7 +41,7 @@ pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: b
     let (folder, _kept) = place(folder, interrupted, |dir| !dir.join(NAME).exists())?;
     let files = comparison::write_into(folder, &rows)?;
 
-    let found = infeasible_limits(scene);
+    let found = with_spring_back(scene, &|| interrupt.asked().is_break());
     let mut text = format!("{}\n\n", scene.title);
     if !found.is_empty() {
         text += &format!("{}\n", table::infeasible_limits(&found));

@@ -17,7 +17,7 @@ use crate::results;
 use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use found::{Found, Motion};
-use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::planner::infeasible_limits::with_spring_back;
 use plydrape::planner::{Checkpoint, Progress};
 use plydrape::scene::{PlanMethod, Scene};
 use plydrape_io::rerun::is_better;
@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         warn(&foreseen(&scene));
         return compare::run(asked, &scene, &interrupt, quiet);
     }
-    let infeasible = infeasible_limits(&scene);
+    let infeasible = with_spring_back(&scene, &|| interrupt.asked().is_break());
     if !infeasible.is_empty() {
         say_infeasible(&table::infeasible_limits(&infeasible), &infeasible, arguments, quiet)?;
         if !arguments.anyway {

@@ -136,8 +136,7 @@ pub fn infeasible_limits(verdicts: &[Verdict]) -> String {
     if verdicts.is_empty() {
         return String::new();
     }
-    let lines =
-        verdicts.iter().map(|v| shown::excerpt(&format!("  {}", verdict_text(v)), WIDTH) + "\n");
+    let lines = verdicts.iter().map(|v| format!("  {}\n", verdict_text(v)));
     "no plan can keep these limits:\n".to_owned() + &lines.collect::<String>()
 }
 

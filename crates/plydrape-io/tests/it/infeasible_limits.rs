@@ -1,8 +1,12 @@
 //! What a scene rules out by itself, before any plan: each limit with its amount, from plane geometry.
 
 use crate::common::parse;
-use plydrape::measure::Verdict;
-use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::errors::{Errors, RelativeError};
+use plydrape::layup::Layup;
+use plydrape::measure::{Name, Verdict};
+use plydrape::outcome::spring_back;
+use plydrape::planner::infeasible_limits::{infeasible_limits, with_spring_back};
+use plydrape::scene::Scene;
 use plydrape_io::scene;
 use plydrape_io::text::foreseen::foreseen;
 use std::path::Path;
@@ -215,4 +219,60 @@ fn an_edge_that_folds_is_foreseen_and_the_length_that_is_proposed_is_not() {
     let proposed = number_after("what an edge of ");
     assert_eq!(warned(proposed, "\"stick\""), [""; 0]);
     assert_eq!(warned(1.02 * proposed, "\"stick\"").len(), 1);
+}
+
+/// A ply of 3 × 3 cups in a usual cell, on a mold that it slides on.
+fn slippery(mold: &str, material: &str) -> Scene {
+    parse(&format!(
+        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [3, 3]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = {material}\n[mold]\n{mold}\n[grippers]\n{START}[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"20 mm\"\n"
+    ))
+}
+
+const DOME: &str = "kind = \"sphere\"\nradius = \"0.6 m\"\nposition = [0, 0, \"-0.6 m\"]";
+
+fn height(layup: &Layup, scene: &Scene) -> f64 {
+    let found = spring_back(layup, &scene.limits, &|| false).expect("a ply that was laid");
+    assert_eq!(found.name, Name::Height);
+    found.value
+}
+
+/// What curves in one direction alone is bent and not sheared, so it stays where it is laid; on a dome a ply is sheared, and springs back.
+#[test]
+fn a_ply_springs_back_from_a_dome_and_stays_on_a_cylinder() {
+    let cylinder = "kind = \"cylinder\"\nradius = \"0.4 m\"\nposition = [0, 0, \"-0.4 m\"]";
+    let bent = slippery(cylinder, "\"prepreg_warm\"");
+    assert!(height(&bent.layup, &bent) < 0.05);
+    assert!(with_spring_back(&bent, &|| false).is_empty());
+    let sheared = slippery(DOME, "\"prepreg_warm\"");
+    assert!(height(&sheared.layup, &sheared) > 0.75);
+}
+
+/// The remedy that is said is one: a ply so limp stays, and the scene has no limit left that no plan can keep.
+#[test]
+fn a_ply_that_springs_back_stays_with_the_shear_stiffness_that_is_said() {
+    let material = |shear: f64| {
+        format!(
+            "{{ name = \"ply\", source = \"a test\", tension = \"1e6 N/m\", mass = \"0.3 kg/m^2\", bending_rigidity_warp = \"2e-5 N m\", bending_rigidity_weft = \"2e-5 N m\", shear_curve = \"{shear} N/m\" }}"
+        )
+    };
+    let stiff = with_spring_back(&slippery(DOME, &material(40.0)), &|| false);
+    let [verdict] = stiff.as_slice() else { panic!("{stiff:?}") };
+    let said = verdict.at.split("would stay with ").nth(1).and_then(|rest| rest.split(' ').next());
+    let share: f64 = said.unwrap_or_else(|| panic!("{verdict:?}")).parse().expect("a share");
+    let limp = with_spring_back(&slippery(DOME, &material(40.0 * share)), &|| false);
+    assert!(limp.is_empty(), "{limp:?}");
+}
+
+/// A ply that is as many times heavier as it is stiffer takes the same shape.
+#[test]
+fn a_ply_springs_back_by_its_stiffness_over_its_weight() {
+    let scene = slippery(DOME, "\"prepreg_warm\"");
+    let own = height(&scene.layup, &scene);
+    let mut twice = Errors::default().draw(0, 9);
+    let material = &mut twice.material;
+    for error in [&mut material.areal_mass, &mut material.bending, &mut material.shear] {
+        *error = RelativeError::Share(1.0);
+    }
+    let heavier = twice.apply(&scene.layup);
+    assert!((height(&heavier, &scene) / own - 1.0).abs() < 0.02);
 }

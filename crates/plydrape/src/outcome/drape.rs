@@ -283,9 +283,13 @@ pub(super) fn judge_sheet(
         Some(flight) => flight.go_on(carried, limits),
         None => (Judge::new(carried, limits, false), HandOver::default()),
     };
-    let (tuning, air) = (sheet::SheetTuning::default(), flight.map(|flight| &flight.air));
+    let tuning = sheet::SheetTuning::default();
+    let beginning = match flight {
+        Some(flight) => sheet::Beginning::Air(&flight.air),
+        None => sheet::Beginning::Flat,
+    };
     let mut ended = false;
-    let drape = sheet::drape_from(carried, tuning, air, stop, |sheet, state, last| {
+    let drape = sheet::drape_from(carried, tuning, beginning, stop, |sheet, state, last| {
         ended = last;
         judge.see(&hand_over.state(carried, sheet, state, last), last);
         see(Seen { sheet, state, judge: &judge, hand_over: &hand_over })

@@ -5,16 +5,27 @@
 //! scene refuses them.
 
 use crate::clearance::{self, Poses};
+use crate::errors::{Errors, RelativeError};
 use crate::geometry::rotation::{oriented, x_axis};
 use crate::geometry::vector::angle_between;
-use crate::layup::Target;
+use crate::layup::{Friction, Layup, Target};
 use crate::measure::{Name, Verdict, Worst};
 use crate::measure::{closest_grippers, outside_workspace};
 use crate::mold::{Mold, distance};
 use crate::net::Missing;
+use crate::outcome;
+use crate::planner::evaluation::{Mesh, as_ranked};
 use crate::ply::{LineCell, orientations, shear};
 use crate::scene::Scene;
+use crate::sheet::Fabric;
 use crate::state::Site;
+
+/// Nodes up to which a ply that may spring back has the mesh of the scene.
+const SPRING_BACK_NODES: usize = 1500;
+/// Ratio to its limit from which on the height of a ply that sprang back is one that no motion mends: searches ended up to 13 % lower.
+const CERTAIN: f64 = 1.5;
+/// Shares of its shear stiffness with which a ply is tried that springs back.
+const LIMPER: [f64; 4] = [0.5, 0.25, 0.1, 0.05];
 
 /// A value and a text that says where it is.
 type Found = (f64, String);
@@ -44,6 +55,48 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     }
     out.extend(reach(scene, start, target));
     out
+}
+
+/// As [`infeasible_limits`], and the height of a ply that springs back whatever the motion; that takes some drapes, and `stop` may end it.
+#[must_use]
+pub fn with_spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Vec<Verdict> {
+    let mut limits = infeasible_limits(scene);
+    if limits.is_empty() {
+        limits.extend(spring_back(scene, stop));
+    }
+    limits
+}
+
+/// The height of a ply that was laid on its ideal drape and let go of, if no motion can mend it.
+fn spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Verdict> {
+    let laid = |layup: &Layup| outcome::spring_back(layup, &scene.limits, stop);
+    // the mesh of the scene, where that is soon done
+    let own = as_ranked(scene.layup.clone(), Mesh::Own);
+    let nodes = Fabric::new(&own.ply, &own.settings).ok()?.places.len();
+    let is_small = nodes <= SPRING_BACK_NODES;
+    let layup = if is_small { own } else { as_ranked(own, Mesh::Coarse) };
+    let found = laid(&layup).filter(|verdict| verdict.ratio() > CERTAIN)?;
+
+    // what would make it stay is tried
+    let stays = |layup: &Layup| is_small && laid(layup).is_some_and(|verdict| verdict.ok);
+    let mut sticking = layup.clone();
+    sticking.settings.contact.friction = Friction::Stick;
+    let sticks = matches!(layup.settings.contact.friction, Friction::Coulomb(_));
+    let limper = |share: &f64| {
+        let mut draw = Errors::default().draw(0, layup.ply.grippers());
+        draw.material.shear = RelativeError::Share(share - 1.0);
+        stays(&draw.apply(&layup))
+    };
+    let limp = LIMPER.into_iter().find(limper);
+    let limp = limp.map(|share| format!("with {share} times its shear stiffness"));
+    let tacky = (sticks && stays(&sticking)).then(|| "if it stuck to the mold".to_string());
+    let remedies: Vec<String> = limp.into_iter().chain(tacky).collect();
+    let remedy = match remedies.is_empty() {
+        true => String::new(),
+        false => format!("; it would stay {}", remedies.join(", or ")),
+    };
+    let at = format!("{}, laid without a motion and let go of: it springs back{remedy}", found.at);
+    Some(Verdict { at, step: None, ..found })
 }
 
 /// A verdict (in the measure's unit) of something that exceeds its limit, if it does.

@@ -3,7 +3,9 @@
 
 use super::cloth::Cloth;
 use super::gripper::Pad;
+use super::hand_over::{TILT_REACH, frame_around};
 use super::march::March;
+use super::matrix3::{IDENTITY, orthonormal};
 use super::model::Sheet;
 use super::release::Releases;
 use super::report::{Report, SheetDrape};
@@ -11,6 +13,7 @@ use super::shear::angle;
 use super::state::ClothState;
 use super::tuning::SheetTuning;
 use crate::Error;
+use crate::geometry::vector::cross;
 use crate::layup::Layup;
 use crate::ply::flat_axes;
 use crate::stopwatch::Stopwatch;
@@ -46,19 +49,30 @@ pub fn drape(
     stop: &dyn Fn() -> bool,
     see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
 ) -> Result<SheetDrape, Error> {
-    drape_from(layup, tuning, None, stop, see)
+    drape_from(layup, tuning, Beginning::Flat, stop, see)
 }
 
-/// As [`drape`], from a ply of the same fabric in the air that has come to a step of nearly the same motion, if there is one: the grippers go
-/// to where those of this layup are in that step, the ply comes to rest there, and goes on. [`SheetDrape::status`] is [`Status::NotInTheAir`] if it does not
-/// rest clear of the mold there, and nothing is seen of it then.
+/// Where a drape begins.
+#[derive(Debug, Clone, Copy)]
+pub enum Beginning<'a> {
+    /// With the flat ply, which is hung in the air where the motion starts.
+    Flat,
+    /// With a ply of the same fabric in the air that has come to a step of nearly the same motion: the grippers go to where those of this layup
+    /// are in that step, the ply comes to rest there, and goes on. [`SheetDrape::status`] is [`Status::NotInTheAir`] if it does not
+    /// rest clear of the mold there, and nothing is seen of it then.
+    Air(&'a ClothState),
+    /// With the ply laid on the mold, in the first step of the motion: the places of its nodes (m).
+    Laid(&'a [[f64; 3]]),
+}
+
+/// As [`drape`], from somewhere on.
 ///
 /// # Errors
 /// As [`drape`].
 pub fn drape_from(
     layup: &Layup,
     tuning: SheetTuning,
-    air: Option<&ClothState>,
+    beginning: Beginning,
     stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&Sheet, &ClothState, bool) -> ControlFlow<()>,
 ) -> Result<SheetDrape, Error> {
@@ -69,14 +83,15 @@ pub fn drape_from(
     let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
         return Err(Error::SheetNoMotion { grippers });
     };
-    // the ply begins at rest: flat in its pads, or as it hangs in the air
-    let (x, pads) = match air {
-        Some(air) => (air.positions.clone(), air.pads.clone()),
-        None => flat(&sheet, start),
+    // the ply begins at rest
+    let (x, pads) = match beginning {
+        Beginning::Flat => flat(&sheet, start),
+        Beginning::Air(air) => (air.positions.clone(), air.pads.clone()),
+        Beginning::Laid(places) => (places.to_vec(), pads_on(&sheet, places, start)),
     };
     let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.target).collect();
     let mut cloth = Cloth::new(&sheet, tuning, x, pads);
-    if air.is_some() {
+    if !matches!(beginning, Beginning::Flat) {
         cloth.energies.table = None;
     }
     let releases = Releases::new(layup, &sheet);
@@ -91,8 +106,7 @@ pub fn drape_from(
     };
     // follow the motion; the last state is that at which it ended
     let mut see = |state: &ClothState, last: bool| see(&sheet, state, last);
-    let begin = air.map_or(1, |air| air.step);
-    let (status, last) = run.run(&placed, begin, &mut see);
+    let (status, last) = run.run(&placed, beginning, &mut see);
     let Run { march, landing_step, landing_shear, mut report, .. } = run;
     // what is counted on the way belongs to the report of the whole drape
     report.end(&sheet, tuning.release * sheet.pitch, &last);
@@ -141,18 +155,21 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// From where grippers are at `placed` (m) by a step of the motion to its end; from step 1 on the ply is hung from the flat. Returns the
-    /// last state.
+    /// From where the drape begins, with the grippers at `placed` (m), to the end of the motion. Returns the last state.
     fn run(
         &mut self,
         placed: &[[f64; 3]],
-        begin: usize,
+        beginning: Beginning,
         see: &mut impl FnMut(&ClothState, bool) -> ControlFlow<()>,
     ) -> (Status, ClothState) {
         let motion = &self.layup.motion;
-        // the ply is hung in the air, and comes to rest over the mold
+        let begin = if let Beginning::Air(air) = beginning { air.step } else { 1 };
+        // the ply is hung in the air if it does not lie, and comes to rest over the mold
         let (start, time) = (&motion.positions[begin - 1], motion.times[begin - 1]);
-        let hung = self.march.hang(placed, start);
+        let hung = match beginning {
+            Beginning::Laid(_) => Ok(()),
+            Beginning::Flat | Beginning::Air(_) => self.march.hang(placed, start),
+        };
         let mut resting = hung.is_ok() && self.march.rest(start, false);
         if begin > 1 && !self.march.is_stopped() && !(resting && self.is_clear()) {
             return (Status::NotInTheAir, self.state(begin, time));
@@ -257,6 +274,20 @@ impl Run<'_> {
             kinetic_energy,
         }
     }
+}
+
+/// The pads of grippers at places (m) on a laid fabric, turned as the fabric around them.
+fn pads_on(sheet: &Sheet, x: &[[f64; 3]], at: &[[f64; 3]]) -> Vec<Pad> {
+    let pad = |(gripper, place): (&super::Gripper, &[f64; 3])| {
+        let reach = gripper.radius.max(TILT_REACH * sheet.pitch);
+        let around = frame_around(&sheet.fabric, x, gripper.place, reach);
+        let turn = around.map_or(IDENTITY, |(normal, u)| {
+            let v = cross(normal, u);
+            [0, 1, 2].map(|n| [u[n], v[n], normal[n]])
+        });
+        Pad { turn: orthonormal(&turn), ..Pad::new(*place) }
+    };
+    sheet.grippers.iter().zip(at).map(pad).collect()
 }
 
 /// The flat fabric at rest near the places `at` of its grippers (m): positions of its nodes, and its pads.

@@ -47,7 +47,7 @@ mod tuning;
 mod unknowns;
 mod weight;
 
-pub(crate) use drape::drape_from;
+pub(crate) use drape::{Beginning, drape_from};
 pub use drape::{Status, drape, is_kept};
 pub use event::{Event, EventKind};
 pub use fabric::Fabric;
