@@ -83,6 +83,9 @@ pub fn drape(
         }
         Model::Sheet => {
             let stop = || state.report().is_break();
+            // cups that are in no rows along the yarns may be too near to each other for the lines of a coarse mesh
+            let has_sheet = sheet::Sheet::new(&as_ranked(layup.clone(), mesh)).is_ok();
+            let mesh = if has_sheet { mesh } else { Mesh::Own };
             let (nominal, flight) = Flight::judged(&as_ranked(layup.clone(), mesh), limits, &stop)?;
             let nominal = of_mesh(nominal, mesh);
             Ok(with_errors(&layup, scene.errors, nominal, &state.cells(), 0, |cell| {
@@ -171,12 +174,8 @@ pub fn as_ranked(mut layup: Layup, mesh: Mesh) -> Layup {
     if mesh == Mesh::Coarse {
         let (pitch, radius) = (sheet::pitch(&layup.ply), layup.settings.pad.radius);
         let coarse = (TUNING.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
-        let own = layup.settings.sheet.mesh;
-        layup.settings.sheet.mesh = Some(own.unwrap_or(0.0).max(coarse));
-        // cups that are in no rows along the yarns may be too near to each other for its lines
-        if sheet::Sheet::new(&layup).is_err() {
-            layup.settings.sheet.mesh = own;
-        }
+        let own = layup.settings.sheet.mesh.unwrap_or(0.0);
+        layup.settings.sheet.mesh = Some(own.max(coarse));
     }
     // in its own time a motion is draped once it has one, and only then pads can dwell on the way
     layup.settings.sheet.time = SheetTime::QuasiStatic;

@@ -8,7 +8,7 @@ use crate::clearance::{self, Poses};
 use crate::errors::{Errors, RelativeError};
 use crate::geometry::rotation::{oriented, x_axis};
 use crate::geometry::vector::angle_between;
-use crate::layup::{Friction, Layup, Target};
+use crate::layup::{Friction, Layup, Model, Target};
 use crate::measure::{Name, Verdict, Worst};
 use crate::measure::{closest_grippers, outside_workspace};
 use crate::mold::{Mold, distance};
@@ -19,9 +19,12 @@ use crate::ply::{LineCell, orientations, shear};
 use crate::scene::Scene;
 use crate::sheet::Fabric;
 use crate::state::Site;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Nodes up to which a ply that may spring back has the mesh of the scene.
+/// Nodes up to which a ply is laid that may spring back.
 const SPRING_BACK_NODES: usize = 1500;
+/// Time steps after which it is not looked at any longer: up to 54 were seen.
+const SPRING_BACK_STEPS: usize = 80;
 /// Ratio to its limit from which on the height of a ply that sprang back is one that no motion mends: searches ended up to 13 % lower.
 const CERTAIN: f64 = 1.5;
 /// Shares of its shear stiffness with which a ply is tried that springs back.
@@ -69,16 +72,26 @@ pub fn with_spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Vec<Verdict> 
 
 /// The height of a ply that was laid on its ideal drape and let go of, if no motion can mend it.
 fn spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Verdict> {
-    let laid = |layup: &Layup| outcome::spring_back(layup, &scene.limits, stop);
-    // the mesh of the scene, where that is soon done
-    let own = as_ranked(scene.layup.clone(), Mesh::Own);
-    let nodes = Fabric::new(&own.ply, &own.settings).ok()?.places.len();
-    let is_small = nodes <= SPRING_BACK_NODES;
-    let layup = if is_small { own } else { as_ranked(own, Mesh::Coarse) };
+    if scene.layup.settings.model != Model::Sheet || scene.layup.release.is_none() {
+        return None;
+    }
+    // what does not come to rest soon says nothing
+    let laid = |layup: &Layup| {
+        let steps = AtomicUsize::new(0);
+        let ended = || stop() || steps.fetch_add(1, Ordering::Relaxed) >= SPRING_BACK_STEPS;
+        outcome::spring_back(layup, &scene.limits, &ended)
+    };
+    // the mesh of the scene, or the coarse one, where that is soon done
+    let of_mesh = |mesh: Mesh| as_ranked(scene.layup.clone(), mesh);
+    let is_small = |layup: &Layup| {
+        let fabric = Fabric::new(&layup.ply, &layup.settings);
+        fabric.is_ok_and(|fabric| fabric.places.len() <= SPRING_BACK_NODES)
+    };
+    let layup = [Mesh::Own, Mesh::Coarse].map(of_mesh).into_iter().find(is_small)?;
     let found = laid(&layup).filter(|verdict| verdict.ratio() > CERTAIN)?;
 
     // what would make it stay is tried
-    let stays = |layup: &Layup| is_small && laid(layup).is_some_and(|verdict| verdict.ok);
+    let stays = |layup: &Layup| laid(layup).is_some_and(|verdict| verdict.ok);
     let mut sticking = layup.clone();
     sticking.settings.contact.friction = Friction::Stick;
     let sticks = matches!(layup.settings.contact.friction, Friction::Coulomb(_));
