@@ -2,8 +2,9 @@
 //! along the files that were written. Limits are repeated here as numbers.
 
 use crate::common::drape_sheet;
-use crate::common::{all_cases, examples};
+use crate::common::{all_cases, examples, parse};
 use crate::scaled::scaled;
+use plydrape::Error;
 use plydrape::geometry::vector::norm;
 use plydrape::layup::Layup;
 use plydrape::measure::{Name, Verdict};
@@ -11,7 +12,7 @@ use plydrape::motion::Motion;
 use plydrape::outcome::{Status, Summary};
 use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::Scene;
-use plydrape::sheet::{self, SheetTuning};
+use plydrape::sheet::{self, Sheet, SheetTuning};
 use plydrape_io::plan;
 use plydrape_io::result::read;
 use plydrape_io::result::{ResultFile, Turned};
@@ -405,6 +406,20 @@ fn a_search_goes_on_from_the_plan_of_an_earlier_one() {
     let (next, anew) = (on(Some(&first.checkpoint)), on(None));
     assert_eq!(path(&next), path(&first));
     assert_ne!(path(&anew), path(&first), "the search found nothing: the test shows nothing");
+}
+
+/// Cups that are in no rows along the yarns may be too near to each other for the lines of a coarse sheet, though not for those of the scene:
+/// the search ranks with these, and ends without an error.
+#[test]
+fn a_search_ranks_a_ply_that_no_coarse_sheet_holds() {
+    let scene = parse(
+        "[cell]\npreset = \"ideal\"\n[ply]\nsize = [\"220 mm\", \"225 mm\"]\nwarp = \"-45 deg\"\ngrippers = [2, 2]\ncell = [\"100 mm\", \"105 mm\"]\narray = { margin = \"2 mm\" }\nmaterial = \"prepreg_warm\"\n[mold]\nkind = \"plane\"\n[grippers]\nspacing = [\"99 mm\", \"104 mm\"]\nheight = \"30 mm\"\n[target]\nseed = \"middle\"\n[plan]\nsteps = 4\nevaluations = 1\n",
+    );
+    let mut coarse = scene.layup.clone();
+    coarse.settings.sheet.mesh = Some(0.02);
+    let fault = Sheet::new(&coarse).expect_err("a coarse sheet");
+    assert!(matches!(fault, Error::SheetPadSmall { .. }), "{fault}");
+    assert_eq!(planned(&scene).record.evaluations, 2);
 }
 
 /// What an accepted plan says does not depend on how its drape is solved: along every plan of the examples, with a step half-way between
