@@ -25,7 +25,7 @@ STEP = 5e-4
 FOLDS = "touch the mold first, and stick short of their places"
 """What `check` says of a ply whose edge hangs too far over on a mold that sticks."""
 
-SPRINGS_BACK = "it springs back"
+SPRINGS_BACK = "the ply springs back"
 """What `check` says of a ply that does not stay where it is laid, whatever the motion."""
 
 CRASH = 101

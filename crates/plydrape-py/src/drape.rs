@@ -10,13 +10,14 @@ use crate::scene::{SceneArgument, blocks, warn};
 use crate::work::{Watch, parallel, run};
 use plydrape::motion::TimedMotion;
 use plydrape::outcome::{self, Robustness};
+use plydrape::planner::infeasible_limits::with_spring_back;
 use plydrape::planner::{self, Checkpoint, PlanRecord, Progress};
 use plydrape::scene::PlanMethod;
 use plydrape_io::plan as plan_file;
 use plydrape_io::result::{SceneEcho, sheet};
 use plydrape_io::scene::{Measured, SceneFile, usual};
 use plydrape_io::text::forecast;
-use plydrape_io::text::foreseen::foreseen;
+use plydrape_io::text::foreseen::{foreseen, infeasible};
 use plydrape_io::{Error, ResultFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -249,7 +250,11 @@ pub fn plan(
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::diagnostic(refusal));
     }
-    for sentence in py.detach(|| foreseen(&scene)) {
+    let hinders = || {
+        let limits = with_spring_back(&scene, &|| false);
+        [infeasible(&limits), foreseen(&scene)].concat()
+    };
+    for sentence in py.detach(hinders) {
         warn(py, &sentence)?;
     }
 

@@ -14,8 +14,7 @@ use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
 use plydrape_io::result::sheet::SheetSize;
 use plydrape_io::scene::SceneFile;
-use plydrape_io::text::foreseen::foreseen;
-use plydrape_io::text::table::verdict_text;
+use plydrape_io::text::foreseen::{foreseen, infeasible};
 
 /// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
 /// side of a cell is a few of them away.
@@ -93,15 +92,12 @@ fn unplanned(scene: &SceneFile, seen: &[Name]) -> Vec<String> {
     if scene.layup.target.is_none() {
         return Vec::new();
     }
-    let limits = with_spring_back(scene, &|| false);
-    let limits = limits
-        .iter()
-        .filter(|verdict| !seen.contains(&verdict.name))
-        .map(|verdict| format!("no plan can keep this limit: {}", verdict_text(verdict)));
+    let mut limits = with_spring_back(scene, &|| false);
+    limits.retain(|verdict| !seen.contains(&verdict.name));
     let refusal = scene.plan_refusal.iter().map(|refusal| {
         format!("`plydrape plan` refuses this scene: {}; {}", refusal.message, refusal.help)
     });
-    limits.chain(refusal).collect()
+    infeasible(&limits).into_iter().chain(refusal).collect()
 }
 
 /// A way many times longer than the ply.

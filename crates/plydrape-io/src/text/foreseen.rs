@@ -1,8 +1,9 @@
 //! What is known of a plan before any search, in words: a start that is too low, and an edge that no motion lays flat.
 
 use crate::store::shown::{millimeters, rounded};
+use crate::text::table::verdict_text;
 use plydrape::layup::{Friction, Model};
-use plydrape::measure::Name;
+use plydrape::measure::{Name, Verdict};
 use plydrape::planner::path::LowStart;
 use plydrape::ply::{Kind, Ply, Ruck};
 use plydrape::scene::Scene;
@@ -12,6 +13,14 @@ use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 #[must_use]
 pub fn foreseen(scene: &Scene) -> Vec<String> {
     low_start(scene).into_iter().chain(overhang(scene)).collect()
+}
+
+/// A sentence for each limit that no plan can keep.
+#[must_use]
+pub fn infeasible(limits: &[Verdict]) -> Vec<String> {
+    let sentence =
+        |verdict: &Verdict| format!("no plan can keep this limit: {}", verdict_text(verdict));
+    limits.iter().map(sentence).collect()
 }
 
 /// What a plan does about a start at which the ply hangs into the mold; `None` where it hangs clear.

@@ -23,6 +23,12 @@ impl Release {
     pub fn new(order: ReleaseOrder, dwell: f64) -> Self {
         Release { order, dwell, times: None }
     }
+
+    /// Whether pads dwell while others still move, so that what they do depends on the time of the motion.
+    #[must_use]
+    pub fn dwells_on_the_way(&self) -> bool {
+        self.order == ReleaseOrder::HollowsFirst && self.dwell > 0.0
+    }
 }
 
 /// The order in which pads let go of the ply.

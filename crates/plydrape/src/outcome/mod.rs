@@ -27,7 +27,6 @@ mod sample;
 #[cfg(test)]
 mod sample_tests;
 mod sensitivity;
-mod spring_back;
 mod step;
 mod summary;
 #[cfg(test)]
@@ -46,7 +45,6 @@ pub use rate_tolerance::RateTolerance;
 pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Watch};
 pub use sensitivity::minute_changes;
-pub use spring_back::spring_back;
 pub use step::{Gripper, Step, attitudes};
 #[cfg(feature = "serde")]
 pub use summary::Unjudged;

@@ -12,7 +12,7 @@ use super::search_state::{Proof, SearchState};
 use crate::Error;
 use crate::errors::Errors;
 use crate::geometry::Point;
-use crate::layup::{Layup, Model, ReleaseOrder, SheetTime};
+use crate::layup::{Layup, Model, Release, SheetTime};
 use crate::measure::{Course, MotionPeaks, Name, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
@@ -284,10 +284,8 @@ impl Decision {
         counted: bool,
     ) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.motion, motion);
-        let dwells_on_the_way = scene.layup.release.as_ref().is_some_and(|release| {
-            release.order == ReleaseOrder::HollowsFirst && release.dwell > 0.0
-        });
-        if scene.layup.settings.sheet.time == SheetTime::Real || dwells_on_the_way {
+        let dwells = scene.layup.release.as_ref().is_some_and(Release::dwells_on_the_way);
+        if scene.layup.settings.sheet.time == SheetTime::Real || dwells {
             // strategies that are compared decide at once: one forecast would not be that of all
             if state.is_finishing() {
                 let before = self.decided.drape.sheet.as_ref();

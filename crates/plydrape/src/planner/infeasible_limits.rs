@@ -5,30 +5,17 @@
 //! scene refuses them.
 
 use crate::clearance::{self, Poses};
-use crate::errors::{Errors, RelativeError};
 use crate::geometry::rotation::{oriented, x_axis};
 use crate::geometry::vector::angle_between;
-use crate::layup::{Friction, Layup, Model, Target};
+use crate::layup::Target;
 use crate::measure::{Name, Verdict, Worst};
 use crate::measure::{closest_grippers, outside_workspace};
 use crate::mold::{Mold, distance};
 use crate::net::Missing;
-use crate::outcome;
-use crate::planner::evaluation::{Mesh, as_ranked};
+use crate::planner::spring_back::spring_back;
 use crate::ply::{LineCell, orientations, shear};
 use crate::scene::Scene;
-use crate::sheet::Fabric;
 use crate::state::Site;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Nodes up to which a ply is laid that may spring back.
-const SPRING_BACK_NODES: usize = 1500;
-/// Time steps after which it is not looked at any longer: up to 54 were seen.
-const SPRING_BACK_STEPS: usize = 80;
-/// Ratio to its limit from which on the height of a ply that sprang back is one that no motion mends: searches ended up to 13 % lower.
-const CERTAIN: f64 = 1.5;
-/// Shares of its shear stiffness with which a ply is tried that springs back; errors leave a tenth of it at least.
-const LIMPER: [f64; 3] = [0.5, 0.25, 0.1];
 
 /// A value and a text that says where it is.
 type Found = (f64, String);
@@ -68,48 +55,6 @@ pub fn with_spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Vec<Verdict> 
         limits.extend(spring_back(scene, stop));
     }
     limits
-}
-
-/// The height of a ply that was laid on its ideal drape and let go of, if no motion can mend it.
-fn spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Option<Verdict> {
-    if scene.layup.settings.model != Model::Sheet || scene.layup.release.is_none() {
-        return None;
-    }
-    // what does not come to rest soon says nothing
-    let laid = |layup: &Layup| {
-        let steps = AtomicUsize::new(0);
-        let ended = || stop() || steps.fetch_add(1, Ordering::Relaxed) >= SPRING_BACK_STEPS;
-        outcome::spring_back(layup, &scene.limits, &ended)
-    };
-    // the mesh of the scene, or the coarse one, where that is soon done
-    let of_mesh = |mesh: Mesh| as_ranked(scene.layup.clone(), mesh);
-    let is_small = |layup: &Layup| {
-        let fabric = Fabric::new(&layup.ply, &layup.settings);
-        fabric.is_ok_and(|fabric| fabric.places.len() <= SPRING_BACK_NODES)
-    };
-    let layup = [Mesh::Own, Mesh::Coarse].map(of_mesh).into_iter().find(is_small)?;
-    let found = laid(&layup).filter(|verdict| verdict.ratio() > CERTAIN)?;
-
-    // what would make it stay is tried
-    let stays = |layup: &Layup| laid(layup).is_some_and(|verdict| verdict.ok);
-    let mut sticking = layup.clone();
-    sticking.settings.contact.friction = Friction::Stick;
-    let slides = matches!(layup.settings.contact.friction, Friction::Coulomb(_));
-    let limper = |share: &f64| {
-        let mut draw = Errors::default().draw(0, layup.ply.grippers());
-        draw.material.shear = RelativeError::Share(share - 1.0);
-        stays(&draw.apply(&layup))
-    };
-    let limp = LIMPER.into_iter().find(limper);
-    let limp = limp.map(|share| format!("with {share} times its shear stiffness"));
-    let tacky = (slides && stays(&sticking)).then(|| "if it stuck to the mold".to_string());
-    let remedies: Vec<String> = limp.into_iter().chain(tacky).collect();
-    let remedy = match remedies.is_empty() {
-        true => String::new(),
-        false => format!("; it would stay {}", remedies.join(", or ")),
-    };
-    let at = format!("{}, laid without a motion and let go of: it springs back{remedy}", found.at);
-    Some(Verdict { at, step: None, ..found })
 }
 
 /// A verdict (in the measure's unit) of something that exceeds its limit, if it does.

@@ -1,6 +1,6 @@
 //! How the grippers must move so that the ply ends where the ideal drape has it, without wrinkles.
 //!
-//! 1. [`infeasible_limits`]: limits that no plan can keep, found before any search;
+//! 1. [`infeasible_limits`]: limits that no plan can keep, found before any search; `spring_back`: a ply that does not stay where it is laid;
 //! 2. [`path`]: whole trajectories of few parameters, evaluated by complete drapes, on all cores;
 //! 3. [`stepwise`]: step by step, each step a quadratic program, by the planner of the catenaries, [`plydrape_catenary::stepwise`];
 //! 4. [`sensitivity`]: a drape by catenaries with the derivatives of its end;
@@ -35,6 +35,7 @@ pub mod replan;
 mod sample;
 mod search_state;
 pub mod sensitivity;
+mod spring_back;
 pub mod stepwise;
 pub mod tuning;
 

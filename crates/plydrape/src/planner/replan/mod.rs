@@ -29,7 +29,7 @@ pub use shapes::SheetShapes;
 
 use crate::Error;
 use crate::clearance::Nearest;
-use crate::layup::{ReleaseOrder, SheetTime};
+use crate::layup::{Release, SheetTime};
 use crate::measure::Name;
 use crate::motion::{Attitudes, TimedMotion};
 use crate::outcome::{Step, Summary, attitudes};
@@ -294,9 +294,7 @@ impl<'a> Replanner<'a> {
             true => motion.duration() / self.motion.duration(),
             false => 1.0,
         };
-        let dwells = scene.layup.release.as_ref().is_some_and(|release| {
-            release.order == ReleaseOrder::HollowsFirst && release.dwell > 0.0
-        });
+        let dwells = scene.layup.release.as_ref().is_some_and(Release::dwells_on_the_way);
         if longer > 1.0 && dwells {
             return Err(Error::ReplanDwells { longer });
         }
