@@ -210,3 +210,21 @@ def test_a_start_that_is_too_low_is_raised_with_a_warning() -> None:
     raised = float(str(caught[0].message).split("a plan starts ")[1].split(" mm")[0])
     assert np.allclose(result.positions[0, :, 2], 5e-3 + 1e-3 * raised, atol=2e-5)
     assert result.summary["sheet"]["first_contact_step"] > 1
+
+
+def test_a_ply_that_springs_back_is_warned_of_before_its_plan() -> None:
+    """The plan that is made all the same leaves the ply higher than its limit once cups let go."""
+    scene = plydrape.Scene(
+        cell={"preset": "usual"},
+        ply={"grippers": [3, 3], "cell": ["100 mm", "100 mm"], "material": "prepreg_warm"},
+        mold={"kind": "sphere", "radius": "0.6 m", "position": [0, 0, "-0.6 m"]},
+        grippers={"spacing": ["98 mm", "98 mm"], "height": "75 mm", "origin": "centered"},
+        target={"seed": "middle"},
+        contact={"friction": 0.3},
+        sheet={"mesh": "20 mm"},
+        plan={"steps": 24, "evaluations": 2},
+    )
+    with pytest.warns(UserWarning, match="no plan can keep this limit: height .* springs back"):
+        result = plydrape.plan(scene, without_errors=True).result
+    assert not result.accepted
+    assert "height" in {limit["name"] for limit in result.summary["limits"] if not limit["ok"]}
