@@ -87,6 +87,7 @@ fn front(a: f64, slope: f64) -> Scene {
         start: [0.5; 2],
         ratio: 1.0,
         angle: 0.0,
+        squareness: 0.0,
         curvature,
         slope,
         pretension: 0.0,

@@ -30,6 +30,7 @@ pub const RING: Strategy = Strategy {
     start: [0.5; 2],
     ratio: 1.0,
     angle: 0.0,
+    squareness: 0.0,
     curvature: 0.4,
     slope: 0.4,
     pretension: 1e-4,

@@ -6,16 +6,38 @@ use plydrape::planner::path::{Formation, MoldHeights, Strategy, trajectory};
 use std::sync::Arc;
 
 /// Slopes and curvatures of the lifted mold are the central differences of its height and slopes, for a turned
-/// ellipse, inside and ahead of its front.
+/// ellipse and what is between it and a rectangle or a rhombus, inside and ahead of its front.
 #[test]
 fn a_lifted_mold_has_the_derivatives_of_its_height() {
     let axis: Vec<f64> = (0..11).map(|n| 0.04 * f64::from(n) - 0.2).collect();
     let z = axis.iter().flat_map(|y| axis.iter().map(move |x| x * x - 0.5 * x * y + y * y * y));
     let mold = Arc::new(HeightGrid::new(axis.clone(), axis.clone(), z.collect()).expect("a grid"));
-    let metric = [0.7, -0.2, 0.9];
     let center = [0.02, -0.03];
-    let lift = Rise { center, metric, front: 0.06, curvature: 4.0, slope: 0.3, tip: 1e-4 };
-    let lifted = FrontSurface { mold, rise: lift };
+    let ellipse = Rise {
+        center,
+        angle: 0.4,
+        ratio: 1.3,
+        squareness: 0.0,
+        front: 0.06,
+        curvature: 4.0,
+        slope: 0.3,
+        tip: 1e-4,
+    };
+    for squareness in [-0.8, 0.0, 0.6] {
+        has_the_derivatives(&FrontSurface {
+            mold: Arc::clone(&mold),
+            rise: Rise { squareness, ..ellipse },
+        });
+    }
+    // far ahead it is no steeper than it may be
+    let far = Rise { front: 0.0, ratio: 1.0, ..ellipse };
+    let flat = FrontSurface { rise: far, mold };
+    let rise = (flat.rise_at(0.2, -0.03) - flat.rise_at(0.19, -0.03)) / 0.01;
+    assert!(rise < 0.3 && rise > 0.25, "{rise}");
+}
+
+/// Slopes and curvatures of a lifted mold are central differences.
+fn has_the_derivatives(lifted: &FrontSurface) {
     let h = 1e-5;
     for (x, y) in [(0.03, -0.02), (0.1, 0.07), (-0.15, 0.12), (0.02, -0.19), (-0.11, -0.13)] {
         let here = lifted.at(x, y);
@@ -35,11 +57,30 @@ fn a_lifted_mold_has_the_derivatives_of_its_height() {
             assert!((here.hessian[n] - bends[n]).abs() < 1e-6, "({x}, {y}): {here:?} {bends:?}");
         }
     }
-    // far ahead it is no steeper than it may be
-    let far = Rise { front: 0.0, metric: [1.0, 0.0, 1.0], ..lift };
-    let flat = FrontSurface { rise: far, mold: Arc::clone(&lifted.mold) };
-    let rise = (flat.rise_at(0.2, -0.03) - flat.rise_at(0.19, -0.03)) / 0.01;
-    assert!(rise < 0.3 && rise > 0.25, "{rise}");
+}
+
+/// How far a front has come along its axes and its diagonals: r⁴ = (u² + v²)² − 2 s u² v² is u⁴ on an axis whatever s is, and 2 (2 − s) u⁴ on
+/// a diagonal. So the diagonal of a square front is reached when its sides are reached, and that of a rhombus later than that of a circle.
+#[test]
+fn a_square_front_reaches_its_corners_earlier_than_a_circle() {
+    let front = |squareness| Rise {
+        center: [0.0; 2],
+        angle: 0.3,
+        ratio: 1.0,
+        squareness,
+        front: 0.0,
+        curvature: 4.0,
+        slope: 0.3,
+        tip: 0.0,
+    };
+    let (sin, cos) = 0.3_f64.sin_cos();
+    for squareness in [-1.0, 0.0, 0.6, 1.0] {
+        let axis = front(squareness).radius([0.1 * cos, 0.1 * sin]);
+        let corner = front(squareness).radius([0.1 * (cos - sin), 0.1 * (sin + cos)]);
+        assert!((axis - 0.1).abs() < 1e-15, "{squareness}: {axis}");
+        let expected = 0.1 * (2.0 * (2.0 - squareness)).powf(0.25);
+        assert!((corner - expected).abs() < 1e-15, "{squareness}: {corner}");
+    }
 }
 
 /// Behind the front grippers stand on their targets, ahead of it they are above the mold; and no edge is ever longer than its

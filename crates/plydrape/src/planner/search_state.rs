@@ -60,6 +60,8 @@ pub struct SearchState<'a> {
     most: usize,
     /// Cells with errors by which candidates are ranked.
     cells: Mutex<Vec<usize>>,
+    /// How many of them there are before a plan was refused.
+    first_cells: usize,
     /// By how many cells a plan is proven that is decided on, and how many of them may break a limit.
     proof: Mutex<Proof>,
     best: Mutex<Best<'a>>,
@@ -111,7 +113,8 @@ impl<'a> SearchState<'a> {
             decisions: AtomicUsize::new(0),
             refusals: AtomicUsize::new(0),
             most,
-            cells: Mutex::new((0..TUNING.cells).collect()),
+            cells: Mutex::new((0..TUNING.cells[0]).collect()),
+            first_cells: TUNING.cells[0],
             proof: Mutex::new(Proof { cells: TUNING.proving, spare: TUNING.spare }),
             best: Mutex::new(Best {
                 watcher,
@@ -142,7 +145,10 @@ impl<'a> SearchState<'a> {
         journal: Journal,
     ) -> Self {
         let repeats = AtomicBool::new(!journal.is_empty());
-        SearchState { origin: Some((scene, from)), journal: Mutex::new(journal), repeats, ..self }
+        let first_cells = TUNING.cells[usize::from(scene.layup.settings.pad.gives())];
+        let cells = Mutex::new((0..first_cells).collect());
+        let (origin, journal) = (Some((scene, from)), Mutex::new(journal));
+        SearchState { origin, journal, repeats, cells, first_cells, ..self }
     }
 
     /// What was judged.
@@ -226,7 +232,7 @@ impl<'a> SearchState<'a> {
     /// One more of them: a cell that refused a plan that was decided on.
     pub fn add_cell(&self, cell: usize) {
         let mut cells = lock(&self.cells);
-        if cells.len() < TUNING.most_cells && !cells.contains(&cell) {
+        if cells.len() < self.first_cells + TUNING.added_cells && !cells.contains(&cell) {
             cells.push(cell);
         }
     }

@@ -15,15 +15,15 @@ pub struct PlannerTuning {
     pub counted_share: f64,
     /// Largest factor between a measure of a coarse sheet and that of a fine one, and its inverse the smallest, that is believed.
     pub largest_bias: f64,
-    /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few, since more of them
-    /// prove what is decided on, and a whole sample judges in the end.
-    pub cells: usize,
+    /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few for rigid grippers; more for
+    /// those on mounts, whose fronts differ in how often a cell fails.
+    pub cells: [usize; 2],
     /// Cells with errors that prove a plan that is decided on.
     pub proving: usize,
     /// How many of them may break a limit: about the share that may in a sample.
     pub spare: usize,
-    /// Cells by which candidates are ranked once those are among them that refused a plan.
-    pub most_cells: usize,
+    /// How many of those that refused a plan are added to them.
+    pub added_cells: usize,
     /// Cells that are draped at once: whole pairs, for two cores.
     pub batch: usize,
     /// Score without errors from which on those are not draped.
@@ -44,10 +44,10 @@ pub const TUNING: PlannerTuning = PlannerTuning {
     mean_weight: 0.1,
     counted_share: 0.9,
     largest_bias: 2.0,
-    cells: 3,
+    cells: [3, 12],
     proving: 16,
     spare: 1,
-    most_cells: 6,
+    added_cells: 3,
     batch: 4,
     far: 3.0,
     most_equilibria: 12,

@@ -86,16 +86,10 @@ impl<'a> Formation<'a> {
     }
 
     fn lift(&self, front: f64) -> Rise {
-        let Strategy { ratio, angle, curvature, slope, .. } = self.strategy;
-        let (sin, cos) = angle.sin_cos();
-        let (along, unit) = (1.0 / (ratio * ratio), 1.0 / self.cell);
-        let metric = [
-            along * cos * cos + sin * sin,
-            (along - 1.0) * sin * cos,
-            along * sin * sin + cos * cos,
-        ];
-        let (curvature, tip) = (curvature * unit, TUNING.front.tip * self.cell);
-        Rise { center: self.center, metric, front, curvature, slope, tip }
+        let Strategy { ratio, angle, squareness, curvature, slope, .. } = self.strategy;
+        let (curvature, tip) = (curvature / self.cell, TUNING.front.tip * self.cell);
+        let center = self.center;
+        Rise { center, angle, ratio, squareness, front, curvature, slope, tip }
     }
 
     /// How far the front has to come to have passed every gripper (m).

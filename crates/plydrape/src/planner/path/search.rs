@@ -1,4 +1,5 @@
-//! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016).
+//! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016), or for grippers on mounts a
+//! walk from it (`walk`).
 //!
 //! A candidate whose grippers alone would exceed a limit is not draped (`geometry`). The others are ranked by complete
 //! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. Where this
@@ -7,8 +8,9 @@
 //! cores.
 
 use super::fronts::Fronts;
-use super::strategy::{MOUNTED, Strategy};
+use super::strategy::Strategy;
 use super::tuning::TUNING;
+use super::walk::Walk;
 use crate::Error;
 use crate::geometry::Point;
 use crate::layup::Model;
@@ -84,6 +86,10 @@ struct Search<'a, 'b> {
     /// The best candidates on which was not decided.
     candidates: Vec<Candidate>,
     best: Option<Choice>,
+    /// The best front on mounts by a ranking with the mesh of the scene, whether it was decided on or not, and its score.
+    nearest: Option<(f64, Strategy)>,
+    /// Lowest score of a ranking by the coarse mesh that was decided on.
+    tried: f64,
     /// The first that could not become a motion.
     fault: Option<Error>,
     /// Rounds in which an accepted plan was not improved.
@@ -122,6 +128,8 @@ pub fn search(
         shared: &shared,
         candidates: Vec::new(),
         best: None,
+        nearest: None,
+        tried: f64::INFINITY,
         fault: None,
         idle: 0,
         left: scene.plan.evaluations.max(1),
@@ -219,8 +227,14 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Evolution about the best of the first candidates.
+    /// Evolution about the best of the first candidates; a walk from it for grippers on mounts.
     fn improve(&mut self, checkpoint: Option<&Checkpoint>) {
+        if self.on_mounts() {
+            if lock(&self.shared.ranking).mesh == Mesh::Coarse {
+                self.rank_with_own_mesh();
+            }
+            return self.walk();
+        }
         let coarse = lock(&self.shared.ranking).clone();
         let catenaries = self.shared.scene.layup.settings.model == Model::Catenaries;
         if catenaries || coarse.mesh == Mesh::Own {
@@ -252,7 +266,7 @@ impl Search<'_, '_> {
     /// Ranks candidates so from now on.
     fn rank_with(&mut self, ranking: Ranking) {
         let before = std::mem::replace(&mut *lock(&self.shared.ranking), ranking.clone());
-        if self.shared.scene.layup.settings.pad.gives() && before.mesh != ranking.mesh {
+        if self.on_mounts() && before.mesh != ranking.mesh {
             std::mem::swap(&mut self.left, &mut self.spare);
         }
     }
@@ -264,7 +278,8 @@ impl Search<'_, '_> {
         }
         self.rank_with(Ranking { mesh: Mesh::Own, bias: Bias::default() });
         let mut waiting = std::mem::take(&mut self.candidates);
-        waiting.truncate(TUNING.search.batch.min(self.left));
+        let batches = if self.on_mounts() { 2 } else { 1 };
+        waiting.truncate((batches * TUNING.search.batch).min(self.left));
         let strategies: Vec<Strategy> = waiting.into_iter().map(|c| c.strategy).collect();
         self.shared.state.begin("draping the best with the mesh of the scene");
         self.drape(&strategies);
@@ -299,15 +314,10 @@ impl Search<'_, '_> {
             lock(&found).push(candidate);
             score
         };
-        // the first step of the evolution depends on the mesh; where mounts are rigid, the parameters of mounts are left out
+        // the first step of the evolution depends on the mesh
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
-        let on_mounts = shared.scene.layup.settings.pad.gives();
-        let step = TUNING.search.steps[usize::from(fine && !on_mounts)];
-        let mut unit = start.to_unit().to_vec();
-        if !on_mounts {
-            unit.truncate(unit.len() - MOUNTED);
-        }
-        let options = CMAESOptions::new(unit, step)
+        let step = TUNING.search.steps[usize::from(fine)];
+        let options = CMAESOptions::new(start.to_unit().to_vec(), step)
             .population_size(TUNING.search.generation)
             .seed(shared.scene.plan.seed.wrapping_add(seed));
         let Ok(mut evolution) = options.build(objective) else { return };
@@ -321,6 +331,44 @@ impl Search<'_, '_> {
             if ended {
                 break;
             }
+        }
+    }
+
+    /// A walk downhill from the best front that is known by a ranking with the mesh of the scene: that of a plan, too, which a sample has
+    /// refused.
+    fn walk(&mut self) {
+        let shared = self.shared;
+        shared.state.begin("improving the best step by step");
+        let decided = self.best.as_ref().and_then(|best| shared.candidate(best.strategy));
+        let decided = decided.map(|candidate| (candidate.score, candidate.strategy));
+        let starts = self.nearest.into_iter().chain(decided);
+        let Some((_, start)) = starts.reduce(|a, b| if b.0 < a.0 { b } else { a }) else { return };
+        let mut walk = Walk::new(start);
+        let (mut cells, mut score) = (Vec::new(), f64::INFINITY);
+        while !self.is_done() && !walk.is_over() {
+            // cells that refused a plan rank what follows
+            if cells != shared.state.cells() {
+                cells = shared.state.cells();
+                let Some(candidate) = shared.candidate(walk.front) else { return };
+                score = candidate.score;
+            }
+            for number in 0..Walk::NUMBERS {
+                let beside = walk.beside(number);
+                if self.is_done() || self.left < beside.len() {
+                    return;
+                }
+                self.left -= beside.len();
+                let candidate = |front: &Strategy| shared.candidate(*front);
+                let found: Vec<Candidate> = beside.par_iter().filter_map(candidate).collect();
+                let better = found.iter().filter(|other| other.score < TUNING.walk.gain * score);
+                let better = better.min_by(|a, b| a.score.total_cmp(&b.score));
+                let better = better.map(|better| (better.strategy, better.score));
+                walk.go(number, better.map(|(front, _)| front));
+                score = better.map_or(score, |(_, score)| score);
+                self.candidates.extend(found);
+            }
+            self.rank();
+            self.decide();
         }
     }
 
@@ -351,15 +399,20 @@ impl Search<'_, '_> {
     }
 
     /// The search behind a sample that has refused the best plan: those that wait and kept all limits in the cells that ranked them, and
-    /// then evolution.
+    /// then evolution. On mounts those are ranked with the mesh of the scene first.
     fn go_on(&mut self, checkpoint: Option<&Checkpoint>) {
         let waits = |search: &Self| search.candidates.first().is_some_and(|c| c.score < 1.0);
-        while waits(self) && !self.is_accepted() && !self.is_done() {
+        while !self.on_mounts() && waits(self) && !self.is_accepted() && !self.is_done() {
             self.decide();
         }
         if !self.is_done() {
             self.improve(checkpoint);
         }
+    }
+
+    /// Whether the grippers are on mounts that give.
+    fn on_mounts(&self) -> bool {
+        self.shared.scene.layup.settings.pad.gives()
     }
 
     fn is_accepted(&self) -> bool {
@@ -399,6 +452,12 @@ impl Search<'_, '_> {
             let by_strategy = first.partial_cmp(&second).unwrap_or(Ordering::Equal);
             a.score.total_cmp(&b.score).then(by_strategy)
         });
+        if let Some(first) = self.candidates.first()
+            && lock(&self.shared.ranking).mesh == Mesh::Own
+            && self.nearest.is_none_or(|(score, _)| first.score < score)
+        {
+            self.nearest = Some((first.score, first.strategy));
+        }
         let kept = TUNING.search.kept.min(self.candidates.len());
         for dropped in self.candidates.drain(kept..) {
             if let Some(key) = dropped.unranked {
@@ -414,6 +473,15 @@ impl Search<'_, '_> {
         let score = |best: &Option<Choice>| best.as_ref().map_or(f64::INFINITY, Choice::score);
         let before = score(&self.best);
         let mut promising = TUNING.search.promising[usize::from(known)];
+        if self.on_mounts() {
+            promising = TUNING.search.promising_on_mounts;
+            if lock(&self.shared.ranking).mesh == Mesh::Coarse {
+                // a coarse ranking says little of what is nearly as good
+                promising = promising.min(TUNING.search.gain * self.tried);
+                let first = self.candidates.first().map_or(f64::INFINITY, |first| first.score);
+                self.tried = if first <= promising { first } else { self.tried };
+            }
+        }
         // a plan that is accepted is only replaced by a better one
         if let Some(best) = self.best.as_ref().filter(|best| best.is_accepted()) {
             promising = promising.min(TUNING.search.gain * best.score());

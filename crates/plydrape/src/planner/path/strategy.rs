@@ -19,6 +19,9 @@ pub struct Strategy {
     pub ratio: f64,
     /// Direction of its longer axis in plan (rad).
     pub angle: f64,
+    /// How square it is: 0 is an ellipse, 1 near a rectangle whose sides are across its axes, and −1 a rhombus.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub squareness: f64,
     /// Curvature of the lifted ply right at the front A, times the shorter side of a cell.
     pub curvature: f64,
     /// Steepest slope of the lifted ply σ.
@@ -42,14 +45,11 @@ fn is_zero(share: &f64) -> bool {
 /// Ratio of a front's axes from which on it counts as a line.
 const LINE: f64 = 100.0;
 
-/// Numbers, the last of those that a search varies, that count for grippers on mounts alone.
-pub const MOUNTED: usize = 2;
-
-/// Numbers that a search varies at most.
+/// Numbers that an evolution varies: those of rigid grippers.
 pub const DIMENSION: usize = TUNING.front.ranges.len();
 
 impl Strategy {
-    /// As a point whose every coordinate goes from 0 to 1; the last two count for grippers on mounts alone.
+    /// As a point whose every coordinate goes from 0 to 1; what counts for grippers on mounts alone is not in it.
     #[must_use]
     pub fn to_unit(&self) -> [f64; DIMENSION] {
         let values = [
@@ -60,8 +60,6 @@ impl Strategy {
             self.curvature.ln(),
             self.slope.ln(),
             self.pretension,
-            self.press,
-            self.pull,
         ];
         let mut unit = [0.0; DIMENSION];
         for n in 0..DIMENSION {
@@ -71,8 +69,7 @@ impl Strategy {
         unit
     }
 
-    /// From such a point, or one without the last two; a coordinate beyond 0 or 1 is reflected there, so that the score of a
-    /// search has no wall.
+    /// From such a point; a coordinate beyond 0 or 1 is reflected there, so that the score of a search has no wall.
     #[must_use]
     pub fn of_unit(unit: &[f64]) -> Self {
         let value = |n: usize| {
@@ -84,19 +81,23 @@ impl Strategy {
             start: [value(0), value(1)],
             ratio: value(2).exp(),
             angle: value(3),
+            squareness: 0.0,
             curvature: value(4).exp(),
             slope: value(5).exp(),
             pretension: value(6),
-            press: if unit.len() == DIMENSION { value(7) } else { 0.0 },
-            pull: if unit.len() == DIMENSION { value(8) } else { 0.0 },
+            press: 0.0,
+            pull: 0.0,
         }
     }
 
     /// Whether all numbers are in their range of definition.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        let Strategy { start, ratio, angle, curvature, slope, pretension, press, pull } = *self;
-        let numbers = [start[0], start[1], ratio, angle, curvature, slope, pretension, press, pull];
+        let Strategy { start, ratio, angle, squareness, curvature, slope, pretension, press, pull } =
+            *self;
+        let numbers = [
+            start[0], start[1], ratio, angle, squareness, curvature, slope, pretension, press, pull,
+        ];
         numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
     }
 
@@ -114,10 +115,23 @@ impl Strategy {
             shape(2.5, first),
         ];
         let on_mounts = scene.layup.settings.pad.gives();
-        let shapes = if on_mounts { shapes.map(|shape| shape.preloaded(scene)) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
-        let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
+            let shapes = shapes.map(|shape| shape.preloaded(scene));
+            let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
+            // ellipses and rounded rectangles along the lines of cups, so that whole lines of them land together
+            let [along, across] = line_directions(scene);
+            let aligned =
+                |ratio, angle, squareness| Strategy { ratio, angle, squareness, ..shapes[0] };
+            let aligned = [
+                aligned(1.0, along, 0.6),
+                aligned(1.4, along, 0.0),
+                aligned(1.4, across, 0.0),
+                aligned(2.2, along, 0.0),
+                aligned(2.2, across, 0.0),
+                aligned(1.0, along, -0.6),
+            ];
+            let aligned: Vec<Strategy> = aligned.par_iter().map(steep).collect();
             let looser = |base: &Strategy| Strategy { pull: 0.4 * base.pull, ..*base };
             let harder = |base: &Strategy| Strategy { press: (2.0 * base.press).min(1.0), ..*base };
             // a ply that is stiff in shear does not stay flat where a steep front shears it
@@ -126,18 +140,24 @@ impl Strategy {
             let softer = |base: &Strategy| Strategy { pretension: 0.25 * base.pretension, ..*base };
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
             let rounder = |base: &Strategy| Strategy { curvature: 0.5 * base.curvature, ..*base };
+            let sharper = |base: &Strategy| Strategy { curvature: 2.2 * base.curvature, ..*base };
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
             let round: Vec<Strategy> = flat.iter().map(rounder).collect();
             let flattest: Vec<Strategy> = flat.iter().map(flatter).collect();
             let loose: Vec<Strategy> = flat.iter().map(looser).collect();
             let soft: Vec<Strategy> = flat.iter().map(softer).collect();
             let hard: Vec<Strategy> = flat.iter().map(harder).collect();
-            // of each kind all shapes, and the circle of every kind first
+            let aligned: Vec<Strategy> = aligned.iter().map(flatter).collect();
+            // of each kind all shapes: those along the lines of cups and the circle of every kind first
             let kinds = [flat, round, hard, shapes, loose, soft, flattest];
-            let first = kinds.iter().filter_map(|kind| kind.first().copied());
+            let circles = kinds.iter().filter_map(|kind| kind.first());
+            let first = circles.clone().take(1).chain(&aligned);
+            let sharp: Vec<Strategy> = first.clone().map(sharper).collect();
+            let first = sharp.into_iter().chain(first.copied()).chain(circles.skip(1).copied());
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
             return first.chain(others).collect();
         }
+        let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         let [ring, second_line, first_line, second_ellipse, first_ellipse] = shapes[..] else {
             return shapes;
         };
@@ -210,6 +230,7 @@ impl Strategy {
             start,
             ratio,
             angle,
+            squareness: 0.0,
             curvature: 5.0,
             slope,
             pretension: 1.2e-3,

@@ -15,6 +15,8 @@ pub struct PathTuning {
     pub preload: Preload,
     /// The search for the best front.
     pub search: Search,
+    /// The walk from a good front, for grippers on mounts.
+    pub walk: Walk,
 }
 
 /// Constants of the way from the start to the first formation of a front.
@@ -104,10 +106,9 @@ pub struct Front {
     pub tilt_share: f64,
     /// Rounds in which that slope is found.
     pub slope_rounds: usize,
-    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension, press, pull. Ratios go up to
-    /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 8, slopes from 0.02 to 1. The last two count for
-    /// grippers on mounts alone.
-    pub ranges: [[f64; 2]; 9],
+    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to e⁵, which is a line on
+    /// any ply; curvatures per cell from 0.02 to 8, slopes from 0.02 to 1.
+    pub ranges: [[f64; 2]; 7],
 }
 
 /// Constants of the preload of grippers on mounts.
@@ -145,6 +146,8 @@ pub struct Search {
     /// Score of a ranking below which a plan is decided on: first, and once the error of the coarse mesh is known. Above 1,
     /// because of that error.
     pub promising: [f64; 2],
+    /// Score of a ranking of grippers on mounts below which a plan is decided on: below 1, because it is a mean of few cells.
+    pub promising_on_mounts: f64,
     /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
     /// ply tilts a gripper less or more than the lines to its neighbors.
     pub excess: f64,
@@ -169,6 +172,37 @@ pub struct Search {
     pub gain: f64,
     /// Plans that a sample of the scene judges: few, because who draws often enough wins.
     pub samples: usize,
+}
+
+/// Constants of the walk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Walk {
+    /// First step of the logarithm of the ratio of axes.
+    pub ratio: f64,
+    /// First step of the squareness.
+    pub squareness: f64,
+    /// How square a front may be, from a rhombus to nearly a rectangle.
+    pub square: [f64; 2],
+    /// First step of the logarithm of the curvature.
+    pub curvature: f64,
+    /// First step of the logarithm of the slope.
+    pub slope: f64,
+    /// First step of pull and press.
+    pub load: f64,
+    /// First step of the pretension.
+    pub pretension: f64,
+    /// First step of the direction (rad).
+    pub angle: f64,
+    /// First step of the start, as a share of the fabric.
+    pub start: f64,
+    /// Factor of a step that gained.
+    pub longer: f64,
+    /// Factor of a step that did not.
+    pub shorter: f64,
+    /// Shortest step, in first steps.
+    pub shortest: f64,
+    /// Ratio of scores that is a gain.
+    pub gain: f64,
 }
 
 /// The constants in use.
@@ -219,8 +253,6 @@ pub const TUNING: PathTuning = PathTuning {
             [-1.6 - LN_10, 4.4 - LN_10],
             [-4.0, 0.0],
             [0.0, 2.5e-3],
-            [0.0, 1.0],
-            [0.0, 1.0],
         ],
     },
     preload: Preload {
@@ -238,6 +270,7 @@ pub const TUNING: PathTuning = PathTuning {
     search: Search {
         good: 0.8,
         promising: [1.4, 1.1],
+        promising_on_mounts: 0.9,
         excess: 1.1,
         batch: 4,
         kept: 16,
@@ -248,5 +281,20 @@ pub const TUNING: PathTuning = PathTuning {
         patience: 2,
         gain: 0.95,
         samples: 5,
+    },
+    walk: Walk {
+        ratio: 0.25,
+        squareness: 0.5,
+        square: [-1.0, 0.9],
+        curvature: 0.35,
+        slope: 0.25,
+        load: 0.2,
+        pretension: 5e-4,
+        angle: 0.4,
+        start: 0.1,
+        longer: 1.3,
+        shorter: 0.6,
+        shortest: 0.3,
+        gain: 0.985,
     },
 };
