@@ -230,6 +230,10 @@ impl Search<'_, '_> {
     /// Evolution about the best of the first candidates; a walk from it for grippers on mounts.
     fn improve(&mut self, checkpoint: Option<&Checkpoint>) {
         if self.on_mounts() {
+            // the mesh of the scene ranks for those that have no plan yet
+            if self.is_accepted() && !self.shared.scene.plan.improve {
+                return;
+            }
             if lock(&self.shared.ranking).mesh == Mesh::Coarse {
                 self.rank_with_own_mesh();
             }

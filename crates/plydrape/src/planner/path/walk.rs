@@ -1,7 +1,7 @@
 //! A walk downhill from a good front, one of its numbers after the other: those of cells that land in another order first.
 //!
-//! A pattern search (Hooke and Jeeves 1961, "Direct search"): each number is made larger and smaller by a step, a gain is kept and makes the step longer, and
-//! no gain makes it shorter.
+//! A pattern search (Hooke and Jeeves 1961, "Direct search"): each number is made larger and smaller by a step, a gain is kept and
+//! makes the step longer, and no gain makes it shorter. Numbers stay in their ranges.
 
 use super::strategy::Strategy;
 use super::tuning::TUNING;
@@ -25,13 +25,17 @@ const MOVES: [Move; 10] = [
         curvature: front.curvature * (TUNING.walk.curvature * step).exp(),
         ..front
     },
-    |front, step| Strategy { slope: front.slope * (TUNING.walk.slope * step).exp(), ..front },
+    |front, step| Strategy {
+        slope: (front.slope * (TUNING.walk.slope * step).exp())
+            .min(TUNING.front.ranges[5][1].exp()),
+        ..front
+    },
     |front, step| Strategy {
         pull: (front.pull + TUNING.walk.load * step).clamp(0.0, 1.0),
         ..front
     },
     |front, step| Strategy {
-        pretension: (front.pretension + TUNING.walk.pretension * step).max(0.0),
+        pretension: within(front.pretension + TUNING.walk.pretension * step, 6),
         ..front
     },
     |front, step| Strategy {
@@ -40,11 +44,11 @@ const MOVES: [Move; 10] = [
     },
     |front, step| Strategy { angle: turned(front.angle, TUNING.walk.angle * step), ..front },
     |front, step| Strategy {
-        start: [front.start[0] + TUNING.walk.start * step, front.start[1]],
+        start: [within(front.start[0] + TUNING.walk.start * step, 0), front.start[1]],
         ..front
     },
     |front, step| Strategy {
-        start: [front.start[0], front.start[1] + TUNING.walk.start * step],
+        start: [front.start[0], within(front.start[1] + TUNING.walk.start * step, 1)],
         ..front
     },
 ];
@@ -89,8 +93,86 @@ impl Walk {
     }
 }
 
+/// A value in the range of a number of the front.
+fn within(value: f64, number: usize) -> f64 {
+    let [low, high] = TUNING.front.ranges[number];
+    value.clamp(low, high)
+}
+
 /// A direction without a sense that is turned by an angle (rad).
 fn turned(angle: f64, by: f64) -> f64 {
     let pi = std::f64::consts::PI;
     (angle + by + 0.5 * pi).rem_euclid(pi) - 0.5 * pi
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RING: Strategy = Strategy {
+        start: [0.5; 2],
+        ratio: 1.0,
+        angle: 0.2,
+        squareness: 0.0,
+        curvature: 8.0,
+        slope: 0.4,
+        pretension: 1e-3,
+        press: 0.6,
+        pull: 0.6,
+    };
+
+    /// A circle becomes an ellipse along its axis or across it: less than a circle along one is more than one across.
+    #[test]
+    fn a_circle_becomes_an_ellipse_along_its_axis_or_across() {
+        let [along, across] = Walk::new(RING).beside(0)[..] else { panic!("two fronts") };
+        assert!((along.ratio - across.ratio).abs() < 1e-12 && along.ratio > 1.0);
+        assert_eq!(along.angle, RING.angle);
+        assert!((turned(across.angle, FRAC_PI_2) - RING.angle).abs() < 1e-12);
+    }
+
+    /// A walk finds where a sum of squares is least, in numbers that are changed by addition and by factors, and then it is over.
+    #[test]
+    fn a_walk_comes_to_the_least_cost_and_ends() {
+        let cost = |front: &Strategy| {
+            (front.squareness - 0.4).powi(2)
+                + (front.curvature / 13.0).ln().powi(2)
+                + (front.pull - 0.45).powi(2)
+        };
+        let mut walk = Walk::new(RING);
+        let mut rounds = 0;
+        while !walk.is_over() {
+            for number in 0..Walk::NUMBERS {
+                let better =
+                    walk.beside(number).into_iter().filter(|front| cost(front) < cost(&walk.front));
+                let better = better.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+                walk.go(number, better);
+            }
+            rounds += 1;
+            assert!(rounds < 100, "it does not end");
+        }
+        // the shortest steps that are tried
+        let within = |value: f64, best: f64, step: f64| (value - best).abs() < step;
+        assert!(within(walk.front.squareness, 0.4, 0.5 * TUNING.walk.squareness), "{walk:?}");
+        assert!(
+            within(walk.front.curvature.ln(), 13.0_f64.ln(), 0.5 * TUNING.walk.curvature),
+            "{walk:?}"
+        );
+        assert!(within(walk.front.pull, 0.45, 0.5 * TUNING.walk.load), "{walk:?}");
+    }
+
+    /// However far a walk goes in one direction, its front is one that can be.
+    #[test]
+    fn a_walk_stays_in_its_ranges() {
+        for sign in [0, 1] {
+            let mut walk = Walk::new(RING);
+            for number in (0..Walk::NUMBERS).cycle().take(20 * Walk::NUMBERS) {
+                let beside = walk.beside(number);
+                let next = beside.get(sign.min(beside.len().saturating_sub(1))).copied();
+                walk.go(number, next);
+                assert!(walk.front.is_sound() && walk.front.slope <= 1.0, "{walk:?}");
+                assert!(walk.front.start.iter().all(|share| (0.0..=1.0).contains(share)));
+                assert!((0.0..=2.5e-3).contains(&walk.front.pretension));
+            }
+        }
+    }
 }
