@@ -4,9 +4,8 @@
 //! diagonal, become columns of the factor L; the lower triangle on the update rows becomes the update
 //! `U − L₂₁ L₂₁ᵀ`, of which panel i has the columns of the panels up to i.
 
-use crate::kernel::{self, COLUMNS, Column, ROWS};
+use crate::kernel::{self, COLUMNS, Column, ROWS, Registers, TileOperation};
 use crate::supernode::PANEL_NODES;
-use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
 /// Sizes of a front.
@@ -74,7 +73,7 @@ pub fn eliminate(
 ) -> Result<(), usize> {
     let columns = shape.columns();
     let (head, tail) = factor.split_at_mut(shape.pivot_panels() * columns);
-    kernel::dispatch(Pivots { columns, head })?;
+    kernel::dispatch_tiles(Pivots { columns, head })?;
     below(columns, head, tail, split);
     remainder(columns, tail, update, 0..shape.update_panels(), split);
     Ok(())
@@ -84,7 +83,7 @@ pub fn eliminate(
 fn below(columns: usize, head: &[Column], tail: &mut [Column], split: usize) {
     let panels = tail.len() / columns;
     if panels < split.max(2) {
-        kernel::dispatch(Below { columns, head, tail });
+        kernel::dispatch_tiles(Below { columns, head, tail });
         return;
     }
     let (first, second) = tail.split_at_mut(panels / 2 * columns);
@@ -100,7 +99,7 @@ fn remainder(
     split: usize,
 ) {
     if panels.len() < split.max(2) {
-        kernel::dispatch(Remainder { columns, tail, update, panels });
+        kernel::dispatch_tiles(Remainder { columns, tail, update, panels });
         return;
     }
     let middle = panels.start + panels.len() / 2;
@@ -117,24 +116,24 @@ pub struct Pivots<'a> {
     pub head: &'a mut [Column],
 }
 
-impl WithSimd for Pivots<'_> {
+impl TileOperation for Pivots<'_> {
     /// The pivot that is not positive, if there is one.
     type Output = Result<(), usize>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+    fn run<R: Registers>(self, registers: R) -> Self::Output {
         let Self { columns, head } = self;
         for i in 0..head.len() / columns {
             let (above, panel) = head.split_at_mut(i * columns);
             let panel = &mut panel[..columns];
-            eliminate_above(simd, columns, above, panel);
+            eliminate_above(registers, columns, above, panel);
             // its own columns
             for first in (ROWS * i..(ROWS * (i + 1)).min(columns)).step_by(COLUMNS) {
                 let (a, c) = tile(panel, first);
                 let pivot = match first % ROWS {
-                    0 => diagonal::<S, 0>(simd, c, a),
-                    4 => diagonal::<S, 4>(simd, c, a),
-                    _ => diagonal::<S, 8>(simd, c, a),
+                    0 => diagonal::<R, 0>(registers, c, a),
+                    4 => diagonal::<R, 4>(registers, c, a),
+                    _ => diagonal::<R, 8>(registers, c, a),
                 };
                 pivot.map_err(|j| first + j)?;
             }
@@ -150,14 +149,14 @@ pub struct Below<'a> {
     pub tail: &'a mut [Column],
 }
 
-impl WithSimd for Below<'_> {
+impl TileOperation for Below<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn run<R: Registers>(self, registers: R) {
         let Self { columns, head, tail } = self;
         for panel in tail.chunks_exact_mut(columns) {
-            eliminate_above(simd, columns, head, panel);
+            eliminate_above(registers, columns, head, panel);
         }
     }
 }
@@ -171,21 +170,18 @@ pub struct Remainder<'a> {
     pub panels: Range<usize>,
 }
 
-impl WithSimd for Remainder<'_> {
+impl TileOperation for Remainder<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn run<R: Registers>(self, registers: R) {
         let Self { columns, tail, update, panels } = self;
         let begin = update_start(panels.start);
         for row in panels {
             let panel = &tail[row * columns..][..columns];
             let c = &mut update[update_start(row) - begin..update_start(row + 1) - begin];
-            for (c, b) in c.chunks_exact_mut(ROWS).zip(tail.chunks_exact(columns)) {
-                let (c, _) = c.as_chunks_mut::<COLUMNS>();
-                kernel::subtract_product::<S, 0>(simd, &mut c[0], panel, b);
-                kernel::subtract_product::<S, 4>(simd, &mut c[1], panel, b);
-                kernel::subtract_product::<S, 8>(simd, &mut c[2], panel, b);
+            for (c, b) in c.as_chunks_mut::<ROWS>().0.iter_mut().zip(tail.chunks_exact(columns)) {
+                registers.subtract_panel(c, panel, b);
             }
         }
     }
@@ -193,16 +189,16 @@ impl WithSimd for Remainder<'_> {
 
 /// The columns of L of a panel that belong to the panels above.
 #[inline(always)]
-fn eliminate_above<S: Simd>(simd: S, columns: usize, above: &[Column], panel: &mut [Column]) {
+fn eliminate_above<R: Registers>(registers: R, columns: usize, above: &[Column], panel: &mut [Column]) {
     for (j, l) in above.chunks_exact(columns).enumerate() {
         let end = (ROWS * (j + 1)).min(columns);
         for first in (ROWS * j..end).step_by(COLUMNS) {
             let (a, c) = tile(panel, first);
             let (b, l) = (&l[..first], columns_at(l, first));
             match first % ROWS {
-                0 => kernel::eliminate::<S, 0>(simd, c, a, b, l),
-                4 => kernel::eliminate::<S, 4>(simd, c, a, b, l),
-                _ => kernel::eliminate::<S, 8>(simd, c, a, b, l),
+                0 => kernel::eliminate::<R, 0>(registers, c, a, b, l),
+                4 => kernel::eliminate::<R, 4>(registers, c, a, b, l),
+                _ => kernel::eliminate::<R, 8>(registers, c, a, b, l),
             }
         }
     }
@@ -222,13 +218,13 @@ fn columns_at(panel: &[Column], first: usize) -> &[Column; COLUMNS] {
 
 /// Factorizes the tile whose rows `FIRST..FIRST + 4` are on the diagonal; its rows above become zero.
 #[inline(always)]
-fn diagonal<S: Simd, const FIRST: usize>(
-    simd: S,
+fn diagonal<R: Registers, const FIRST: usize>(
+    registers: R,
     c: &mut [Column; COLUMNS],
     a: &[Column],
 ) -> Result<(), usize> {
     // the columns of the panel that are factorized already
-    kernel::subtract_product::<S, FIRST>(simd, c, a, a);
+    kernel::subtract_product::<R, FIRST, COLUMNS>(registers, c, a, a);
     // Cholesky of the 4 × 4 triangle; its diagonal keeps the reciprocals, because solving multiplies
     let mut l = [[0.0; COLUMNS]; COLUMNS];
     for j in 0..COLUMNS {
@@ -254,7 +250,7 @@ fn diagonal<S: Simd, const FIRST: usize>(
     for j in 0..COLUMNS {
         triangle[j].0[FIRST..FIRST + COLUMNS].copy_from_slice(&l[j]);
     }
-    kernel::eliminate::<S, FIRST>(simd, c, &[], &[], &triangle);
+    kernel::eliminate::<R, FIRST>(registers, c, &[], &[], &triangle);
     for j in 0..COLUMNS {
         c[j].0[..FIRST].fill(0.0);
         c[j].0[FIRST..FIRST + COLUMNS].copy_from_slice(&l[j]);
