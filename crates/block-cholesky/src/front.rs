@@ -189,7 +189,12 @@ impl TileOperation for Remainder<'_> {
 
 /// The columns of L of a panel that belong to the panels above.
 #[inline(always)]
-fn eliminate_above<R: Registers>(registers: R, columns: usize, above: &[Column], panel: &mut [Column]) {
+fn eliminate_above<R: Registers>(
+    registers: R,
+    columns: usize,
+    above: &[Column],
+    panel: &mut [Column],
+) {
     for (j, l) in above.chunks_exact(columns).enumerate() {
         let end = (ROWS * (j + 1)).min(columns);
         for first in (ROWS * j..end).step_by(COLUMNS) {

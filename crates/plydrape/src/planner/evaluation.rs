@@ -56,45 +56,64 @@ impl Drapes {
     }
 }
 
-/// The complete drape along planned positions of grippers (m), rounded as the motion will round them, of catenaries or a
-/// sheet; broken off where it needs too much or the search is stopped.
-///
-/// # Errors
-/// The errors of [`outcome::judge`] if the model that decides cannot drape the scene.
-pub fn drape(
-    scene: &Scene,
-    planned: &[Vec<[f64; 3]>],
+/// A complete drape without errors along planned positions of grippers, from whose flight cells with errors go on.
+#[derive(Debug)]
+pub struct Draped<'a> {
+    scene: &'a Scene,
+    layup: Layup,
     mesh: Mesh,
-    state: &SearchState,
-) -> Result<Drapes, Error> {
-    let positions = rounded(planned);
-    let times = (0..positions.len()).map(|n| n as f64).collect();
-    let mut layup = along_motion(&scene.layup, Motion { times, positions });
-    // a candidate begins where the ply hangs: none of its steps is one of the lift
-    if let Some(pick_up) = &mut layup.pick_up {
-        pick_up.lift_steps = 0;
+    nominal: Judged,
+    flight: Option<Flight>,
+}
+
+impl<'a> Draped<'a> {
+    /// The drape along planned positions of grippers (m), rounded as the motion will round them, of catenaries or a sheet; broken off where it
+    /// needs too much or the search is stopped.
+    ///
+    /// # Errors
+    /// The errors of [`outcome::judge`] if the model that decides cannot drape the scene.
+    pub fn new(
+        scene: &'a Scene,
+        planned: &[Vec<[f64; 3]>],
+        mesh: Mesh,
+        state: &SearchState,
+    ) -> Result<Self, Error> {
+        let positions = rounded(planned);
+        let times = (0..positions.len()).map(|n| n as f64).collect();
+        let mut layup = along_motion(&scene.layup, Motion { times, positions });
+        // a candidate begins where the ply hangs: none of its steps is one of the lift
+        if let Some(pick_up) = &mut layup.pick_up {
+            pick_up.lift_steps = 0;
+        }
+        let (limits, stop) = (&scene.limits, || state.report().is_break());
+        match layup.settings.model {
+            Model::Catenaries => {
+                let most = TUNING.most_equilibria * planned.len();
+                let nominal = outcome::judge(&layup, limits, most, &stop)?;
+                Ok(Draped { scene, layup, mesh, nominal, flight: None })
+            }
+            Model::Sheet => {
+                // cups that are in no rows along the yarns may be too near to each other for the lines of a coarse mesh
+                let has_sheet = sheet::Sheet::new(&as_ranked(layup.clone(), mesh)).is_ok();
+                let mesh = if has_sheet { mesh } else { Mesh::Own };
+                let ranked = as_ranked(layup.clone(), mesh);
+                let (nominal, flight) = Flight::judged(&ranked, limits, &stop)?;
+                Ok(Draped { scene, layup, mesh, nominal: of_mesh(nominal, mesh), flight })
+            }
+        }
     }
-    let limits = &scene.limits;
-    match layup.settings.model {
-        Model::Catenaries => {
-            let most = TUNING.most_equilibria * planned.len();
-            let judged = outcome::judge(&layup, limits, most, &|| state.report().is_break())?;
-            Ok(Drapes { worst: judged.clone(), each: vec![judged], refused_by: None })
-        }
-        Model::Sheet => {
-            let stop = || state.report().is_break();
-            // cups that are in no rows along the yarns may be too near to each other for the lines of a coarse mesh
-            let has_sheet = sheet::Sheet::new(&as_ranked(layup.clone(), mesh)).is_ok();
-            let mesh = if has_sheet { mesh } else { Mesh::Own };
-            let (nominal, flight) = Flight::judged(&as_ranked(layup.clone(), mesh), limits, &stop)?;
-            let nominal = of_mesh(nominal, mesh);
-            Ok(with_errors(&layup, scene.errors, nominal, &state.cells(), 0, |cell| {
-                // the errors may have left no sheet that could be draped
-                let cell = as_ranked(cell, mesh);
-                let judged = Flight::judge(flight.as_ref(), &cell, limits, &stop);
-                Some(of_mesh(judged.unwrap_or_else(|_| Judged::nothing()), mesh))
-            }))
-        }
+
+    /// With the drapes of some cells with errors, as [`with_errors`]; of catenaries alone.
+    #[must_use]
+    pub fn in_cells(&self, cells: &[usize], spare: usize, state: &SearchState) -> Drapes {
+        let is_sheet = self.layup.settings.model == Model::Sheet;
+        let errors = self.scene.errors.filter(|_| is_sheet);
+        with_errors(&self.layup, errors, self.nominal.clone(), cells, spare, |cell| {
+            // the errors may have left no sheet that could be draped
+            let (cell, stop) = (as_ranked(cell, self.mesh), || state.report().is_break());
+            let judged = Flight::judge(self.flight.as_ref(), &cell, &self.scene.limits, &stop);
+            Some(of_mesh(judged.unwrap_or_else(|_| Judged::nothing()), self.mesh))
+        })
     }
 }
 

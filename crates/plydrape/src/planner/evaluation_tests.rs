@@ -1,6 +1,6 @@
 //! A plan is made with other cells than those that judge it.
 
-use super::evaluation::{self, Bias, Mesh, planned_cell, score_with, with_errors};
+use super::evaluation::{Bias, Draped, Mesh, planned_cell, score_with, with_errors};
 use super::search_state::{Progress, SearchState};
 use super::tuning::TUNING;
 use crate::errors::tests::{budget, layup};
@@ -31,7 +31,7 @@ proptest! {
 
 /// The motions of the cells that prove a plan.
 fn planned(errors: Errors, layup: &Layup) -> Vec<Motion> {
-    (0..TUNING.proving).map(|n| planned_cell(errors, n, layup).motion).collect()
+    (0..TUNING.proving[1]).map(|n| planned_cell(errors, n, layup).motion).collect()
 }
 
 /// A drape that keeps every limit, and one that does not.
@@ -54,7 +54,7 @@ fn a_candidate_is_ranked_by_the_cells_of_the_search() {
     let (layup, errors) = (layup(2, 2), budget());
     let motions = planned(errors, &layup);
     let seen: Mutex<Vec<Motion>> = Mutex::new(Vec::new());
-    let cells: Vec<usize> = (0..TUNING.proving).collect();
+    let cells: Vec<usize> = (0..TUNING.proving[1]).collect();
     let drape = |bad: Option<usize>, spare: usize| {
         seen.lock().unwrap().clear();
         let found =
@@ -101,7 +101,8 @@ fn a_candidate_is_not_judged_by_the_end_of_a_lift() {
     });
     let mut go_on = |_: &Progress| ControlFlow::Continue(());
     let state = SearchState::new(1, &mut go_on);
-    let found = evaluation::drape(&scene, &planned, Mesh::Own, &state).expect("a sheet");
+    let found = Draped::new(&scene, &planned, Mesh::Own, &state).expect("a sheet");
+    let found = found.in_cells(&state.cells(), 0, &state);
     let judged = |name: Name| found.worst.limits.iter().any(|verdict| verdict.name == name);
     assert!(judged(Name::Strain) && !judged(Name::TableGap), "{:?}", found.worst);
 }

@@ -115,7 +115,7 @@ impl<'a> SearchState<'a> {
             most,
             cells: Mutex::new((0..TUNING.cells[0]).collect()),
             first_cells: TUNING.cells[0],
-            proof: Mutex::new(Proof { cells: TUNING.proving, spare: TUNING.spare }),
+            proof: Mutex::new(Proof { cells: TUNING.proving[0], spare: TUNING.spare[0] }),
             best: Mutex::new(Best {
                 watcher,
                 score: f64::INFINITY,
@@ -145,10 +145,13 @@ impl<'a> SearchState<'a> {
         journal: Journal,
     ) -> Self {
         let repeats = AtomicBool::new(!journal.is_empty());
-        let first_cells = TUNING.cells[usize::from(scene.layup.settings.pad.gives())];
+        let on_mounts = usize::from(scene.layup.settings.pad.gives());
+        let first_cells = TUNING.cells[on_mounts];
         let cells = Mutex::new((0..first_cells).collect());
+        let proof = Proof { cells: TUNING.proving[on_mounts], spare: TUNING.spare[on_mounts] };
         let (origin, journal) = (Some((scene, from)), Mutex::new(journal));
-        SearchState { origin, journal, repeats, cells, first_cells, ..self }
+        let proof = Mutex::new(proof);
+        SearchState { origin, journal, repeats, cells, first_cells, proof, ..self }
     }
 
     /// What was judged.

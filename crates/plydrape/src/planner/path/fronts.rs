@@ -8,7 +8,7 @@ use super::trajectory::trajectory;
 use super::tuning::TUNING;
 use crate::Error;
 use crate::geometry::Point;
-use crate::planner::evaluation::{self, Bias, Drapes, Mesh};
+use crate::planner::evaluation::{Bias, Draped, Drapes, Mesh};
 use crate::planner::journal;
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning;
@@ -44,11 +44,17 @@ impl<'a> Fronts<'a> {
         positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
     }
 
+    /// [`geometry::excess`] of positions of grippers (m) that is too far beyond a limit for a drape.
+    #[must_use]
+    pub fn too_far(&self, positions: &[Vec<Point>]) -> Option<f64> {
+        Some(geometry::excess(self.scene, positions)).filter(|e| *e > TUNING.search.excess)
+    }
+
     /// The score of positions of grippers (m) and their drapes with a mesh, by which candidates are ranked. Positions whose grippers alone
     /// exceed a limit too far have no drape, and a score worse than that of any drape.
     ///
     /// # Errors
-    /// The errors of [`evaluation::drape`] if the model that decides cannot drape the scene.
+    /// The errors of [`Draped::new`] if the model that decides cannot drape the scene.
     pub fn rank(
         &self,
         positions: &[Vec<Point>],
@@ -56,14 +62,29 @@ impl<'a> Fronts<'a> {
         bias: &Bias,
         state: &SearchState,
     ) -> Result<(f64, Option<Drapes>), Error> {
-        let excess = geometry::excess(self.scene, positions);
-        if excess > TUNING.search.excess {
+        if let Some(excess) = self.too_far(positions) {
             return Ok((tuning::TUNING.missing_weight * excess, None));
         }
-        let key = journal::key(positions, Some(mesh), &state.cells());
-        let drapes =
-            state.ranked(key, || evaluation::drape(&self.tabulated, positions, mesh, state))?;
+        let cells = state.cells();
+        let key = journal::key(positions, Some(mesh), &cells);
+        let drapes = state.ranked(key, || {
+            let draped = self.draped(positions, mesh, state)?;
+            Ok::<_, Error>(draped.in_cells(&cells, 0, state))
+        })?;
         Ok((drapes.score(bias), Some(drapes)))
+    }
+
+    /// The drape without errors along positions of grippers (m).
+    ///
+    /// # Errors
+    /// The errors of [`Draped::new`].
+    pub fn draped(
+        &self,
+        positions: &[Vec<Point>],
+        mesh: Mesh,
+        state: &SearchState,
+    ) -> Result<Draped<'_>, Error> {
+        Draped::new(&self.tabulated, positions, mesh, state)
     }
 
     /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.

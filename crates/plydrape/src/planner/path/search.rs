@@ -7,10 +7,11 @@
 //! with a margin. Candidates are independent and run on all cores; which one is the best does not depend on the number of
 //! cores.
 
+mod on_mounts;
+
 use super::fronts::Fronts;
 use super::strategy::Strategy;
 use super::tuning::TUNING;
-use super::walk::Walk;
 use crate::Error;
 use crate::geometry::Point;
 use crate::layup::Model;
@@ -23,6 +24,7 @@ use crate::planner::journal::{self, Known};
 use crate::planner::search_state::{Proof, SearchState, lock};
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
+use on_mounts::Racer;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::sync::Mutex;
@@ -37,6 +39,8 @@ struct Candidate {
     score: f64,
     /// The key of its drapes in the journal, until it was compared with the others.
     unranked: Option<u64>,
+    /// Whether it is known from a race to break a limit in so many cells that no sample is asked for it while the search goes on.
+    fails_often: bool,
 }
 
 /// What all candidates of a search share.
@@ -66,7 +70,7 @@ struct Choice {
     known: Known,
     /// The decision itself; `None` if a search before has made it.
     decision: Option<Decision>,
-    /// Whether a sample has refused it.
+    /// Whether a sample has refused it, or would.
     refused: bool,
 }
 
@@ -86,8 +90,8 @@ struct Search<'a, 'b> {
     /// The best candidates on which was not decided.
     candidates: Vec<Candidate>,
     best: Option<Choice>,
-    /// The best front on mounts by a ranking with the mesh of the scene, whether it was decided on or not, and its score.
-    nearest: Option<(f64, Strategy)>,
+    /// On mounts the front that won the race, or has come farthest in the walk.
+    leader: Option<Racer<'a>>,
     /// Lowest score of a ranking by the coarse mesh that was decided on.
     tried: f64,
     /// The first that could not become a motion.
@@ -128,7 +132,7 @@ pub fn search(
         shared: &shared,
         candidates: Vec::new(),
         best: None,
-        nearest: None,
+        leader: None,
         tried: f64::INFINITY,
         fault: None,
         idle: 0,
@@ -222,8 +226,15 @@ impl Search<'_, '_> {
         let with_positions = |strategy| Some((strategy, fronts.positions(strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(with_positions) {
             let score = f64::INFINITY;
-            let (drapes, unranked) = (None, None);
-            self.candidates.push(Candidate { strategy, positions, drapes, score, unranked });
+            let (drapes, unranked, fails_often) = (None, None, false);
+            self.candidates.push(Candidate {
+                strategy,
+                positions,
+                drapes,
+                score,
+                unranked,
+                fails_often,
+            });
         }
     }
 
@@ -234,8 +245,10 @@ impl Search<'_, '_> {
             if self.is_accepted() && !self.shared.scene.plan.improve {
                 return;
             }
-            if lock(&self.shared.ranking).mesh == Mesh::Coarse {
-                self.rank_with_own_mesh();
+            let mesh = lock(&self.shared.ranking).mesh;
+            match mesh {
+                Mesh::Coarse => self.race(),
+                Mesh::Own => self.decide_on_waiting(),
             }
             return self.walk();
         }
@@ -282,8 +295,7 @@ impl Search<'_, '_> {
         }
         self.rank_with(Ranking { mesh: Mesh::Own, bias: Bias::default() });
         let mut waiting = std::mem::take(&mut self.candidates);
-        let batches = if self.on_mounts() { 2 } else { 1 };
-        waiting.truncate((batches * TUNING.search.batch).min(self.left));
+        waiting.truncate(TUNING.search.batch.min(self.left));
         let strategies: Vec<Strategy> = waiting.into_iter().map(|c| c.strategy).collect();
         self.shared.state.begin("draping the best with the mesh of the scene");
         self.drape(&strategies);
@@ -335,44 +347,6 @@ impl Search<'_, '_> {
             if ended {
                 break;
             }
-        }
-    }
-
-    /// A walk downhill from the best front that is known by a ranking with the mesh of the scene: that of a plan, too, which a sample has
-    /// refused.
-    fn walk(&mut self) {
-        let shared = self.shared;
-        shared.state.begin("improving the best step by step");
-        let decided = self.best.as_ref().and_then(|best| shared.candidate(best.strategy));
-        let decided = decided.map(|candidate| (candidate.score, candidate.strategy));
-        let starts = self.nearest.into_iter().chain(decided);
-        let Some((_, start)) = starts.reduce(|a, b| if b.0 < a.0 { b } else { a }) else { return };
-        let mut walk = Walk::new(start);
-        let (mut cells, mut score) = (Vec::new(), f64::INFINITY);
-        while !self.is_done() && !walk.is_over() {
-            // cells that refused a plan rank what follows
-            if cells != shared.state.cells() {
-                cells = shared.state.cells();
-                let Some(candidate) = shared.candidate(walk.front) else { return };
-                score = candidate.score;
-            }
-            for number in 0..Walk::NUMBERS {
-                let beside = walk.beside(number);
-                if self.is_done() || self.left < beside.len() {
-                    return;
-                }
-                self.left -= beside.len();
-                let candidate = |front: &Strategy| shared.candidate(*front);
-                let found: Vec<Candidate> = beside.par_iter().filter_map(candidate).collect();
-                let better = found.iter().filter(|other| other.score < TUNING.walk.gain * score);
-                let better = better.min_by(|a, b| a.score.total_cmp(&b.score));
-                let better = better.map(|better| (better.strategy, better.score));
-                walk.go(number, better.map(|(front, _)| front));
-                score = better.map_or(score, |(_, score)| score);
-                self.candidates.extend(found);
-            }
-            self.rank();
-            self.decide();
         }
     }
 
@@ -456,12 +430,6 @@ impl Search<'_, '_> {
             let by_strategy = first.partial_cmp(&second).unwrap_or(Ordering::Equal);
             a.score.total_cmp(&b.score).then(by_strategy)
         });
-        if let Some(first) = self.candidates.first()
-            && lock(&self.shared.ranking).mesh == Mesh::Own
-            && self.nearest.is_none_or(|(score, _)| first.score < score)
-        {
-            self.nearest = Some((first.score, first.strategy));
-        }
         let kept = TUNING.search.kept.min(self.candidates.len());
         for dropped in self.candidates.drain(kept..) {
             if let Some(key) = dropped.unranked {
@@ -509,21 +477,21 @@ impl Search<'_, '_> {
         let ranked = candidate.drapes.as_ref().and_then(|drapes| drapes.worst.effort);
         // what was decided before is read from the journal, and counts as if it were draped now
         let key = journal::key(&positions, None, &state.cells());
-        let strategy = candidate.strategy;
+        let (strategy, refused) = (candidate.strategy, candidate.fails_often);
         let choice = match state.decided(key) {
             Some(known) => {
                 for _ in 0..known.drapes {
                     let plan = Some((Some(strategy), positions.as_slice()));
                     state.record(&known.judged, known.score, true, plan);
                 }
-                Ok(Choice { strategy, positions, known, decision: None, refused: false })
+                Ok(Choice { strategy, positions, known, decision: None, refused })
             }
             None => {
                 let made = Decision::on(scene, Some(strategy), positions.clone(), ranked, state);
                 made.map(|decision| {
                     let known = decision.known();
                     state.keep_decision(key, &known);
-                    Choice { strategy, positions, known, decision: Some(decision), refused: false }
+                    Choice { strategy, positions, known, decision: Some(decision), refused }
                 })
             }
         };
@@ -574,8 +542,10 @@ impl Shared<'_, '_> {
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
         let key = journal::key(&positions, Some(mesh), &self.state.cells());
+        let fails_often = false;
         if let Some(score) = self.state.scored(key) {
-            return Candidate { strategy, positions, drapes: None, score, unranked: None };
+            let (drapes, unranked) = (None, None);
+            return Candidate { strategy, positions, drapes, score, unranked, fails_often };
         }
         let ranked = self.fronts.rank(&positions, mesh, &bias, self.state);
         let (score, drapes) = ranked.unwrap_or_else(|fault| {
@@ -587,6 +557,6 @@ impl Shared<'_, '_> {
             self.state.record(&drapes.worst, score, false, plan);
         }
         let unranked = drapes.as_ref().map(|_| key);
-        Candidate { strategy, positions, drapes, score, unranked }
+        Candidate { strategy, positions, drapes, score, unranked, fails_often }
     }
 }

@@ -130,12 +130,17 @@ impl Strategy {
                 aligned(2.2, along, 0.0),
                 aligned(2.2, across, 0.0),
                 aligned(1.0, along, -0.6),
+                aligned(1.4, along, 0.6),
+                aligned(1.4, across, 0.6),
+                aligned(2.2, along, 0.6),
+                aligned(2.2, across, 0.6),
             ];
             let aligned: Vec<Strategy> = aligned.par_iter().map(steep).collect();
             let looser = |base: &Strategy| Strategy { pull: 0.4 * base.pull, ..*base };
             let harder = |base: &Strategy| Strategy { press: (2.0 * base.press).min(1.0), ..*base };
             // a ply that is stiff in shear does not stay flat where a steep front shears it
             let flatter = |base: &Strategy| Strategy { slope: 0.5 * base.slope, ..*base };
+            let steeper = |base: &Strategy| Strategy { slope: 1.3 * base.slope, ..*base };
             // what is stretched when it lands bridges a hollow
             let softer = |base: &Strategy| Strategy { pretension: 0.25 * base.pretension, ..*base };
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
@@ -151,9 +156,12 @@ impl Strategy {
             // of each kind all shapes: those along the lines of cups and the circle of every kind first
             let kinds = [flat, round, hard, shapes, loose, soft, flattest];
             let circles = kinds.iter().filter_map(|kind| kind.first());
-            let first = circles.clone().take(1).chain(&aligned);
-            let sharp: Vec<Strategy> = first.clone().map(sharper).collect();
-            let first = sharp.into_iter().chain(first.copied()).chain(circles.skip(1).copied());
+            let blunt: Vec<Strategy> = circles.clone().take(1).chain(&aligned).copied().collect();
+            let sharp: Vec<Strategy> = blunt.iter().map(sharper).collect();
+            let steep = sharp.iter().chain(&blunt).map(steeper);
+            let rounded = blunt[1..].iter().map(rounder);
+            let first = sharp.iter().chain(&blunt).chain(circles.skip(1)).copied();
+            let first = first.chain(steep).chain(rounded);
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
             return first.chain(others).collect();
         }

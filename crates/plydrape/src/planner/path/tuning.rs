@@ -15,6 +15,8 @@ pub struct PathTuning {
     pub preload: Preload,
     /// The search for the best front.
     pub search: Search,
+    /// The race of the best fronts, for grippers on mounts.
+    pub race: Race,
     /// The walk from a good front, for grippers on mounts.
     pub walk: Walk,
 }
@@ -174,6 +176,35 @@ pub struct Search {
     pub samples: usize,
 }
 
+/// Constants of the race.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Race {
+    /// Fronts that begin.
+    pub fronts: usize,
+    /// Cells of the first round; each other round has twice as many as the one before.
+    pub cells: usize,
+    /// Fronts that come to the end.
+    pub last: usize,
+    /// Ratio of the mean scores of a front and of the one that leads, in the same cells, from which on it is given up.
+    pub lag: f64,
+    /// Cells that may break a limit of a front that a sample is asked for.
+    pub spare: usize,
+}
+
+impl Race {
+    /// Cells of all rounds.
+    #[must_use]
+    pub const fn all_cells(&self) -> usize {
+        let (mut fronts, mut count, mut all) = (self.fronts, self.cells, self.cells);
+        while fronts > self.last {
+            fronts = fronts.div_ceil(2);
+            count *= 2;
+            all += count;
+        }
+        all
+    }
+}
+
 /// Constants of the walk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Walk {
@@ -282,6 +313,7 @@ pub const TUNING: PathTuning = PathTuning {
         gain: 0.95,
         samples: 5,
     },
+    race: Race { fronts: 16, cells: 4, last: 4, lag: 1.1, spare: 2 },
     walk: Walk {
         ratio: 0.25,
         squareness: 0.5,
