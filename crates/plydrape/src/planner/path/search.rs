@@ -43,6 +43,14 @@ struct Candidate {
     fails_often: bool,
 }
 
+impl Candidate {
+    /// One of which the score alone is known.
+    fn new(strategy: Strategy, positions: Vec<Vec<Point>>, score: f64) -> Self {
+        let (drapes, unranked, fails_often) = (None, None, false);
+        Candidate { strategy, positions, drapes, score, unranked, fails_often }
+    }
+}
+
 /// What all candidates of a search share.
 struct Shared<'a, 'b> {
     scene: &'a Scene,
@@ -225,16 +233,7 @@ impl Search<'_, '_> {
         let strategies = earlier.map_or_else(families, |(strategy, _)| vec![strategy]);
         let with_positions = |strategy| Some((strategy, fronts.positions(strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(with_positions) {
-            let score = f64::INFINITY;
-            let (drapes, unranked, fails_often) = (None, None, false);
-            self.candidates.push(Candidate {
-                strategy,
-                positions,
-                drapes,
-                score,
-                unranked,
-                fails_often,
-            });
+            self.candidates.push(Candidate::new(strategy, positions, f64::INFINITY));
         }
     }
 
@@ -542,10 +541,8 @@ impl Shared<'_, '_> {
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
         let key = journal::key(&positions, Some(mesh), &self.state.cells());
-        let fails_often = false;
         if let Some(score) = self.state.scored(key) {
-            let (drapes, unranked) = (None, None);
-            return Candidate { strategy, positions, drapes, score, unranked, fails_often };
+            return Candidate::new(strategy, positions, score);
         }
         let ranked = self.fronts.rank(&positions, mesh, &bias, self.state);
         let (score, drapes) = ranked.unwrap_or_else(|fault| {
@@ -557,6 +554,6 @@ impl Shared<'_, '_> {
             self.state.record(&drapes.worst, score, false, plan);
         }
         let unranked = drapes.as_ref().map(|_| key);
-        Candidate { strategy, positions, drapes, score, unranked, fails_often }
+        Candidate { drapes, unranked, ..Candidate::new(strategy, positions, score) }
     }
 }

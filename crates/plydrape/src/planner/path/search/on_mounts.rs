@@ -44,9 +44,8 @@ impl Racer<'_> {
 
     fn candidate(&self) -> Candidate {
         let Racer { strategy, ref positions, .. } = *self;
-        let (positions, score) = (positions.clone(), self.score());
         let fails_often = self.fails_often();
-        Candidate { strategy, positions, score, drapes: None, unranked: None, fails_often }
+        Candidate { fails_often, ..Candidate::new(strategy, positions.clone(), self.score()) }
     }
 
     /// Whether so many of its cells break a limit that a sample would refuse it.
@@ -115,26 +114,26 @@ impl<'a> Search<'a, '_> {
         let start = self.leader.take().or_else(|| self.best.as_ref().and_then(best));
         let Some(mut leader) = start else { return };
         let mut walk = Walk::new(leader.strategy);
-        while !self.is_done() && !walk.is_over() {
+        let mut decided = leader.strategy;
+        'walk: while !self.is_done() && !walk.is_over() {
             // cells that refused a plan count in what follows
             let mut cells: Vec<usize> = (0..TUNING.race.all_cells()).collect();
             let others = shared.state.cells();
             cells.extend(others.into_iter().filter(|cell| *cell >= TUNING.race.all_cells()));
-            let start = walk.front;
-            let mut decided = start;
             for number in 0..Walk::NUMBERS {
                 let beside = walk.beside(number);
                 if self.is_done() || self.left < beside.len() {
-                    break;
+                    break 'walk;
                 }
                 self.left -= beside.len();
-                let others = &cells[leader.cells().min(cells.len())..];
-                shared.run(&mut leader, others);
+                let missing = &cells[leader.cells().min(cells.len())..];
+                shared.run(&mut leader, missing);
                 let racer = |front: Strategy| shared.racer(front, shared.fronts.positions(front)?);
                 let mut racers: Vec<Racer> = beside.into_iter().filter_map(racer).collect();
                 racers.par_iter_mut().for_each(|racer| shared.challenge(&leader, racer, &cells));
                 let gained = |racer: &Racer<'_>| {
-                    let is_whole = racer.scores.len() == leader.scores.len();
+                    // one that is far from a plan without errors is draped in no cell
+                    let is_whole = racer.scores.len() >= leader.scores.len();
                     is_whole && racer.score() < TUNING.walk.gain * leader.score()
                 };
                 let better = racers.into_iter().filter(gained);
@@ -142,26 +141,24 @@ impl<'a> Search<'a, '_> {
                 walk.go(number, better.as_ref().map(|racer| racer.strategy));
                 leader = better.unwrap_or(leader);
                 // one that hardly fails is not improved before it is decided on
-                if !leader.fails_often() && leader.strategy != decided {
-                    decided = leader.strategy;
-                    self.decide_on(&leader);
+                if !leader.fails_often() {
+                    self.decide_on(&leader, &mut decided);
                 }
             }
-            if leader.strategy != decided {
-                self.decide_on(&leader);
-            }
-            if walk.front == start && self.left < 2 {
-                break;
-            }
+            self.decide_on(&leader, &mut decided);
         }
+        self.decide_on(&leader, &mut decided);
         self.leader = Some(leader);
     }
 
-    /// Decides on a racer if it is promising.
-    fn decide_on(&mut self, racer: &Racer<'_>) {
-        self.candidates.push(racer.candidate());
-        self.rank();
-        self.decide();
+    /// Decides on a racer if it is promising and another one than the last that was decided on.
+    fn decide_on(&mut self, racer: &Racer<'_>, decided: &mut Strategy) {
+        if racer.strategy != *decided {
+            *decided = racer.strategy;
+            self.candidates.push(racer.candidate());
+            self.rank();
+            self.decide();
+        }
     }
 }
 
