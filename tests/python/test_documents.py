@@ -97,7 +97,8 @@ def test_the_readme_counts_the_random_scenes_as_the_benchmark_does() -> None:
     table = (ROOT / "benches" / "README.md").read_text(encoding="utf-8")
     assert f"**{accepted} of {tried} are accepted" in table
     last = (ROOT / "benches" / "unseen" / "result.md").read_text(encoding="utf-8")
-    [(tried, accepted)] = re.findall(r"Of (\d+) small ones\s+with real plies.*?, (\d+) were", README)
+    small = r"Of (\d+) small ones\s+with real plies.*?, (\d+) were"
+    [(tried, accepted)] = re.findall(small, README)
     assert f"\n{accepted}/{tried} scenes accepted\n" in last and "--sizes small" in last
 
 
