@@ -103,7 +103,7 @@ impl<'a> Draped<'a> {
         }
     }
 
-    /// With the drapes of some cells with errors, as [`with_errors`]; of catenaries alone.
+    /// With the drapes of some cells with errors, as [`with_errors`]; catenaries are draped without errors only.
     #[must_use]
     pub fn in_cells(&self, cells: &[usize], spare: usize, state: &SearchState) -> Drapes {
         let is_sheet = self.layup.settings.model == Model::Sheet;

@@ -18,9 +18,10 @@ pub struct PlannerTuning {
     /// Cells with errors by which candidates are ranked, where the scene has errors, beside the drape without: few for rigid grippers; more for
     /// those on mounts, whose fronts differ in how often a cell fails.
     pub cells: [usize; 2],
-    /// Cells with errors that prove a plan that is decided on, for rigid grippers and for those on mounts.
+    /// Cells with errors that prove a plan that is decided on, for rigid grippers and for those on mounts: of these as many as race.
     pub proving: [usize; 2],
-    /// How many of them may break a limit: about the share that may in a sample.
+    /// How many of them may break a limit: about the share that may in a sample. A front that breaks one in more of as many cells of a race
+    /// is shown to no sample.
     pub spare: [usize; 2],
     /// How many of those that refused a plan are added to them.
     pub added_cells: usize,
@@ -45,7 +46,7 @@ pub const TUNING: PlannerTuning = PlannerTuning {
     counted_share: 0.9,
     largest_bias: 2.0,
     cells: [3, 12],
-    proving: [16, 28],
+    proving: [16, super::path::tuning::TUNING.race.all_cells()],
     spare: [1, 2],
     added_cells: 3,
     batch: 4,

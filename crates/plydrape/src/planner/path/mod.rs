@@ -12,7 +12,6 @@ mod taut;
 mod trajectory;
 mod transport;
 pub mod tuning;
-mod walk;
 
 pub use formation::{Formation, MoldHeights};
 pub(super) use fronts::Fronts;

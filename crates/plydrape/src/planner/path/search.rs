@@ -1,5 +1,5 @@
 //! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016), or for grippers on mounts a
-//! walk from it (`walk`).
+//! race of the best and a walk from the one that wins (`on_mounts`).
 //!
 //! A candidate whose grippers alone would exceed a limit is not draped (`geometry`). The others are ranked by complete
 //! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. Where this
@@ -8,6 +8,7 @@
 //! cores.
 
 mod on_mounts;
+mod walk;
 
 use super::fronts::Fronts;
 use super::strategy::Strategy;

@@ -187,8 +187,6 @@ pub struct Race {
     pub last: usize,
     /// Ratio of the mean scores of a front and of the one that leads, in the same cells, from which on it is given up.
     pub lag: f64,
-    /// Cells that may break a limit of a front that a sample is asked for.
-    pub spare: usize,
 }
 
 impl Race {
@@ -313,7 +311,7 @@ pub const TUNING: PathTuning = PathTuning {
         gain: 0.95,
         samples: 5,
     },
-    race: Race { fronts: 16, cells: 4, last: 4, lag: 1.1, spare: 2 },
+    race: Race { fronts: 16, cells: 4, last: 4, lag: 1.1 },
     walk: Walk {
         ratio: 0.25,
         squareness: 0.5,

@@ -4,14 +4,15 @@
 //! ranking race with the mesh of the scene: each is draped in a few cells, and the better half goes on to twice as many others
 //! (successive halving, Karnin, Koren and Somekh 2013). Each step of the walk is a race of two fronts against the one where it is.
 
+use super::walk::Walk;
 use super::{Candidate, Choice, Ranking, Search, Shared};
 use crate::geometry::Point;
 use crate::planner::evaluation::{self, Bias, Draped, Mesh};
 use crate::planner::journal;
 use crate::planner::path::strategy::Strategy;
 use crate::planner::path::tuning::TUNING;
-use crate::planner::path::walk::Walk;
 use crate::planner::search_state::lock;
+use crate::planner::tuning;
 use rayon::prelude::*;
 
 /// A front that is draped in one cell after the other, with the mesh of the scene.
@@ -50,7 +51,7 @@ impl Racer<'_> {
 
     /// Whether so many of its cells break a limit that a sample would refuse it.
     fn fails_often(&self) -> bool {
-        self.broken > TUNING.race.spare
+        self.broken > tuning::TUNING.spare[1]
     }
 }
 
@@ -187,7 +188,7 @@ impl<'a> Shared<'a, '_> {
         if cells.is_empty() || self.state.is_stopped() {
             return;
         }
-        let Racer { strategy, positions, draped, scores, broken } = racer;
+        let Racer { positions, draped, .. } = racer;
         let key = journal::key(positions, Some(Mesh::Own), cells);
         let drapes = self.state.ranked(key, || {
             let draped = match draped {
@@ -198,12 +199,12 @@ impl<'a> Shared<'a, '_> {
         });
         match drapes {
             Ok(drapes) if !self.state.is_stopped() => {
-                let known = usize::from(!scores.is_empty());
-                scores.extend(drapes.each.iter().skip(known).map(evaluation::score));
-                *broken += drapes.each.iter().skip(1).filter(|judged| !judged.accepted()).count();
-                let plan = Some((Some(*strategy), positions.as_slice()));
-                let mean = scores.iter().sum::<f64>() / scores.len() as f64;
-                self.state.record(&drapes.worst, mean, false, plan);
+                let known = usize::from(!racer.scores.is_empty());
+                racer.scores.extend(drapes.each.iter().skip(known).map(evaluation::score));
+                let in_cells = drapes.each.iter().skip(1);
+                racer.broken += in_cells.filter(|judged| !judged.accepted()).count();
+                let plan = Some((Some(racer.strategy), racer.positions.as_slice()));
+                self.state.record(&drapes.worst, racer.score(), false, plan);
             }
             Ok(_) => {}
             Err(fault) => *lock(&self.fault) = Some(fault),

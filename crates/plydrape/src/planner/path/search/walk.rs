@@ -3,8 +3,8 @@
 //! A pattern search (Hooke and Jeeves 1961, "Direct search"): each number is made larger and smaller by a step, a gain is kept and
 //! makes the step longer, and no gain makes it shorter. Numbers stay in their ranges.
 
-use super::strategy::Strategy;
-use super::tuning::TUNING;
+use crate::planner::path::strategy::Strategy;
+use crate::planner::path::tuning::TUNING;
 use std::f64::consts::FRAC_PI_2;
 
 /// One number of a front, changed by a share of its first step.
