@@ -28,6 +28,9 @@ FOLDS = "touch the mold first, and stick short of their places"
 SPRINGS_BACK = "the ply springs back"
 """What `check` says of a ply that does not stay where it is laid, whatever the motion."""
 
+IN_CELLS = "cells of the sample"
+"""What it says as well if the nominal ply stays, and too many plies of the sample do not."""
+
 CRASH = 101
 """Exit code of a program that panics."""
 
@@ -81,7 +84,10 @@ class Plydrape:
         warnings = json.loads(self.run("check", str(scene), "--json").stdout)["warnings"]
         if not may_fold and any(FOLDS in warning for warning in warnings):
             raise RefusedError("an edge folds")
-        if any(SPRINGS_BACK in warning for warning in warnings):
+        springs_back = [warning for warning in warnings if SPRINGS_BACK in warning]
+        if any(IN_CELLS in warning for warning in springs_back):
+            raise RefusedError("springs back in the stiffest cells")
+        if springs_back:
             raise RefusedError("springs back")
 
     def drape(self, scene: Path, ply: Array | None, height: Height) -> Drape:

@@ -251,7 +251,7 @@ pub fn plan(
         return Err(error::diagnostic(refusal));
     }
     let hinders = || {
-        let limits = with_spring_back(&scene, &|| false);
+        let limits = with_spring_back(&scene, !without_errors, &|| false);
         [infeasible(&limits), foreseen(&scene)].concat()
     };
     for sentence in py.detach(hinders) {

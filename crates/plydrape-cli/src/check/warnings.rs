@@ -92,7 +92,7 @@ fn unplanned(scene: &SceneFile, seen: &[Name]) -> Vec<String> {
     if scene.layup.target.is_none() {
         return Vec::new();
     }
-    let mut limits = with_spring_back(scene, &|| false);
+    let mut limits = with_spring_back(scene, true, &|| false);
     limits.retain(|verdict| !seen.contains(&verdict.name));
     let refusal = scene.plan_refusal.iter().map(|refusal| {
         format!("`plydrape plan` refuses this scene: {}; {}", refusal.message, refusal.help)

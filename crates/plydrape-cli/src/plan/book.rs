@@ -84,7 +84,8 @@ pub fn plan(
     outcome::warn(&mesh::warnings(Some(&book.mold), book.mesh.as_ref()));
 
     // limits that no motion can keep end the run, unless it is to plan anyway
-    let found: Vec<Infeasible> = book.plies.iter().filter_map(Infeasible::new).collect();
+    let infeasible = |ply| Infeasible::new(ply, !arguments.without_errors);
+    let found: Vec<Infeasible> = book.plies.iter().filter_map(infeasible).collect();
     if !found.is_empty() {
         let lines = found.iter().map(|ply| format!("ply {}: {}", ply.ply, ply.text()));
         say_infeasible(&lines.collect::<String>(), &found, arguments, quiet)?;
@@ -208,8 +209,8 @@ struct Infeasible<'a> {
 }
 
 impl<'a> Infeasible<'a> {
-    fn new(ply: &'a BookPly) -> Option<Self> {
-        let limits = with_spring_back(&ply.scene, &|| false);
+    fn new(ply: &'a BookPly, sampled: bool) -> Option<Self> {
+        let limits = with_spring_back(&ply.scene, sampled, &|| false);
         (!limits.is_empty()).then_some(Infeasible { ply: &ply.name, limits })
     }
 

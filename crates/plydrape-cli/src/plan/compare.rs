@@ -41,7 +41,7 @@ pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: b
     let (folder, _kept) = place(folder, interrupted, |dir| !dir.join(NAME).exists())?;
     let files = comparison::write_into(folder, &rows)?;
 
-    let found = with_spring_back(scene, &|| interrupt.asked().is_break());
+    let found = with_spring_back(scene, false, &|| interrupt.asked().is_break());
     let mut text = format!("{}\n\n", scene.title);
     if !found.is_empty() {
         text += &format!("{}\n", table::infeasible_limits(&found));

@@ -73,7 +73,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         warn(&foreseen(&scene));
         return compare::run(asked, &scene, &interrupt, quiet);
     }
-    let infeasible = with_spring_back(&scene, &|| interrupt.asked().is_break());
+    let infeasible =
+        with_spring_back(&scene, !arguments.without_errors, &|| interrupt.asked().is_break());
     if !infeasible.is_empty() {
         say_infeasible(&table::infeasible_limits(&infeasible), &infeasible, arguments, quiet)?;
         if !arguments.anyway {

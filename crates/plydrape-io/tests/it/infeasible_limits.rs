@@ -221,16 +221,29 @@ fn an_edge_that_folds_is_foreseen_and_the_length_that_is_proposed_is_not() {
 
 /// A ply of 3 × 3 cups in a usual cell, on a mold that it slides on.
 fn slippery(mold: &str, material: &str) -> Scene {
+    beyond_cups(0.0, mold, material)
+}
+
+/// The same with an edge beyond the cups (mm).
+fn beyond_cups(overhang: f64, mold: &str, material: &str) -> Scene {
     parse(&format!(
-        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [3, 3]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = {material}\n[mold]\n{mold}\n[grippers]\n{START}[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"20 mm\"\n"
+        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [3, 3]\ncell = [\"100 mm\", \"100 mm\"]\noverhang = \"{overhang} mm\"\nmaterial = {material}\n[mold]\n{mold}\n[grippers]\n{START}[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"20 mm\"\n"
     ))
 }
 
 const DOME: &str = "kind = \"sphere\"\nradius = \"0.6 m\"\nposition = [0, 0, \"-0.6 m\"]";
+const CYLINDER: &str = "kind = \"cylinder\"\nradius = \"0.4 m\"\nposition = [0, 0, \"-0.4 m\"]";
 
-/// The height of a ply that springs back (mm); `None` of one that stays.
+/// A ply of a shear stiffness (N/m).
+fn ply(shear: f64) -> String {
+    format!(
+        "{{ name = \"ply\", source = \"a test\", tension = \"1e6 N/m\", mass = \"0.3 kg/m^2\", bending_rigidity_warp = \"2e-5 N m\", bending_rigidity_weft = \"2e-5 N m\", shear_curve = \"{shear} N/m\" }}"
+    )
+}
+
+/// The height of a nominal ply that springs back (mm); `None` of one that stays.
 fn springs_back(scene: &Scene) -> Option<f64> {
-    let found = with_spring_back(scene, &|| false);
+    let found = with_spring_back(scene, false, &|| false);
     assert!(found.iter().all(|verdict| verdict.name == Name::Height), "{found:?}");
     found.first().map(|verdict| verdict.value)
 }
@@ -238,24 +251,46 @@ fn springs_back(scene: &Scene) -> Option<f64> {
 /// What curves in one direction alone is bent and not sheared, so it stays where it is laid; on a dome a ply is sheared, and springs back.
 #[test]
 fn a_ply_springs_back_from_a_dome_and_stays_on_a_cylinder() {
-    let cylinder = "kind = \"cylinder\"\nradius = \"0.4 m\"\nposition = [0, 0, \"-0.4 m\"]";
-    assert_eq!(springs_back(&slippery(cylinder, "\"prepreg_warm\"")), None);
+    assert_eq!(springs_back(&slippery(CYLINDER, "\"prepreg_warm\"")), None);
     assert!(springs_back(&slippery(DOME, "\"prepreg_warm\"")).is_some());
+}
+
+/// An edge beyond the cups is laid like the rest: it lies on a cylinder without stretch, and on a dome it springs back farther.
+#[test]
+fn an_edge_beyond_the_cups_is_laid_too() {
+    let at = |overhang, mold| springs_back(&beyond_cups(overhang, mold, "\"prepreg_warm\""));
+    assert_eq!(at(30.0, CYLINDER), None);
+    let [without, with] = [0.0, 30.0].map(|overhang| at(overhang, DOME).expect("it springs back"));
+    assert!(with > without, "{with} and {without} mm");
 }
 
 /// The remedy that is said is one: a ply so limp stays, and the scene has no limit left that no plan can keep.
 #[test]
 fn a_ply_that_springs_back_stays_with_the_shear_stiffness_that_is_said() {
-    let material = |shear: f64| {
-        format!(
-            "{{ name = \"ply\", source = \"a test\", tension = \"1e6 N/m\", mass = \"0.3 kg/m^2\", bending_rigidity_warp = \"2e-5 N m\", bending_rigidity_weft = \"2e-5 N m\", shear_curve = \"{shear} N/m\" }}"
-        )
-    };
-    let stiff = with_spring_back(&slippery(DOME, &material(40.0)), &|| false);
-    let [verdict] = stiff.as_slice() else { panic!("{stiff:?}") };
+    let stiff = with_spring_back(&slippery(DOME, &ply(40.0)), false, &|| false);
+    let share = said_share(&stiff);
+    assert_eq!(springs_back(&slippery(DOME, &ply(40.0 * share))), None);
+}
+
+/// The share of its shear stiffness with which a ply is said to stay.
+fn said_share(limits: &[Verdict]) -> f64 {
+    let [verdict] = limits else { panic!("{limits:?}") };
     let said = verdict.at.split("would stay with ").nth(1).and_then(|rest| rest.split(' ').next());
-    let share: f64 = said.unwrap_or_else(|| panic!("{verdict:?}")).parse().expect("a share");
-    assert_eq!(springs_back(&slippery(DOME, &material(40.0 * share))), None);
+    said.unwrap_or_else(|| panic!("{verdict:?}")).parse().expect("a share")
+}
+
+/// A ply that stays is refused if its stiffer cells do not, and is not with the share of its stiffness that is said; a plan without errors
+/// does not ask for them.
+#[test]
+fn a_sample_is_refused_if_its_stiffest_plies_spring_back() {
+    let scene = |shear: f64| slippery(DOME, &ply(shear));
+    let limits = |shear: f64| with_spring_back(&scene(shear), true, &|| false);
+    // the stiffest ply that is known to stay
+    let stays = (1..=40).map(f64::from).rfind(|shear| springs_back(&scene(*shear)).is_none());
+    let stays = stays.expect("one that stays");
+    let refused = limits(stays);
+    assert!(refused[0].at.contains("of the 64 cells of the sample"), "{refused:?}");
+    assert_eq!(limits(stays * said_share(&refused)), []);
 }
 
 /// A ply that is as many times heavier as it is stiffer takes the same shape.

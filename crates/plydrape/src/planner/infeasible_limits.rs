@@ -47,12 +47,17 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     out
 }
 
-/// As [`infeasible_limits`], and the height of a ply that springs back whatever the motion; that takes some drapes, and `stop` may end it.
+/// As [`infeasible_limits`], and the height of a ply that springs back whatever the motion, also that of the stiffer plies of the sample that
+/// is to judge the plan if it is `sampled`; that takes some drapes, and `stop` may end it.
 #[must_use]
-pub fn with_spring_back(scene: &Scene, stop: &dyn Fn() -> bool) -> Vec<Verdict> {
+pub fn with_spring_back(
+    scene: &Scene,
+    sampled: bool,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Vec<Verdict> {
     let mut limits = infeasible_limits(scene);
     if limits.is_empty() {
-        limits.extend(spring_back(scene, stop));
+        limits.extend(spring_back(scene, sampled, stop));
     }
     limits
 }

@@ -18,6 +18,16 @@ pub struct Segment {
     pub length: f64,
     /// Width of fabric that it stands for (m).
     pub width: f64,
+    /// Share of that width that is ply: less than 1 where the boundary cuts the cells beside it.
+    pub share: f64,
+}
+
+impl Segment {
+    /// Whether half of its width or more is ply.
+    #[must_use]
+    pub fn is_ply(&self) -> bool {
+        self.share >= 0.5
+    }
 }
 
 /// A cell between four nodes.
@@ -123,6 +133,7 @@ impl Fabric {
                         direction,
                         length,
                         width: *width,
+                        share: 1.0,
                     });
                 }
                 for n in 1..along.len().saturating_sub(1) {
@@ -282,7 +293,7 @@ impl Fabric {
         }
         let within = |segment: &Segment| {
             let width = strips.get(&segment.nodes)? / segment.length;
-            Some(Segment { width, ..*segment })
+            Some(Segment { width, share: width / segment.width, ..*segment })
         };
         self.segments.iter().filter_map(within).collect()
     }
@@ -547,6 +558,32 @@ mod tests {
                 assert!((at[0] - point.place[0]).hypot(at[1] - point.place[1]) < 1e-12);
                 assert!(outline.depth(at).abs() < 1e-9);
             }
+        }
+    }
+
+    /// Yarns that lead across a hole, along a sliver of ply in the cells beside them, are no ply; those that count have their middle on
+    /// the ply.
+    #[test]
+    fn a_yarn_across_a_hole_is_no_ply() {
+        let middle = [0.07, 0.065];
+        let angle = |n: usize| std::f64::consts::TAU * n as f64 / 90.0;
+        for radius in [0.0145, 0.016, 0.02] {
+            let hole = (0..90)
+                .map(|n| [angle(n).cos(), angle(n).sin()].map(|c| radius * c))
+                .collect::<Vec<_>>();
+            let hole = hole.iter().map(|p| [0, 1].map(|n| middle[n] + p[n])).collect();
+            let edge = vec![[0.0, 0.0], [0.14, 0.0], [0.14, 0.13], [0.0, 0.13]];
+            let outline = Outline::new(edge, vec![hole]).unwrap();
+            let lines = [0.14, 0.13].map(|end| lines(vec![0.0, end], 0.01));
+            let fabric = Fabric::cut(lines, &outline, 0.05);
+            let depth = |s: &Segment| {
+                let [a, b] = s.nodes.map(|node| fabric.places[node as usize]);
+                outline.depth([0, 1].map(|n| 0.5 * (a[n] + b[n])))
+            };
+            let (ply, slivers): (Vec<_>, Vec<_>) =
+                fabric.segments.iter().partition(|segment| segment.is_ply());
+            assert!(ply.iter().all(|segment| depth(segment) > -1e-3), "{radius}");
+            assert!(!slivers.is_empty() && slivers.iter().all(|segment| depth(segment) < 3e-3));
         }
     }
 }

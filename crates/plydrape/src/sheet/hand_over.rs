@@ -168,7 +168,9 @@ impl View<'_> {
                 fiber_angle: None,
             }
         };
-        fabric.segments.iter().enumerate().map(line).collect()
+        // what is hardly ply is stretched by the mesh, as yarns that the mesh leads across the edge of a hole
+        let yarns = fabric.segments.iter().enumerate().filter(|(_, segment)| segment.is_ply());
+        yarns.map(line).collect()
     }
 
     fn cells(&self, state: &ClothState, last: bool) -> Vec<CellState> {
