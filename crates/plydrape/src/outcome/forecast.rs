@@ -37,13 +37,13 @@ pub struct Constants {
 pub const CONSTANTS: Constants = Constants {
     even_nodes: 3500.0,
     factorization: 0.8,
-    growth: 0.1,
-    solves: 5.0,
+    growth: 0.13,
+    solves: 6.5,
     real_solves: 2.0,
-    between: 1.3,
-    cell: 0.5,
+    between: 1.39,
+    cell: 0.38,
     whole_cell: 1.25,
-    seconds: 2e-6,
+    seconds: 1e-6,
 };
 
 /// w, the time of a linear system of a sheet with this many nodes, in units of c.

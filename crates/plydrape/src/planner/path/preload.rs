@@ -26,10 +26,16 @@ use crate::scene::Scene;
 use crate::sheet::release::spans_hollow;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
+/// A line between neighboring grippers, and the pull that it bears (N).
+struct Line {
+    pair: Neighbors,
+    most: f64,
+}
+
 /// The preload of a strategy's grippers; none for rigid ones.
 pub struct Preload<'a> {
     scene: &'a Scene,
-    neighbors: Vec<Neighbors>,
+    lines: Vec<Line>,
     targets: &'a [Point],
     /// How far a mount gives along x, y and z (m/N).
     compliance: [f64; 3],
@@ -88,7 +94,7 @@ impl<'a> Preload<'a> {
         let cell = scene.layup.ply.shorter_side();
         Some(Preload {
             scene,
-            neighbors: scene.layup.ply.neighbors(),
+            lines: lines(scene, strategy.pretension),
             targets: &target.grippers,
             compliance: [lateral, lateral, axial],
             pull,
@@ -131,18 +137,36 @@ impl<'a> Preload<'a> {
     /// Pull of its lines on a gripper (N), of which a share `free` is not yet given up; and whether one of them bridges a hollow.
     fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
         let (mut sum, mut over_hollow) = ([0.0; 3], false);
-        let beside = self.neighbors.iter().filter(|pair| pair.grippers.contains(&gripper));
-        for pair in beside {
+        let beside = self.lines.iter().filter(|line| line.pair.grippers.contains(&gripper));
+        for Line { pair, most } in beside {
             let other = pair.grippers[usize::from(pair.grippers[0] == gripper)];
             let way = direction(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
             over_hollow |= hollow;
-            let pull = if pair.border { self.border * self.pull } else { self.pull };
-            let left = if hollow { -self.slack } else { pull * self.kept };
+            let pull = if pair.border { self.border * self.pull } else { self.pull }.min(*most);
+            let left = if hollow { -self.slack.min(*most) } else { pull * self.kept };
             sum = along(sum, pull * free + left * (1.0 - free), way);
         }
         (sum, over_hollow)
     }
+}
+
+/// The lines of a scene. One across the yarns shears the ply instead of pulling it taut, and is pulled no harder than stretches it by
+/// `stretch`: a strip as wide as long, at an angle θ to yarns that do not stretch, bears G L ε/(sin θ cos θ)² at a strain ε.
+fn lines(scene: &Scene, stretch: f64) -> Vec<Line> {
+    let ply = &scene.layup.ply;
+    let slope = ply.material.shear_curve.as_ref().map_or(0.0, |curve| curve.force(0.0).1);
+    let line = |pair: Neighbors| {
+        let [a, b] = pair.grippers.map(|gripper| ply.place(gripper));
+        let [du, dv] = [b[0] - a[0], b[1] - a[1]];
+        let length = du.hypot(dv);
+        let most = match pair.fiber {
+            Some(_) => f64::INFINITY,
+            None => slope * length * stretch * (length * length / (du * dv)).powi(2),
+        };
+        Line { pair, most }
+    };
+    ply.neighbors().into_iter().map(line).collect()
 }
 
 /// Applies the preload to all steps (m) of a motion. The first step stays; the pretension grows in those after it.
