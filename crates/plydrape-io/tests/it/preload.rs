@@ -62,6 +62,35 @@ fn pulls_of_a_flat_array_are_in_balance() {
     assert!(sum.iter().all(|c| c.abs() < 1e-9) && moment.abs() < 1e-9, "{sum:?} {moment}");
 }
 
+/// A line at θ to yarns that do not stretch bears G L ε/(sin θ cos θ)²; a cup in the middle of a border, whose lines along the border are in
+/// balance, is commanded outwards by that over the stiffness of its mount. Along the yarns the pull is that of the strategy.
+#[test]
+fn a_line_across_the_yarns_is_pulled_no_harder_than_it_bears() {
+    let strategy = strategy(0.0, 0.8);
+    let outwards = |warp: f64, shear: f64| {
+        let scene = parse(&format!(
+            "[ply]\nsize = [\"300 mm\", \"200 mm\"]\ngrippers = [4, 3]\ncell = [\"100 mm\", \"100 mm\"]\nwarp = \"{warp} deg\"\n\
+             array = {{ margin = 0 }}\nmaterial = {{ tension = 1e6, mass = 0.3, bending_rigidity_warp = 2e-5, bending_rigidity_weft = 2e-5, shear_curve = {shear} }}\n\
+             [mold]\nkind = \"plane\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"50 mm\"\norigin = \"centered\"\n\
+             stiffness = {{ lateral = \"2 N/mm\", axial = \"5 N/mm\" }}\n\
+             [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 10\n"
+        ));
+        let preload = Preload::new(&scene, &strategy).expect("mounts");
+        let raised: Vec<[f64; 3]> =
+            targets(&scene).iter().map(|[x, y, z]| [*x, *y, z + 0.2]).collect();
+        let n = scene.layup.ply.grid.index([0, 1]);
+        distance(preload.commanded(&raised, 1.0)[n], raised[n])
+    };
+    for (warp, shear) in [(45.0_f64, 20.0), (45.0, 40.0), (-20.0, 20.0)] {
+        let (sin, cos) = warp.to_radians().sin_cos();
+        let bears = shear * 0.1 * strategy.pretension / (sin * cos).powi(2);
+        let found = outwards(warp, shear);
+        assert!((found / (bears / 2e3) - 1.0).abs() < 1e-6, "{warp}: {found} and {bears}");
+    }
+    assert!((outwards(1.0, 40.0) / outwards(0.0, 40.0) - 1.0).abs() < 1e-9);
+    assert!(outwards(0.0, 40.0) > 1e-4);
+}
+
 /// At its place on a flat mold a gripper is commanded lower by what presses its mount with its share of the load, and a mount
 /// that is stiffer by half as much.
 #[test]
