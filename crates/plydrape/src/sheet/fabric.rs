@@ -5,7 +5,7 @@
 //! is there once.
 
 use crate::ply::Outline;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A yarn segment between two neighboring nodes of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -192,11 +192,6 @@ impl Fabric {
         let areas = whole.areas_within(outline, &inside, &kept);
         let segments = whole.segments_within(outline, &kept);
         let widths: HashMap<[u32; 2], f64> = segments.iter().map(|s| (s.nodes, s.width)).collect();
-        let bends = whole.bends.iter().filter_map(|bend| {
-            let [a, b, c] = bend.nodes;
-            let width = widths.get(&[a, b])?.min(*widths.get(&[b, c])?);
-            Some(Bend { width, ..*bend })
-        });
         let cells: Vec<Cell> = (0..inside.len())
             .filter(|n| kept[*n])
             .map(|n| (&whole.cells[n], inside[n]))
@@ -213,6 +208,19 @@ impl Fabric {
         }
         let renumbered = |node: u32| number[node as usize].unwrap_or_default();
         let keep = |n: &usize| number[*n].is_some();
+        // a node beyond the boundary goes on where the ply leads: it would hang down from cells that are hardly ply and shear them
+        let sides: HashSet<[u32; 2]> = cells
+            .iter()
+            .flat_map(|Cell { nodes: [a, b, c, d], .. }| [[*a, *b], [*b, *c], [*d, *c], [*a, *d]])
+            .collect();
+        let leads = |[a, b, c]: [u32; 3]| sides.contains(&[a, b]) && sides.contains(&[b, c]);
+        let bends = whole.bends.iter().filter(|bend| leads(bend.nodes));
+        let bends = bends.map(|bend| {
+            let [a, b, c] = bend.nodes;
+            let width = |ends| widths.get(&ends).copied().unwrap_or_default();
+            let width = width([a, b]).min(width([b, c])).max(least * bend.width);
+            Bend { width, ..*bend }
+        });
         let places: Vec<[f64; 2]> = (0..count).filter(keep).map(|n| whole.places[n]).collect();
         let [low, high] = outline.bounds();
         let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
