@@ -28,6 +28,9 @@ FOLDS = "touch the mold first, and stick short of their places"
 SPRINGS_BACK = "the ply springs back"
 """What `check` says of a ply that does not stay where it is laid, whatever the motion."""
 
+SLIDES = "let go of: the ply slides"
+"""What it says of a ply that does not stay on a slope."""
+
 IN_CELLS = "cells of the sample"
 """What it says as well if the nominal ply stays, and too many plies of the sample do not."""
 
@@ -84,6 +87,8 @@ class Plydrape:
         warnings = json.loads(self.run("check", str(scene), "--json").stdout)["warnings"]
         if not may_fold and any(FOLDS in warning for warning in warnings):
             raise RefusedError("an edge folds")
+        if any(SLIDES in warning for warning in warnings):
+            raise RefusedError("slides")
         springs_back = [warning for warning in warnings if SPRINGS_BACK in warning]
         if any(IN_CELLS in warning for warning in springs_back):
             raise RefusedError("springs back in the stiffest cells")

@@ -55,6 +55,26 @@ fn the_cups_bear_the_weight_of_what_is_cut_out() {
     }
 }
 
+/// Nodes beyond the boundary, as in a hole, hang where the ply around them leads: none is lower than the ply. They would touch a mold
+/// first, and shear the cells that they share with the ply.
+#[test]
+fn no_node_hangs_down_in_a_hole() {
+    for middle in [[0.085, 0.07], [0.082, 0.071], [0.088, 0.066]] {
+        let ply = format!(
+            "grippers = [3, 3]\ncell = [0.1, 0.1]\nsize = [0.24, 0.24]\nholes = [{{ middle = {middle:?}, diameter = 0.032 }}]"
+        );
+        let drape = drape(&parse(&ply, "pad_radius = 0.015\n"));
+        let fabric = &drape.sheet.fabric;
+        let lowest = |inside: bool| {
+            let nodes = drape.last.positions.iter().zip(&fabric.inside);
+            let heights = nodes.filter(|(_, on)| **on == inside).map(|(place, _)| place[2]);
+            heights.fold(f64::INFINITY, f64::min)
+        };
+        // within a fifth of a mesh, which a slope leads down
+        assert!(lowest(false) > lowest(true) - 2e-3, "{} and {}", lowest(false), lowest(true));
+    }
+}
+
 /// A formula is looked at as far as the ply reaches, also of one without a whole array: a level formula is a plane.
 #[test]
 fn a_ply_with_a_cup_off_lies_on_a_formula_as_on_a_plane() {

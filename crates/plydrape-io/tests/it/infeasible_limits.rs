@@ -264,6 +264,24 @@ fn an_edge_beyond_the_cups_is_laid_too() {
     assert!(with > without, "{with} and {without} mm");
 }
 
+/// A ply slides down a ramp of which too much is steeper than its friction holds, tan θ > μ, and stays on one that is nowhere so steep.
+#[test]
+fn a_ply_slides_on_a_slope_steeper_than_its_friction() {
+    let found = |steepest: f64| {
+        let ramp = format!(
+            "kind = \"formula\"\nz = \"{} * tanh(x / 0.15)\"\nposition = [0, 0, -0.1]",
+            0.15 * steepest
+        );
+        with_spring_back(&slippery(&ramp, "\"prepreg_warm\""), false, &|| false)
+    };
+    assert_eq!(found(0.28), []);
+    let slid = found(0.6);
+    let [verdict] = slid.as_slice() else { panic!("{slid:?}") };
+    assert_eq!(verdict.name, Name::Position);
+    let said = "let go of: the ply slides, and would stay if it stuck to the mold";
+    assert!(verdict.at.ends_with(said), "{verdict:?}");
+}
+
 /// The remedy that is said is one: a ply so limp stays, and the scene has no limit left that no plan can keep.
 #[test]
 fn a_ply_that_springs_back_stays_with_the_shear_stiffness_that_is_said() {

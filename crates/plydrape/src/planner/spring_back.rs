@@ -1,4 +1,5 @@
-//! Whether a ply stays where it is laid: what is sheared springs back once its cups have let go, where neither weight nor friction holds it.
+//! Whether a ply stays where it is laid: once its cups have let go, what is sheared springs back, and what lies steep slides, where neither weight
+//! nor friction holds it.
 //!
 //! The ply is laid on its ideal drape, without any motion, and let go of. What rises then rises behind every motion, because a motion can do no
 //! better than to lay each point of the fabric at its place.
@@ -27,7 +28,7 @@ const LIMPER: [f64; 3] = [0.5, 0.25, 0.1];
 /// Share of a mesh of a net that is a rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// The verdict on the height of the ply of a scene if it springs back, so far that no motion mends it, with what would make it stay: the
+/// The verdict on the ply of a scene if it springs back or slides, so far that no motion mends it, with what would make it stay: the
 /// nominal ply, or where the plan is to be `sampled`, so many of the plies of its sample that this cannot be passed.
 pub(super) fn spring_back(
     scene: &Scene,
@@ -129,15 +130,17 @@ impl Ply<'_> {
             true => String::new(),
             false => format!(", and would stay {}", remedies.join(", or ")),
         };
+        let moves = if found.name == Name::Position { "slides" } else { "springs back" };
         let at = format!(
-            "{}, laid without a motion and let go of: the ply springs back{plies}{remedy}",
+            "{}, laid without a motion and let go of: the ply {moves}{plies}{remedy}",
             found.at
         );
         Verdict { at, step: None, ..found }
     }
 }
 
-/// The verdict on the height of the ply of a layup that was laid on its ideal drape, after its cups have let go of it; `None` where that is
+/// The verdict on the height of the ply of a layup that was laid on its ideal drape, after its cups have let go of it, or on its position if it
+/// lies flat and has slid; `None` where that is
 /// not known: without a mold or an ideal drape of all of the ply, or if it does not come to rest soon.
 fn laid(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Verdict> {
     let (mold, target) = (layup.mold.as_ref()?, layup.target.as_ref()?);
@@ -160,8 +163,13 @@ fn laid(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Verdi
     let stop = || stop() || steps.replace(steps.get() + 1) >= MOST_STEPS;
     let beginning = Beginning::Laid(&places);
     let ended = drape_from(&layup, SheetTuning::default(), beginning, &stop, see).ok()?;
-    let height = || judge.verdicts().into_iter().find(|verdict| verdict.name == Name::Height);
-    (ended.status == Status::Converged).then(height)?
+    if ended.status != Status::Converged {
+        return None;
+    }
+    let verdict = |name| judge.verdicts().into_iter().find(|verdict| verdict.name == name);
+    let (height, position) = (verdict(Name::Height)?, verdict(Name::Position));
+    let slid = position.filter(|slid| slid.ratio() > CERTAIN && height.ratio() <= CERTAIN);
+    Some(slid.unwrap_or(height))
 }
 
 /// An ideal drape that goes on beyond its net as far as these fabric points (m), as under an overhang.
