@@ -78,7 +78,7 @@ impl Compared {
         self.taken / self.forecast
     }
 
-    /// Whether it is right within the factor, or to what is shown of it: one of less than a second and a half is "about 1 s".
+    /// Whether it is right within the factor, or to what is shown of it: any time below a second is "less than 1 s".
     fn is_right(&self) -> bool {
         let shown = |seconds| about(Duration::from_secs_f64(seconds));
         (1.0 / FACTOR..=FACTOR).contains(&self.ratio()) || shown(self.forecast) == shown(self.taken)
