@@ -224,7 +224,7 @@ fn slippery(mold: &str, material: &str) -> Scene {
     beyond_cups(0.0, mold, material)
 }
 
-/// The same with an edge beyond the cups (mm).
+/// Such a ply with an edge beyond the cups (mm).
 fn beyond_cups(overhang: f64, mold: &str, material: &str) -> Scene {
     parse(&format!(
         "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [3, 3]\ncell = [\"100 mm\", \"100 mm\"]\noverhang = \"{overhang} mm\"\nmaterial = {material}\n[mold]\n{mold}\n[grippers]\n{START}[target]\nseed = \"middle\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = \"20 mm\"\n"
