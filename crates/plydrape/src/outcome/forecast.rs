@@ -41,7 +41,7 @@ pub const CONSTANTS: Constants = Constants {
     solves: 6.5,
     real_solves: 2.0,
     between: 1.39,
-    cell: 0.38,
+    cell: 0.5,
     whole_cell: 1.25,
     seconds: 1e-6,
 };

@@ -47,8 +47,8 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     out
 }
 
-/// As [`infeasible_limits`], and the height of a ply that springs back whatever the motion, also that of the stiffer plies of the sample that
-/// is to judge the plan if it is `sampled`; that takes some drapes, and `stop` may end it.
+/// As [`infeasible_limits`], and the ply that springs back or slides whatever the motion: the nominal one, or too many of the sample that is
+/// to judge the plan if it is `sampled`; that takes some drapes, and `stop` may end it.
 #[must_use]
 pub fn with_spring_back(
     scene: &Scene,

@@ -27,7 +27,7 @@ use crate::sheet::release::spans_hollow;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// A line between neighboring grippers, and the pull that it bears (N).
-struct Line {
+struct PulledLine {
     pair: Neighbors,
     most: f64,
 }
@@ -35,7 +35,7 @@ struct Line {
 /// The preload of a strategy's grippers; none for rigid ones.
 pub struct Preload<'a> {
     scene: &'a Scene,
-    lines: Vec<Line>,
+    lines: Vec<PulledLine>,
     targets: &'a [Point],
     /// How far a mount gives along x, y and z (m/N).
     compliance: [f64; 3],
@@ -94,7 +94,7 @@ impl<'a> Preload<'a> {
         let cell = scene.layup.ply.shorter_side();
         Some(Preload {
             scene,
-            lines: lines(scene, strategy.pretension),
+            lines: pulled_lines(scene, strategy.pretension),
             targets: &target.grippers,
             compliance: [lateral, lateral, axial],
             pull,
@@ -114,7 +114,7 @@ impl<'a> Preload<'a> {
         let preloaded = |(n, place): (usize, &Point)| {
             let away = distance(*place, self.targets[n]) / cell;
             let free = smooth(away / TUNING.preload.release);
-            let (lines, over_hollow) = self.lines(places, n, free);
+            let (lines, over_hollow) = self.pull_of_lines(places, n, free);
             let pull = lines.map(|c| c * grown);
             // a pad that is pressed down early sticks before its lines have the length that a hollow needs
             let [press, rise] =
@@ -135,10 +135,10 @@ impl<'a> Preload<'a> {
     }
 
     /// Pull of its lines on a gripper (N), of which a share `free` is not yet given up; and whether one of them bridges a hollow.
-    fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
+    fn pull_of_lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
         let (mut sum, mut over_hollow) = ([0.0; 3], false);
         let beside = self.lines.iter().filter(|line| line.pair.grippers.contains(&gripper));
-        for Line { pair, most } in beside {
+        for PulledLine { pair, most } in beside {
             let other = pair.grippers[usize::from(pair.grippers[0] == gripper)];
             let way = direction(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
@@ -153,7 +153,7 @@ impl<'a> Preload<'a> {
 
 /// The lines of a scene. One across the yarns shears the ply instead of pulling it taut, and is pulled no harder than stretches it by
 /// `stretch`: a strip as wide as long, at an angle θ to yarns that do not stretch, bears G L ε/(sin θ cos θ)² at a strain ε.
-fn lines(scene: &Scene, stretch: f64) -> Vec<Line> {
+fn pulled_lines(scene: &Scene, stretch: f64) -> Vec<PulledLine> {
     let ply = &scene.layup.ply;
     let slope = ply.material.shear_curve.as_ref().map_or(0.0, |curve| curve.force(0.0).1);
     let line = |pair: Neighbors| {
@@ -164,7 +164,7 @@ fn lines(scene: &Scene, stretch: f64) -> Vec<Line> {
             Some(_) => f64::INFINITY,
             None => slope * length * stretch * (length * length / (du * dv)).powi(2),
         };
-        Line { pair, most }
+        PulledLine { pair, most }
     };
     ply.neighbors().into_iter().map(line).collect()
 }
