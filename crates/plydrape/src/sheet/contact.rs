@@ -11,6 +11,7 @@ use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::friction::{Anchor, FrictionLaw, penalty};
 use super::pads::Pads;
+use super::rim::Rim;
 use super::system::{System, add};
 use super::tuning::SheetTuning;
 use super::unknowns::Carrier;
@@ -61,10 +62,10 @@ impl Point {
 
     /// Looks for the mold at a place `x` (m); returns how it presses the node, if it does. An anchor that `lasts` holds the node
     /// along the normal instead.
-    fn look(&mut self, mold: &Mold, x: [f64; 3], lasts: bool) -> Option<Press> {
+    fn look(&mut self, mold: Rim, x: [f64; 3], lasts: bool) -> Option<Press> {
         let closest = mold.closest_point(x);
-        let distance = if closest.beyond { f64::INFINITY } else { closest.distance };
-        (self.seen, self.clear) = (x, if closest.beyond { 0.0 } else { distance });
+        let distance = closest.distance;
+        (self.seen, self.clear) = (x, distance);
         // the blended normal of a mesh would leave a node outside that it should bring to the surface
         let press = || Press { distance, normal: mold.distance_gradient(x, &closest) };
         (distance < 0.0 && !lasts).then(press)
@@ -74,7 +75,7 @@ impl Point {
 /// Contact of all nodes that grippers do not hold.
 #[derive(Debug, Clone)]
 pub struct Contact<'a> {
-    mold: &'a Mold,
+    mold: Rim<'a>,
     /// What holds nodes along the mold.
     friction: FrictionLaw,
     /// Distance (m) at which an anchor is lost.
@@ -125,7 +126,7 @@ impl<'a> Contact<'a> {
             _ => Some(point(node, true)),
         });
         Contact {
-            mold,
+            mold: Rim::new(mold, sheet.mesh),
             friction: FrictionLaw::new(sheet, tuning),
             release: tuning.release * sheet.pitch,
             points: points.collect(),
@@ -145,7 +146,7 @@ impl<'a> Contact<'a> {
                 continue;
             }
             let closest = self.mold.closest_point(x[point.node]);
-            if point.rubs && !closest.beyond && closest.distance <= self.release {
+            if point.rubs && closest.distance <= self.release {
                 let pressure = point.pressure(-closest.distance);
                 point.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
                 point.bound = self.friction.bound(pressure, point.area);
@@ -167,7 +168,7 @@ impl<'a> Contact<'a> {
                 .anchor
                 .is_some_and(|anchor| friction.spring(anchor, x, point.area, point.bound).slips);
             let lasts = friction.lasts() && point.anchor.is_some();
-            let press = if point.is_clear(x) { None } else { point.look(mold, x, lasts) };
+            let press = if point.is_clear(x) { None } else { point.look(*mold, x, lasts) };
             *switched |= (press.is_some(), slips) != (point.press.is_some(), point.slips);
             (point.press, point.slips) = (press, slips);
         }
@@ -182,7 +183,7 @@ impl<'a> Contact<'a> {
                 continue;
             }
             let closest = self.mold.closest_point(x);
-            let depth = if closest.beyond { f64::NEG_INFINITY } else { -closest.distance };
+            let depth = -closest.distance;
             point.bound = self.friction.bound(point.pressure(depth), point.area);
             point.anchor = match point.anchor {
                 Some(anchor) if self.friction.lasts() => Some(anchor),
@@ -211,7 +212,7 @@ impl<'a> Contact<'a> {
             if speed * longest > point.clear - distance(at, point.seen) {
                 let closest = self.mold.closest_point(at);
                 point.seen = at;
-                point.clear = if closest.beyond { 0.0 } else { closest.distance };
+                point.clear = closest.distance;
             }
             longest = longest.min(point.clear.max(most) / speed);
         }

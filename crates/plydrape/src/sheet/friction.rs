@@ -5,10 +5,10 @@
 //! bound, linear beyond it.
 
 use super::Sheet;
+use super::rim::Rim;
 use super::tuning::SheetTuning;
 use crate::geometry::vector::{along, dot, norm, sub};
 use crate::layup::Friction;
-use crate::mold::Mold;
 use crate::sheet::matrix3::{IDENTITY, Matrix3, outer, plus, scaled};
 
 /// Where a node touched the mold.
@@ -108,7 +108,7 @@ impl FrictionLaw {
     /// An anchor that follows a node at `x` (m) with its area (m²) so that the force of the spring is within its bound (N).
     pub fn follow(
         &self,
-        mold: &Mold,
+        mold: Rim,
         anchor: Anchor,
         x: [f64; 3],
         area: f64,

@@ -38,6 +38,7 @@ mod raised;
 pub(crate) mod release;
 mod report;
 mod resting;
+mod rim;
 mod shear;
 mod state;
 mod stretch;
