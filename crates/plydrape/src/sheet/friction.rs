@@ -106,14 +106,7 @@ impl FrictionLaw {
     }
 
     /// An anchor that follows a node at `x` (m) with its area (m²) so that the force of the spring is within its bound (N).
-    pub fn follow(
-        &self,
-        mold: Rim,
-        anchor: Anchor,
-        x: [f64; 3],
-        area: f64,
-        bound: f64,
-    ) -> Anchor {
+    pub fn follow(&self, mold: Rim, anchor: Anchor, x: [f64; 3], area: f64, bound: f64) -> Anchor {
         let most = bound / (self.stiffness * area);
         let off = self.offset(anchor, x);
         let size = norm(off);
