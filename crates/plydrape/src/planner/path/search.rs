@@ -99,6 +99,8 @@ struct Search<'a, 'b> {
     /// The best candidates on which was not decided.
     candidates: Vec<Candidate>,
     best: Option<Choice>,
+    /// Families that are draped when those before have led to no plan.
+    later: Vec<Strategy>,
     /// On mounts the front that won the race, or has come farthest in the walk.
     leader: Option<Racer<'a>>,
     /// Lowest score of a ranking by the coarse mesh that was decided on.
@@ -141,6 +143,7 @@ pub fn search(
         shared: &shared,
         candidates: Vec::new(),
         best: None,
+        later: Vec::new(),
         leader: None,
         tried: f64::INFINITY,
         fault: None,
@@ -201,7 +204,7 @@ impl Search<'_, '_> {
                     true => fronts.steepest(shape),
                     false => shape.slope,
                 };
-                let mut families = Strategy::families(scene, steepest);
+                let families = Strategy::families(scene, steepest);
                 // what grippers alone cannot do comes last
                 let excess = |strategy: &Strategy| match goes_on() {
                     true => fronts.excess(*strategy).max(1.0),
@@ -210,16 +213,19 @@ impl Search<'_, '_> {
                 let excess: Vec<f64> = families.par_iter().map(excess).collect();
                 let mut order: Vec<usize> = (0..families.len()).collect();
                 order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
-                families = order.into_iter().map(|n| families[n]).collect();
-                for batch in families.chunks(TUNING.search.batch) {
-                    if self.is_done() || self.left == 0 {
-                        break;
-                    }
-                    let batch = &batch[..batch.len().min(self.left)];
-                    self.drape(batch);
-                    self.decide();
-                }
+                self.later = order.into_iter().map(|n| families[n]).collect();
+                self.drape_families();
             }
+        }
+    }
+
+    /// Drapes families, and decides on promising ones, until those that wait are enough for a race.
+    fn drape_families(&mut self) {
+        while !(self.later.is_empty() || self.left == 0 || self.is_done() || self.can_race()) {
+            let batch = self.later.len().min(TUNING.search.batch).min(self.left);
+            let batch: Vec<Strategy> = self.later.drain(..batch).collect();
+            self.drape(&batch);
+            self.decide();
         }
     }
 
@@ -245,12 +251,21 @@ impl Search<'_, '_> {
             if self.is_accepted() && !self.shared.scene.plan.improve {
                 return;
             }
-            let mesh = lock(&self.shared.ranking).mesh;
-            match mesh {
+            let coarse = lock(&self.shared.ranking).clone();
+            match coarse.mesh {
                 Mesh::Coarse => self.race(),
                 Mesh::Own => self.decide_on_waiting(),
             }
-            return self.walk();
+            self.walk();
+            if !self.later.is_empty() && !self.is_done() {
+                self.rank_with(Ranking { mesh: Mesh::Coarse, ..coarse });
+                self.candidates.clear();
+                self.shared.state.begin("draping more candidates");
+                self.drape_families();
+                self.race();
+                self.walk();
+            }
+            return;
         }
         let coarse = lock(&self.shared.ranking).clone();
         let catenaries = self.shared.scene.layup.settings.model == Model::Catenaries;

@@ -69,6 +69,7 @@ impl<'a> Search<'a, '_> {
         let racer = |candidate: Candidate| shared.racer(candidate.strategy, candidate.positions);
         let mut racers: Vec<Racer> = waiting.into_iter().filter_map(racer).collect();
         let cells: Vec<usize> = (0..TUNING.race.all_cells()).collect();
+        let mut decided = None;
         for (n, batch) in cells.chunks(TUNING.race.cells).enumerate() {
             if self.is_done() {
                 break;
@@ -78,24 +79,38 @@ impl<'a> Search<'a, '_> {
             racers.retain(|racer| !racer.scores.is_empty());
             racers.sort_by(|a, b| a.score().total_cmp(&b.score()));
             // rounds end after 1, 3, 7 batches
-            if (n + 2).is_power_of_two() && racers.len() > TUNING.race.last {
+            let round_ends = (n + 2).is_power_of_two();
+            if round_ends && racers.len() > TUNING.race.last {
                 racers.truncate(racers.len().div_ceil(2));
             }
             if let (Some(best), true) = (racers.first().map(Racer::score), n > 0) {
                 racers.retain(|racer| racer.score() <= TUNING.race.lag * best);
+            }
+            // one that has kept all limits in two rounds may do so in all others
+            let faultless = racers.first().filter(|racer| round_ends && n > 0 && racer.broken == 0);
+            if let (Some(racer), false) = (faultless, self.is_done()) {
+                self.decide_on(racer, &mut decided);
             }
         }
         // those that fail too often are not worth a decision, but for the best
         let promising = |(n, racer): (usize, &Racer<'_>)| {
             (n == 0 || !racer.fails_often()).then(|| racer.candidate())
         };
-        self.candidates = racers.iter().enumerate().filter_map(promising).collect();
+        let promising = racers.iter().enumerate().filter_map(promising);
+        self.candidates = promising.filter(|next| Some(next.strategy) != decided).collect();
         self.leader = racers.into_iter().next();
         self.rank();
         self.decide_on_waiting();
         if self.best.is_none() {
             self.decide_on_best(f64::INFINITY);
         }
+    }
+
+    /// Whether as many wait as race, all of them promising: on mounts they race before others are draped.
+    pub(super) fn can_race(&self) -> bool {
+        let is_promising = |c: &Candidate| c.score <= TUNING.search.promising_on_mounts;
+        let promising = self.candidates.iter().filter(|c| is_promising(c)).count();
+        self.on_mounts() && promising >= TUNING.race.fronts
     }
 
     /// Decides on those that wait, the best first, until one is accepted.
@@ -115,7 +130,7 @@ impl<'a> Search<'a, '_> {
         let start = self.leader.take().or_else(|| self.best.as_ref().and_then(best));
         let Some(mut leader) = start else { return };
         let mut walk = Walk::new(leader.strategy);
-        let mut decided = leader.strategy;
+        let mut decided = Some(leader.strategy);
         'walk: while !self.is_done() && !walk.is_over() {
             // cells that refused a plan count in what follows
             let mut cells: Vec<usize> = (0..TUNING.race.all_cells()).collect();
@@ -153,9 +168,9 @@ impl<'a> Search<'a, '_> {
     }
 
     /// Decides on a racer if it is promising and another one than the last that was decided on.
-    fn decide_on(&mut self, racer: &Racer<'_>, decided: &mut Strategy) {
-        if racer.strategy != *decided {
-            *decided = racer.strategy;
+    fn decide_on(&mut self, racer: &Racer<'_>, decided: &mut Option<Strategy>) {
+        if *decided != Some(racer.strategy) {
+            *decided = Some(racer.strategy);
             self.candidates.push(racer.candidate());
             self.rank();
             self.decide();
