@@ -97,7 +97,7 @@ impl<'a> Search<'a, '_> {
             (n == 0 || !racer.fails_often()).then(|| racer.candidate())
         };
         let promising = racers.iter().enumerate().filter_map(promising);
-        self.candidates = promising.filter(|next| Some(next.strategy) != decided).collect();
+        self.candidates.extend(promising.filter(|next| Some(next.strategy) != decided));
         self.leader = racers.into_iter().next();
         self.rank();
         self.decide_on_waiting();
