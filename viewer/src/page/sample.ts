@@ -11,6 +11,8 @@ import type { Choice, Pointer, State } from "./state";
 const [WIDTH, HEIGHT] = [400, 132];
 /** Room in it for the numbers below, and for the line of the limit above. */
 const [BELOW, ABOVE] = [30, 16];
+/** Room at the left for the number of cells. */
+const COUNT = 56;
 /** Bars of a histogram, about. */
 const BARS = 18;
 /** More of them, and the limit is no border between two. */
@@ -116,8 +118,9 @@ function histogram(sample: SampleData): HTMLElement {
   if (limit !== null) {
     const at = x(limit);
     svg.append(vector("line", { x1: at, x2: at, y1: ABOVE - 2, y2: y(0), class: "limit" }));
+    // beside the number of cells, which stands at the left
     const text = write(
-      at,
+      at < 90 ? Math.max(at, COUNT) : at,
       11,
       `limit ${short(limit)} mm`,
       at > WIDTH - 60 ? "end" : at < 90 ? "start" : "middle",
