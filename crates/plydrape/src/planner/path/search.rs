@@ -251,14 +251,15 @@ impl Search<'_, '_> {
             if self.is_accepted() && !self.shared.scene.plan.improve {
                 return;
             }
-            let coarse = lock(&self.shared.ranking).clone();
-            match coarse.mesh {
+            let first = lock(&self.shared.ranking).clone();
+            match first.mesh {
                 Mesh::Coarse => self.race(),
                 Mesh::Own => self.decide_on_waiting(),
             }
             self.walk();
-            if !self.later.is_empty() && !self.is_done() {
-                self.rank_with(Ranking { mesh: Mesh::Coarse, ..coarse });
+            // families that are left, as long as drapes by the coarse mesh are
+            while !self.later.is_empty() && self.spare > 0 && !self.is_done() {
+                self.rank_with(Ranking { mesh: Mesh::Coarse, ..first.clone() });
                 self.candidates.clear();
                 self.shared.state.begin("draping more candidates");
                 self.drape_families();
