@@ -129,7 +129,7 @@ impl Sheet {
         )
     }
 
-    /// Height of the nodes over the mold (m), shape (states, nodes); nan where there is no mold.
+    /// Height of the nodes over the mold (m), shape (states, nodes); nan where there is no mold, and in the last state at nodes that hang beside it.
     #[getter]
     fn heights(&self, py: Python<'_>) -> PyResult<Array<f64>> {
         self.states(

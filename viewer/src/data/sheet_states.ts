@@ -72,6 +72,11 @@ export class SheetStates {
     return field.on === "cell" ? this.shear.count : this.positions.count;
   }
 
+  /** Whether some of the ply hangs beside the mold in the last picture, where it has no height. */
+  get endsBesideMold(): boolean {
+    return this.height !== null && this.height.at(this.height.steps - 1).includes(UNKNOWN);
+  }
+
   /** Height of a node over the mold (mm). */
   overMold(state: number, node: number): number | null {
     const height = this.height?.at(state)[node] ?? UNKNOWN;

@@ -2,6 +2,7 @@
 
 import { gradient, mapOf, shareOf } from "../data/color_map";
 import { bracketed, full, quantity, short, ticks, ticksOfOrders } from "../data/number";
+import type { Drape } from "../data/drape";
 import type { Motion } from "../data/motion";
 import { USES } from "../scene/forces";
 import { fieldsOf, type Field } from "../data/page_data";
@@ -49,7 +50,7 @@ export function linkLegend(state: State, motion: Motion): void {
     orders.checked = now.orders;
     const given = fieldsOf(motion.data, now.model).find(({ key }) => key === now.color);
     orders.parentElement!.hidden = given === undefined || !hasOrders(given);
-    if (field !== undefined) renew(bar, draw(field));
+    if (field !== undefined) renew(bar, draw(field, grayOf(field, motion.drape(now.model))));
   });
 }
 
@@ -82,7 +83,13 @@ export function beyond(field: Field, value: number): string {
   return value <= field.low ? "≤\u202f" : value >= field.high ? "≥\u202f" : "";
 }
 
-function draw(field: Field): HTMLElement[] {
+/** What is gray in a color mode; null where nothing is. */
+function grayOf(field: Field, drape: Drape): string | null {
+  if (field.key === "landing") return "gray: in the air";
+  return field.key === "over_mold" && drape.sheet?.endsBesideMold === true ? "gray: beside the mold" : null;
+}
+
+function draw(field: Field, gray: string | null): HTMLElement[] {
   const facts = legendOf(field);
   const bar = make("div", { class: "bar" });
   bar.style.setProperty("--map", gradient(mapOf(field)));
@@ -107,7 +114,7 @@ function draw(field: Field): HTMLElement[] {
   const range = make("p", { class: "visually-hidden" });
   range.textContent = `from ${full(field.low)} to ${full(field.high)} ${field.unit}`;
   const parts = [title, scale, range];
-  if (field.key === "landing") parts.push(make("p", { class: "quiet" }, "gray: in the air"));
+  if (gray !== null) parts.push(make("p", { class: "quiet" }, gray));
   if (limit !== null && (limit < field.low || limit > field.high)) {
     parts.push(make("p", { class: "legend-note" }, `limit ${short(limit)}`));
   }

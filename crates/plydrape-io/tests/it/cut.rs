@@ -1,6 +1,7 @@
 //! Plies as they are cut: outlines, holes, overhang, cups that hold or not, and arrays at any angle to the yarns.
 
 use crate::common::{self, distance, drape_sheet};
+use plydrape::measure::Name;
 use plydrape::ply::Grid;
 use plydrape::scene::Scene;
 use plydrape::sheet::{self, Sheet, Status};
@@ -89,6 +90,31 @@ fn a_ply_is_drawn_over_the_border_of_its_mold() {
     for (place, at) in drape.sheet.fabric.places.iter().zip(&drape.last.positions) {
         let off = distance([place[0], place[1], 0.0], *at);
         assert!(off < 1e-3, "{place:?} lies at {at:?}, {off} m off");
+    }
+}
+
+/// 43 mm of a ply hang over the border of a level mold in the end and bend steeply there. Heights, angles out of plane and depths in the mold
+/// are those of what lies on it, and what hangs beside it has no height in the states that are kept.
+#[test]
+fn what_bends_over_the_border_of_its_mold_is_not_judged() {
+    let scene = common::parse(
+        "[ply]\ngrippers = [3, 2]\ncell = [0.1, 0.1]\nsize = [0.25, 0.1]\narray = { middle = [0.15, 0.05] }\n\
+         material = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.04\norigin = \"centered\"\n\
+         [mold]\nkind = \"formula\"\nz = \"0*x\"\nx = [-0.007, 0.3]\ny = [-0.06, 0.2]\n[contact]\nfriction = 0.3\n\
+         [target]\nseed = [0.05, 0]\norigin = [0, 0]\n[motion]\nkind = \"straight\"\nsteps = 10\n",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let result = common::decided(&scene, folder.path());
+    let limits = &result.summary.limits;
+    for name in [Name::Height, Name::OutOfPlane, Name::Penetration] {
+        let found = limits.iter().find(|limit| limit.name == name).expect("it is judged");
+        assert!(found.ok, "{name:?}: {} at {}", found.value, found.at);
+    }
+    let mut states = result.sheet_states.as_ref().expect("a sheet").open().unwrap();
+    let end = states.state(states.states() - 1).unwrap().expect("a last state");
+    assert!(end.positions.iter().any(|x| x[2] < -0.015), "it hangs beside the mold");
+    for (place, height) in end.positions.iter().zip(end.height.iter()) {
+        assert_eq!(place[0] < -0.007, height.is_nan(), "{place:?}: {height}");
     }
 }
 

@@ -39,8 +39,14 @@ impl HandOver {
         let view = View { layup, sheet, turned: &self.turned };
         let normals = normals(&sheet.fabric, &state.positions);
         let grippers = view.grippers(state);
-        let (points, lines) = (view.points(state, &normals, last), view.lines(state));
-        let cells = view.cells(state, last);
+        // what lies off the mold has no height and no angle to it; that is asked at the end, where it counts
+        let mold = sheet.mold.as_ref().filter(|_| last);
+        let beside: Vec<bool> = match mold {
+            Some(mold) => state.positions.iter().map(|x| mold.closest_point(*x).beyond).collect(),
+            None => vec![false; state.positions.len()],
+        };
+        let (points, lines) = (view.points(state, &normals, &beside, last), view.lines(state));
+        let cells = view.cells(state, &beside, last);
         self.turned = grippers.iter().map(|gripper| gripper.quaternion).collect();
         PlyState {
             model: Model::Sheet,
@@ -69,6 +75,7 @@ impl View<'_> {
         &self,
         state: &ClothState,
         normals: &[Option<Point>],
+        beside: &[bool],
         last: bool,
     ) -> Vec<FabricPoint> {
         let (fabric, mold) = (&self.sheet.fabric, self.sheet.mold.as_ref());
@@ -80,13 +87,11 @@ impl View<'_> {
                 let (uv, place) = (fabric.places[node], state.positions[node]);
                 let distance = state.heights.get(node).copied();
                 let lies = distance.is_some_and(|height| height <= tolerance);
-                // what lies off the mold has no height; that is asked at the end, where it counts
-                let off = last && mold.is_some_and(|mold| mold.closest_point(place).beyond);
                 FabricPoint {
                     site: Site::Fabric(uv),
                     place,
                     normal: normals[node],
-                    height: distance.filter(|_| !off),
+                    height: distance.filter(|_| !beside[node]),
                     lies,
                     area: fabric.areas[node],
                     error: (last && lies).then(|| error(mold?, ideal?, uv, place)).flatten(),
@@ -143,7 +148,10 @@ impl View<'_> {
                 length * norm(sub(normals[a], normals[b])) / 8.0
             };
             let depth = -closest.distance - sagitta(0, 2).max(sagitta(1, 3));
-            (depth > 0.0).then(|| (middle(nodes.map(|n| fabric.places[n])), place, depth))
+            // a cell that bends over the border of the mold cuts its corner
+            let cuts = || nodes.iter().any(|n| mold.closest_point(state.positions[*n]).beyond);
+            (depth > 0.0 && !cuts())
+                .then(|| (middle(nodes.map(|n| fabric.places[n])), place, depth))
         })
     }
 
@@ -173,17 +181,19 @@ impl View<'_> {
         yarns.map(line).collect()
     }
 
-    fn cells(&self, state: &ClothState, last: bool) -> Vec<CellState> {
+    /// The cells of the ply; at the end with directions, but for those that bend over the border of the mold: nodes of them hang `beside` it.
+    fn cells(&self, state: &ClothState, beside: &[bool], last: bool) -> Vec<CellState> {
         let fabric = &self.sheet.fabric;
         let cells = fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
         let cell = |(cell, shear): (&super::fabric::Cell, &f64)| {
             let corners = cell.nodes.map(|n| state.positions[n as usize]);
             let uv = middle(cell.nodes.map(|n| fabric.places[n as usize]));
+            let lies_over = last && cell.nodes.iter().all(|n| !beside[*n as usize]);
             CellState {
                 site: Site::Fabric(uv),
                 place: middle(corners),
                 shear: shear.abs(),
-                directions: last.then(|| Some((mid_lines(corners)?, uv))).flatten(),
+                directions: lies_over.then(|| Some((mid_lines(corners)?, uv))).flatten(),
                 landing_error: None,
             }
         };

@@ -5,6 +5,7 @@ use super::{SheetFile, SheetMesh, SheetState};
 use crate::Error;
 use crate::store::size;
 use plydrape::layup::Model;
+use plydrape::mold::Mold;
 use plydrape::outcome::{self, Drape, DrapeWatch, DrapedSheet, Step, Summary};
 use plydrape::scene::Scene;
 use plydrape::sheet::fabric::Cell;
@@ -105,14 +106,27 @@ fn kept(drape: Drape, releases: bool, dir: &Path) -> Result<KeptDrape, Error> {
         // where the drape ended early, its end is kept too
         let end = states.last().is_none_or(|last| last.step != drape.last.step);
         let states = states.iter().chain(end.then_some(&drape.last));
-        let states: Vec<_> =
+        let mut states: Vec<_> =
             states.map(|state| kept_state(state, &drape.sheet.fabric, releases)).collect();
+        if let (Some(mold), Some(end)) = (&drape.sheet.mold, states.last_mut()) {
+            leave_out_beside(mold, end);
+        }
         let landed = drape.landing_step.iter().map(|step| step.map_or(0, |n| n as u32));
         let landed: Vec<u32> = landed.collect();
         SheetFile::new(dir, &mesh(&drape.sheet, releases), &landed, &states).map(SheetKept::made)
     };
     let states = sheet.map(file).transpose()?;
     Ok(KeptDrape { summary, steps, states, solving })
+}
+
+/// Takes the heights of nodes beside the mold out of the state at the end: they are not judged.
+fn leave_out_beside(mold: &Mold, end: &mut SheetState) {
+    let beside = |place: &[f64; 3]| mold.closest_point(*place).beyond;
+    for (height, place) in end.height.to_mut().iter_mut().zip(end.positions.iter()) {
+        if beside(place) {
+            *height = f64::NAN;
+        }
+    }
 }
 
 /// What is the same in all states of a sheet; with `releases` these say which pads hold.
