@@ -2538,7 +2538,7 @@ class Sheet:
     @property
     def heights(self, /) -> NDArray[float64]:
         """
-        Height of the nodes over the mold (m), shape (states, nodes); nan where there is no mold.
+        Height of the nodes over the mold (m), shape (states, nodes); nan where there is no mold, and in the last state at nodes that hang beside it.
         """
     @property
     def landing_step(self, /) -> NDArray[int64]:
