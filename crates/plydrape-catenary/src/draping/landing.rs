@@ -17,9 +17,9 @@ pub struct Landing {
     pub fiber_angle: Option<(f64, Point)>,
 }
 
-/// Fabric coordinates (u, v) (m) of a catenary at a share of its length from its first gripper.
+/// The fabric point (m) that a catenary has at a share of its length from its first gripper.
 pub(crate) fn fabric(layup: &Layup, catenary: usize, share: f64) -> [f64; 2] {
-    layup.ply.lines().point(catenary, share)
+    layup.ply.held_point(layup.ply.lines().point(catenary, share))
 }
 
 /// Compares a contact segment with the ideal drape; `None` if that is not known.

@@ -26,7 +26,7 @@ use crate::store::size;
 use plydrape::layup::{Layup, Target};
 use plydrape::mold::{MeshReport, Mold};
 use plydrape::motion::Motion;
-use plydrape::ply::{Direction, FoundLines, Grid, Ply};
+use plydrape::ply::{Direction, FoundLines, Grid, PickUpError, Ply};
 use plydrape::scene::{Cell, Scene};
 use plydrape::tool::Tool;
 use std::ops::Range;
@@ -205,7 +205,8 @@ pub(super) fn ply(
         let cut::Shape { grid, cell, warp, cut, array: cups, drawn } =
             cut::shape(ply, radius, document)?;
         let (cut, found) = (Some(cut), FoundLines::default());
-        let ply = Ply { grid, cell, material, warp, length_factor: 1.0, cut, found };
+        let (length_factor, pick_up_error) = (1.0, PickUpError::default());
+        let ply = Ply { grid, cell, material, warp, length_factor, pick_up_error, cut, found };
         return Ok((ply, CutRead { cups, drawn }));
     }
     let Some(cell) = &table.cell else { return Err(missing("cell", ply, document)) };
@@ -226,6 +227,7 @@ pub(super) fn ply(
         material,
         warp,
         length_factor: 1.0,
+        pick_up_error: PickUpError::default(),
         cut: None,
         found: FoundLines::default(),
     };

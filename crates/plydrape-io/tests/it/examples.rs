@@ -1,9 +1,11 @@
 //! The examples on curved molds: their targets and headline numbers against closed forms, symmetry and an
 //! earlier trial of the model.
 
-use crate::common::{distance, drape, example, examples, lines};
+use crate::common::{distance, drape, drape_sheet, example, examples, lines};
 use plydrape::draping::record::Hold;
+use plydrape::errors::Errors;
 use plydrape::layup::Target;
+use plydrape::measure::Name;
 use plydrape::mold::{Graph, Mold, Pose, Surface};
 use plydrape::net::Net;
 use plydrape::ply::Kind;
@@ -181,4 +183,19 @@ fn the_blade_mold_takes_a_whole_ply() {
     assert_eq!(net.placement.nodes, [61, 51]);
     assert!(net.missing.is_empty() && net.report.largest_edge_error < 1e-9);
     straight_paths_leave_wrinkles(&scene, 1e-12);
+}
+
+/// A ply that was picked up 0.5 mm off its place lies off by as much on a dome, and as high over it as one that was not.
+#[test]
+fn a_ply_that_was_picked_up_aside_lies_aside() {
+    let mut scene = example("04_dome");
+    scene.layup.settings.sheet.mesh = Some(0.02);
+    let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
+    draw.pick_up.offset = [3e-4, -4e-4];
+    let aside = Scene { layup: draw.apply(&scene.layup), ..scene.clone() };
+    let [as_planned, aside] = [scene, aside].map(|scene| drape_sheet(&scene).summary.last);
+    assert_eq!(as_planned.value(Name::Height), aside.value(Name::Height));
+    let [before, after] =
+        [&as_planned, &aside].map(|last| last.value(Name::Position).expect("it is judged"));
+    assert!(after > before + 0.1 && after <= before + 0.51, "{before} {after}");
 }

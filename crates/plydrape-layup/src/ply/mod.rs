@@ -5,6 +5,7 @@ mod contact_segment;
 mod cut;
 mod flat;
 mod grid;
+mod held_off;
 mod lines;
 mod outline;
 mod places;
@@ -17,6 +18,7 @@ pub use contact_segment::{ContactSegment, LandedCell};
 pub use cut::{Cut, Held, Neighbors, Shares, directions, orientations, tangent_shares, tangents};
 pub use flat::flat_axes;
 pub use grid::{Catenary, Grid, Kind};
+pub use held_off::PickUpError;
 pub use lines::{BiasLines, Fibers, FoundLines, LineCell, Lines};
 pub use outline::{Outline, Ring};
 pub use places::{FARTHEST, STEEPEST, is_near};
@@ -44,6 +46,9 @@ pub struct Ply {
     /// unless an error of the length is examined. Fabric coordinates are those of the nominal ply all the same.
     #[cfg_attr(feature = "serde", serde(default = "nominal", skip_serializing_if = "is_nominal"))]
     pub length_factor: f64,
+    /// How far the grippers hold it off its place: not at all, unless an error of the pick-up is examined.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "PickUpError::is_none"))]
+    pub pick_up_error: PickUpError,
     /// How it is cut and where it is held; none for a rectangle with a gripper at every node of its grid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub cut: Option<Cut>,
@@ -81,7 +86,8 @@ impl Ply {
     #[must_use]
     pub fn of_array(grid: Grid, cell: [f64; 2], material: Material) -> Self {
         let (warp, found) = (Direction::U, FoundLines::default());
-        Ply { grid, cell, material, warp, length_factor: 1.0, cut: None, found }
+        let pick_up_error = PickUpError::default();
+        Ply { grid, cell, material, warp, length_factor: 1.0, pick_up_error, cut: None, found }
     }
 
     /// Length of the fabric along the sides of a cell (m): those of [`Self::cell`] times [`Self::length_factor`].

@@ -1,25 +1,25 @@
 //! The layup of one real cell.
 //!
-//! The commanded motion p_i(t) of gripper i becomes the motion of the fabric point that the layup calls the gripper's, in this order:
+//! The commanded motion p_i(t) of gripper i becomes its real one in this order:
 //!
 //! 1. gripper: p + a_i + s_i (p(t) − p(0)), the shift a_i and the shares s_i along the axes;
 //! 2. tool frame: turned about the mean of all grippers of the step, then shifted;
-//! 3. mold: moved by the inverse of the mold's motion about the middle of the target;
-//! 4. pick-up: less δ_u e_u + δ_v e_v, because the gripper holds the fabric point δ away from where it should. δ is the offset, and
-//!    the yaw times the distance from the middle of the array at a right angle. e_u and e_v are the unit chords between neighbors.
+//! 3. mold: moved by the inverse of the mold's motion about the middle of the target.
+//!
+//! An error of the pick-up moves no gripper: other fabric is where the layup's points are ([`Ply::held_point`]).
 //!
 //! The motion is moved and not the mold, because the ideal drape belongs to the mold: positions are judged against it
 //! where the mold really is. Seen from the mold, gravity would be inclined by the mold's tilt; that is neglected, because it
 //! changes the weight across the ply by the square of the tilt and puts a share of the weight along it that is as
 //! small as the tilt. Limits stay as they are, those of the workspace too.
 
-use super::draw::{Draw, MaterialError, PickUpError, RelativeError, RigidError};
+use super::draw::{Draw, MaterialError, RelativeError, RigidError};
 use crate::geometry::vector::{along, between, sub, turned};
 use crate::layup::{Layup, Release};
 use crate::material::{Material, Section};
 use crate::mold::{Mold, Raised};
 use crate::motion::Motion;
-use crate::ply::{Ply, tangents};
+use crate::ply::Ply;
 use crate::sheet::release::times;
 use crate::tool::Tool;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl Draw {
     fn ply(&self, ply: &Ply) -> Ply {
         let material = self.material.apply(&ply.material);
         let length_factor = ply.length_factor * (1.0 + self.material.length).max(LEAST_SHARE);
-        Ply { material, length_factor, ..ply.clone() }
+        Ply { material, length_factor, pick_up_error: self.pick_up, ..ply.clone() }
     }
 
     fn mold(&self, mold: &Mold) -> Mold {
@@ -84,7 +84,6 @@ impl Draw {
             }
             self.frame.apply(&mut at);
             self.mold.motion.inverse(&mut at, middle);
-            self.pick_up.apply(&layup.ply, &mut at);
             step.iter().zip(at).map(|(nominal, at)| between(*nominal, at, acting(k))).collect()
         };
         Motion { times: times.clone(), positions: positions.iter().enumerate().map(real).collect() }
@@ -123,26 +122,6 @@ impl RigidError {
         for p in points {
             let q = [0, 1, 2].map(|n| p[n] - self.shift[n] - middle[n]);
             *p = along(middle, 1.0, turned(back, q));
-        }
-    }
-}
-
-impl PickUpError {
-    /// Moves the fabric points that the grippers should hold, off the grippers at `points` (m).
-    fn apply(&self, ply: &Ply, points: &mut [[f64; 3]]) {
-        if *self == PickUpError::default() {
-            return;
-        }
-        let [low, high] = ply.held_bounds();
-        let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
-        let neighbors = ply.neighbors();
-        let at = points.to_vec();
-        for (n, p) in points.iter_mut().enumerate() {
-            let place = ply.place(n);
-            let off = [0, 1].map(|axis| place[axis] - middle[axis]);
-            let delta = [self.offset[0] - self.yaw * off[1], self.offset[1] + self.yaw * off[0]];
-            let [u, v] = tangents(ply, &neighbors, &at, n);
-            *p = along(along(*p, -delta[0], u), -delta[1], v);
         }
     }
 }

@@ -6,6 +6,7 @@
 
 use super::{Errors, Term};
 use crate::mold::Waves;
+use crate::ply::PickUpError;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Standard, StandardNormal};
@@ -45,16 +46,6 @@ pub struct GripperError {
     pub position: [f64; 3],
     /// Shift along each axis as a share of the way gone along it since the start.
     pub stroke: [f64; 3],
-}
-
-/// The error of where the grippers hold the ply.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct PickUpError {
-    /// Shift of the array over the fabric along u and v (m).
-    pub offset: [f64; 2],
-    /// Turn of the array on the fabric about its middle, from u to v (rad).
-    pub yaw: f64,
 }
 
 /// The error of the ply.

@@ -20,9 +20,8 @@ mod term;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use draw::{
-    Draw, GripperError, MaterialError, MoldError, PickUpError, RelativeError, RigidError,
-};
+pub use crate::ply::PickUpError;
+pub use draw::{Draw, GripperError, MaterialError, MoldError, RelativeError, RigidError};
 pub use term::Term;
 
 /// How far a real cell may be from its scene.

@@ -38,10 +38,14 @@ impl Measure for FiberAngle {
         // cells against the ideal drape
         let ideal = seen.layup.target.as_ref().and_then(|target| target.drape.as_deref());
         if let (Some(mold), Some(ideal)) = (&seen.layup.mold, ideal) {
+            let ply = &seen.layup.ply;
             for cell in &seen.state.cells {
                 let Some((_, uv)) = cell.directions else { continue };
                 let Some(parts) = parts(cell, mold) else { continue };
-                let Some(fibers) = ideal.fibers(mold, uv) else { continue };
+                let fibers = ideal.fibers(mold, ply.held_point(uv));
+                let Some(fibers) = fibers.and_then(|fibers| ply.held_fibers(fibers)) else {
+                    continue;
+                };
                 for ((_, flat), fiber) in parts.into_iter().zip(fibers) {
                     // a fiber that stands upright has no direction along the mold
                     let Some(flat) = unit(flat) else { continue };
@@ -59,12 +63,11 @@ mod tests {
     use super::super::{Limits, Name, sample};
     use super::*;
     use crate::net::{self, EdgeRule, Generators, Net};
+    use crate::ply::PickUpError;
     use std::sync::Arc;
 
-    /// The ideal drape on a flat mold runs along x turned by 10°: a cell along x is off by 10°, however steep it stands, and one
-    /// that is turned by 14° by 4°. A landed line counts with the angle that the model gives it.
-    #[test]
-    fn fibers_are_compared_along_the_mold() {
+    /// A flat layup whose ideal drape runs along x turned by 10°.
+    fn turned_by_ten() -> Layup {
         let mut layup = sample::layup();
         let net = net::Placement {
             nodes: [11; 2],
@@ -79,6 +82,14 @@ mod tests {
         };
         let net = Net::drape(layup.mold.as_ref().unwrap(), net).unwrap();
         layup.target.as_mut().unwrap().drape = Some(Arc::new(net));
+        layup
+    }
+
+    /// A cell along x is off the ideal drape by 10°, however steep it stands, and one that is turned by 14° by 4°. A landed line counts with the
+    /// angle that the model gives it.
+    #[test]
+    fn fibers_are_compared_along_the_mold() {
+        let layup = turned_by_ten();
         let limits = Limits::usual(&layup);
         let mut state = sample::state(&layup);
         let turned = |heading: f64, rise: f64| {
@@ -96,5 +107,20 @@ mod tests {
         assert!((angle(0.0, 30.0, None) - 10.0).abs() < 1e-9);
         assert!((angle(14.0, 0.0, None) - 4.0).abs() < 1e-9);
         assert!((angle(14.0, 0.0, Some(6.0)) - 6.0).abs() < 1e-9);
+    }
+
+    /// An array that was turned on the ply by an angle has yarns across its lines that should run farther on by that angle.
+    #[test]
+    fn a_ply_that_is_held_turned_has_its_fibers_off_by_that_angle() {
+        let mut layup = turned_by_ten();
+        let yaw = 0.5_f64.to_radians().tan();
+        layup.ply.pick_up_error = PickUpError { offset: [1e-3, 0.0], yaw };
+        let limits = Limits::usual(&layup);
+        let mut state = sample::state(&layup);
+        state.cells[0].directions = Some(([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [0.03, 0.04]));
+        state.lines[0].fiber_angle = None;
+        let seen = Observation { layup: &layup, limits: &limits, state: &state, past: None };
+        let found = Name::FiberAngle.measure().evaluate(&seen).unwrap().value;
+        assert!((found - 10.5).abs() < 1e-9, "{found}");
     }
 }

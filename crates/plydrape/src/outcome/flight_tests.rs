@@ -47,6 +47,17 @@ fn a_cell_ends_the_same_from_the_flight_on_as_from_its_start() {
     }
 }
 
+/// Fabric is the same everywhere: a ply that is held aside drapes as it would have, to the last bit.
+#[test]
+fn a_ply_that_is_held_aside_is_as_flat() {
+    let scene = sheet();
+    let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
+    draw.pick_up.offset = [3e-4, -4e-4];
+    let [as_planned, aside] = [scene.clone(), cell(&scene, draw)]
+        .map(|scene| Flight::judge(None, &scene.layup, &scene.limits, NEVER).expect("a sheet"));
+    assert_eq!(as_planned.limits, aside.limits);
+}
+
 /// A cell whose ply would touch the mold where the flight ends is draped from its start, with the very same numbers.
 #[test]
 fn a_cell_that_touches_too_early_is_draped_from_its_start() {

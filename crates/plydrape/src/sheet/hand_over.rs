@@ -80,6 +80,7 @@ impl View<'_> {
     ) -> Vec<FabricPoint> {
         let (fabric, mold) = (&self.sheet.fabric, self.sheet.mold.as_ref());
         let ideal = self.layup.target.as_ref().and_then(|target| target.drape.as_deref());
+        let ply = &self.layup.ply;
         let tolerance = self.layup.settings.contact.tolerance;
         let inside = (0..fabric.places.len()).filter(|node| fabric.inside[*node]);
         let mut points: Vec<FabricPoint> = inside
@@ -94,7 +95,9 @@ impl View<'_> {
                     height: distance.filter(|_| !beside[node]),
                     lies,
                     area: fabric.areas[node],
-                    error: (last && lies).then(|| error(mold?, ideal?, uv, place)).flatten(),
+                    error: (last && lies)
+                        .then(|| error(mold?, ideal?, ply.held_point(uv), place))
+                        .flatten(),
                 }
             })
             .collect();

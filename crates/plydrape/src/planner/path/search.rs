@@ -28,7 +28,6 @@ use cmaes::{CMAESOptions, DVector};
 use on_mounts::Racer;
 use rayon::prelude::*;
 use std::cmp::Ordering;
-use std::collections::VecDeque;
 use std::sync::Mutex;
 
 /// A strategy and the score of the drape that it leads to.
@@ -102,8 +101,8 @@ struct Search<'a, 'b> {
     best: Option<Choice>,
     /// Families that are draped when those before have led to no plan.
     later: Vec<Strategy>,
-    /// On mounts the fronts from which to walk, best first: those that came to the end of the race, the first as far as it has come.
-    leaders: VecDeque<Racer<'a>>,
+    /// On mounts the front that won the race, or has come farthest in the walk.
+    leader: Option<Racer<'a>>,
     /// Lowest score of a ranking by the coarse mesh that was decided on.
     tried: f64,
     /// The first that could not become a motion.
@@ -145,7 +144,7 @@ pub fn search(
         candidates: Vec::new(),
         best: None,
         later: Vec::new(),
-        leaders: VecDeque::new(),
+        leader: None,
         tried: f64::INFINITY,
         fault: None,
         idle: 0,

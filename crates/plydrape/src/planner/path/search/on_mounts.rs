@@ -98,7 +98,7 @@ impl<'a> Search<'a, '_> {
         };
         let promising = racers.iter().enumerate().filter_map(promising);
         self.candidates.extend(promising.filter(|next| Some(next.strategy) != decided));
-        self.leaders = racers.into();
+        self.leader = racers.into_iter().next();
         self.rank();
         self.decide_on_waiting();
         if self.best.is_none() {
@@ -122,24 +122,13 @@ impl<'a> Search<'a, '_> {
         }
     }
 
-    /// Walks downhill from the front that won the race, then from each that came to its end, or else from the best that was decided on.
+    /// A walk downhill from the front that won the race, or else from the best that was decided on.
     pub(super) fn walk(&mut self) {
         let shared = self.shared;
         shared.state.begin("improving the best step by step");
-        if self.leaders.is_empty() {
-            let best = |best: &Choice| shared.racer(best.strategy, best.positions.clone());
-            self.leaders.extend(self.best.as_ref().and_then(best));
-        }
-        while !self.is_done()
-            && let Some(leader) = self.leaders.pop_front()
-        {
-            self.walk_from(leader);
-        }
-    }
-
-    /// Walks downhill from a front until its steps have become too short, or the search is done: it goes on there if it goes on at all.
-    fn walk_from(&mut self, mut leader: Racer<'a>) {
-        let shared = self.shared;
+        let best = |best: &Choice| shared.racer(best.strategy, best.positions.clone());
+        let start = self.leader.take().or_else(|| self.best.as_ref().and_then(best));
+        let Some(mut leader) = start else { return };
         let mut walk = Walk::new(leader.strategy);
         let mut decided = Some(leader.strategy);
         'walk: while !self.is_done() && !walk.is_over() {
@@ -175,9 +164,7 @@ impl<'a> Search<'a, '_> {
             self.decide_on(&leader, &mut decided);
         }
         self.decide_on(&leader, &mut decided);
-        if !walk.is_over() {
-            self.leaders.push_front(leader);
-        }
+        self.leader = Some(leader);
     }
 
     /// Decides on a racer if it is promising and another one than the last that was decided on.
