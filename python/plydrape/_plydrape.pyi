@@ -2419,8 +2419,9 @@ class Scene:
         """
         The scene of one real cell: the same commands, with every error that `draw` gives for the sample.
 
-        It has no `errors` of its own any more, and no `text`, as no scene file says it. Positions are those of the
-        fabric points that the scene calls the grippers'.
+        It has no `errors` of its own any more, and no `text`, as no scene file says it. An error of the
+        pick-up moves no gripper: the ply is as flat as it would have been, and its `position` and `fiber_angle` are
+        those of the fabric that is there instead.
 
         Parameters
         ----------
