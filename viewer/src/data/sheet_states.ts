@@ -74,7 +74,7 @@ export class SheetStates {
 
   /** Whether some of the ply hangs beside the mold in the last picture, where it has no height. */
   get endsBesideMold(): boolean {
-    return this.height !== null && this.height.at(this.height.steps - 1).includes(UNKNOWN);
+    return this.height?.at(this.height.steps - 1).includes(UNKNOWN) ?? false;
   }
 
   /** Height of a node over the mold (mm). */
