@@ -17,9 +17,9 @@ pub struct Landing {
     pub fiber_angle: Option<(f64, Point)>,
 }
 
-/// The fabric point (m) that a catenary has at a share of its length from its first gripper.
+/// Fabric coordinates (u, v) (m) of a catenary at a share of its length from its first gripper.
 pub(crate) fn fabric(layup: &Layup, catenary: usize, share: f64) -> [f64; 2] {
-    layup.ply.held_point(layup.ply.lines().point(catenary, share))
+    layup.ply.lines().point(catenary, share)
 }
 
 /// Compares a contact segment with the ideal drape; `None` if that is not known.
@@ -27,7 +27,7 @@ pub fn landing(layup: &Layup, catenary: usize, contact: &ContactSegment) -> Opti
     let (mold, drape) = (layup.mold.as_ref()?, layup.target.as_ref()?.drape.as_ref()?);
     let line = &contact.line;
     let fabric_at = |arc: f64| fabric(layup, catenary, arc / contact.length);
-    let place = |arc: f64| drape.place(mold, fabric_at(arc));
+    let place = |arc: f64| drape.held_place(mold, &layup.ply, fabric_at(arc));
     let errors = line
         .arc
         .iter()

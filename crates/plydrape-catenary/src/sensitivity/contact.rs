@@ -34,7 +34,8 @@ impl Sensitivity<'_> {
         let whole =
             self.contacts[span.catenary].as_ref().map_or(span.length, |contact| contact.length);
         let share = (span.start + share * span.length) / whole;
-        target.drape.as_ref()?.place(mold, fabric(self.layup, span.catenary, share))
+        let at = fabric(self.layup, span.catenary, share);
+        target.drape.as_ref()?.held_place(mold, &self.layup.ply, at)
     }
 
     /// Position error (m): from the ideal place of a span's fabric at a share of its length to where it is; its x and

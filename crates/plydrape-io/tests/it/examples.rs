@@ -193,6 +193,15 @@ fn a_ply_that_was_picked_up_aside_lies_aside() {
     let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
     draw.pick_up.offset = [3e-4, -4e-4];
     let aside = Scene { layup: draw.apply(&scene.layup), ..scene.clone() };
+    // to the corners of the ply
+    let (_, net, mold) = target(&scene);
+    for corner in [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3], [0.3, 0.3]] {
+        let places = [&scene, &aside].map(|scene| net.held_place(mold, &scene.layup.ply, corner));
+        let [place, off] = places.map(|place| place.expect("it is known"));
+        let [u, v] = net.fibers(mold, corner).expect("it is known");
+        let expected = [0, 1, 2].map(|n| place[n] + 3e-4 * u[n] - 4e-4 * v[n]);
+        assert!(distance(off, expected) < 1e-15 && Some(place) == net.place(mold, corner));
+    }
     let [as_planned, aside] = [scene, aside].map(|scene| drape_sheet(&scene).summary.last);
     assert_eq!(as_planned.value(Name::Height), aside.value(Name::Height));
     let [before, after] =

@@ -9,6 +9,7 @@ use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use crate::geometry::vector::{along, dot, unit};
 use crate::mold::Mold;
+use crate::ply::Ply;
 
 /// The nodes that a place is interpolated from: the lowest one and how many each way.
 struct Patch {
@@ -43,6 +44,25 @@ impl Net {
             tangent(scaled(self.sum(&patch, dp, q), du))?,
             tangent(scaled(self.sum(&patch, p, dq), dv))?,
         ])
+    }
+
+    /// As [`Net::place`], of the fabric that a ply has at `uv` (m) by the error of its pick-up: to the first order in that, so that it is known up
+    /// to the edges of the ply.
+    #[must_use]
+    pub fn held_place(&self, mold: &Mold, ply: &Ply, uv: [f64; 2]) -> Option<[f64; 3]> {
+        let place = self.place(mold, uv)?;
+        if ply.pick_up_error.is_none() {
+            return Some(place);
+        }
+        let ([u, v], off) = (self.fibers(mold, uv)?, ply.held_off(uv));
+        Some(along(along(place, off[0], u), off[1], v))
+    }
+
+    /// As [`Net::fibers`], along the lines u and v of a ply that is turned by the error of its pick-up.
+    #[must_use]
+    pub fn held_fibers(&self, mold: &Mold, ply: &Ply, uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
+        let ([u, v], yaw) = (self.fibers(mold, uv)?, ply.pick_up_error.yaw);
+        Some([unit(along(u, yaw, v))?, unit(along(v, -yaw, u))?])
     }
 
     /// Where a fabric point (m) lies on a mold or on its extension; `None` where the net has no nodes.

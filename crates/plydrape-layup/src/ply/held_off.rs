@@ -5,7 +5,6 @@
 //! γψL: 0.04 mm of 100 mm at 6° and the 0.2° of a usual cell. That is neglected, as the way that the edges of the ply have moved is.
 
 use super::Ply;
-use crate::geometry::vector::{along, unit};
 
 /// The error of where the grippers hold the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,23 +26,15 @@ impl PickUpError {
 }
 
 impl Ply {
-    /// The point of the fabric (m) that is where a ply without an error of its pick-up has the point `uv` (m).
+    /// How far off along u and v (m) the fabric is that is where a ply without an error of its pick-up has the point `uv` (m).
     #[must_use]
-    pub fn held_point(&self, uv: [f64; 2]) -> [f64; 2] {
+    pub fn held_off(&self, uv: [f64; 2]) -> [f64; 2] {
         let PickUpError { offset, yaw } = self.pick_up_error;
         if self.pick_up_error.is_none() {
-            return uv;
+            return [0.0; 2];
         }
         let [low, high] = self.held_bounds();
         let off = [0, 1].map(|n| uv[n] - 0.5 * (low[n] + high[n]));
-        [uv[0] + offset[0] - yaw * off[1], uv[1] + offset[1] + yaw * off[0]]
-    }
-
-    /// Unit tangents of u and v of a ply without an error of its pick-up, by those of the fabric that is there instead; `None` if one has no
-    /// direction.
-    #[must_use]
-    pub fn held_fibers(&self, [u, v]: [[f64; 3]; 2]) -> Option<[[f64; 3]; 2]> {
-        let yaw = self.pick_up_error.yaw;
-        Some([unit(along(u, yaw, v))?, unit(along(v, -yaw, u))?])
+        [offset[0] - yaw * off[1], offset[1] + yaw * off[0]]
     }
 }

@@ -6,7 +6,7 @@
 //! 2. tool frame: turned about the mean of all grippers of the step, then shifted;
 //! 3. mold: moved by the inverse of the mold's motion about the middle of the target.
 //!
-//! An error of the pick-up moves no gripper: other fabric is where the layup's points are ([`Ply::held_point`]).
+//! An error of the pick-up moves no gripper: other fabric is where the layup's points are ([`Ply::held_off`]).
 //!
 //! The motion is moved and not the mold, because the ideal drape belongs to the mold: positions are judged against it
 //! where the mold really is. Seen from the mold, gravity would be inclined by the mold's tilt; that is neglected, because it

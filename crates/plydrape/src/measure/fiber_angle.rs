@@ -42,10 +42,7 @@ impl Measure for FiberAngle {
             for cell in &seen.state.cells {
                 let Some((_, uv)) = cell.directions else { continue };
                 let Some(parts) = parts(cell, mold) else { continue };
-                let fibers = ideal.fibers(mold, ply.held_point(uv));
-                let Some(fibers) = fibers.and_then(|fibers| ply.held_fibers(fibers)) else {
-                    continue;
-                };
+                let Some(fibers) = ideal.held_fibers(mold, ply, uv) else { continue };
                 for ((_, flat), fiber) in parts.into_iter().zip(fibers) {
                     // a fiber that stands upright has no direction along the mold
                     let Some(flat) = unit(flat) else { continue };

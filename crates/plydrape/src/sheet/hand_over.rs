@@ -10,7 +10,6 @@ use crate::geometry::rotation::{continued, oriented};
 use crate::geometry::vector::{angle_between, cross, direction, norm, sub};
 use crate::layup::{Layup, Model};
 use crate::mold::{Mold, distance};
-use crate::net::Net;
 use crate::state::{CellState, FabricPoint, GripperState, LineState, PlyState, Site};
 
 /// Fabric to each side of a gripper that is a point, over which its tilt is measured (of the pitch of the grippers).
@@ -86,18 +85,17 @@ impl View<'_> {
         let mut points: Vec<FabricPoint> = inside
             .map(|node| {
                 let (uv, place) = (fabric.places[node], state.positions[node]);
-                let distance = state.heights.get(node).copied();
-                let lies = distance.is_some_and(|height| height <= tolerance);
+                let height = state.heights.get(node).copied();
+                let lies = height.is_some_and(|height| height <= tolerance);
+                let error = |place| Some(distance(place, ideal?.held_place(mold?, ply, uv)?));
                 FabricPoint {
                     site: Site::Fabric(uv),
                     place,
                     normal: normals[node],
-                    height: distance.filter(|_| !beside[node]),
+                    height: height.filter(|_| !beside[node]),
                     lies,
                     area: fabric.areas[node],
-                    error: (last && lies)
-                        .then(|| error(mold?, ideal?, ply.held_point(uv), place))
-                        .flatten(),
+                    error: (last && lies).then(|| error(place)).flatten(),
                 }
             })
             .collect();
@@ -248,11 +246,6 @@ impl View<'_> {
         };
         (continued(turned, before), angle_between(normal, pad.stem))
     }
-}
-
-/// Distance (m) of a landed point of the fabric from where the ideal drape has it; `None` if that is off the mold.
-fn error(mold: &Mold, ideal: &Net, uv: [f64; 2], place: Point) -> Option<f64> {
-    ideal.place(mold, uv).map(|ideal| distance(place, ideal))
 }
 
 /// Unit vectors along the mid-lines of a cell, u and v, by its corners (m); `None` if one has no length.
