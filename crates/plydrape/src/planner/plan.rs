@@ -63,7 +63,7 @@ pub fn plan(
     searched(scene, checkpoint, true, watcher)
 }
 
-/// Plans as [`plan`], and judges the plan without the errors of the scene, by the sample of which it may then be refused.
+/// Plans as [`plan`], but ranks and judges without errors: a quick look, at whose plan a sample of the scene may fail.
 ///
 /// # Errors
 /// As [`plan`].
@@ -102,6 +102,7 @@ fn searched(
     let (checkpoint, journal) =
         checkpoint.map_or_else(Default::default, |checkpoint| checkpoint.origin(scene));
     let state = SearchState::new(most, watcher).going_on(scene, checkpoint, journal);
+    let state = if sampled { state } else { state.without_cells() };
     let (mut decision, own_limits) = match scene.plan.method {
         PlanMethod::Path => by_path(scene, checkpoint, sampled, &state)?,
         PlanMethod::Stepwise => by_steps(scene, &state)?,

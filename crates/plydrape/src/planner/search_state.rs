@@ -62,6 +62,8 @@ pub struct SearchState<'a> {
     cells: Mutex<Vec<usize>>,
     /// How many of them there are before a plan was refused.
     first_cells: usize,
+    /// Cells with errors in which fronts race; none in a search without errors.
+    race: Vec<usize>,
     /// By how many cells a plan is proven that is decided on, and how many of them may break a limit.
     proof: Mutex<Proof>,
     best: Mutex<Best<'a>>,
@@ -115,6 +117,7 @@ impl<'a> SearchState<'a> {
             most,
             cells: Mutex::new((0..TUNING.cells[0]).collect()),
             first_cells: TUNING.cells[0],
+            race: (0..super::path::tuning::TUNING.race.all_cells()).collect(),
             proof: Mutex::new(Proof { cells: TUNING.proving[0], spare: TUNING.spare[0] }),
             best: Mutex::new(Best {
                 watcher,
@@ -152,6 +155,13 @@ impl<'a> SearchState<'a> {
         let (origin, journal) = (Some((scene, from)), Mutex::new(journal));
         let proof = Mutex::new(proof);
         SearchState { origin, journal, repeats, cells, first_cells, proof, ..self }
+    }
+
+    /// The same for a search in which no cell with errors is draped.
+    #[must_use]
+    pub fn without_cells(self) -> Self {
+        let proof = Mutex::new(Proof { cells: 0, spare: 0 });
+        SearchState { cells: Mutex::default(), first_cells: 0, race: Vec::new(), proof, ..self }
     }
 
     /// What was judged.
@@ -230,6 +240,12 @@ impl<'a> SearchState<'a> {
     /// Cells with errors by which candidates are ranked.
     pub fn cells(&self) -> Vec<usize> {
         lock(&self.cells).clone()
+    }
+
+    /// The cells in which fronts race, and those that refused a plan.
+    pub fn race_cells(&self) -> Vec<usize> {
+        let others = self.cells().into_iter().filter(|cell| *cell >= self.race.len());
+        self.race.iter().copied().chain(others).collect()
     }
 
     /// One more of them: a cell that refused a plan that was decided on.

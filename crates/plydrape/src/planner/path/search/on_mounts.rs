@@ -68,9 +68,9 @@ impl<'a> Search<'a, '_> {
         waiting.truncate(TUNING.race.fronts.min(self.left));
         let racer = |candidate: Candidate| shared.racer(candidate.strategy, candidate.positions);
         let mut racers: Vec<Racer> = waiting.into_iter().filter_map(racer).collect();
-        let cells: Vec<usize> = (0..TUNING.race.all_cells()).collect();
+        let cells = shared.state.race_cells();
         let mut decided = None;
-        for (n, batch) in cells.chunks(TUNING.race.cells).enumerate() {
+        for (n, batch) in batches(&cells).into_iter().enumerate() {
             if self.is_done() {
                 break;
             }
@@ -133,9 +133,7 @@ impl<'a> Search<'a, '_> {
         let mut decided = Some(leader.strategy);
         'walk: while !self.is_done() && !walk.is_over() {
             // cells that refused a plan count in what follows
-            let mut cells: Vec<usize> = (0..TUNING.race.all_cells()).collect();
-            let others = shared.state.cells();
-            cells.extend(others.into_iter().filter(|cell| *cell >= TUNING.race.all_cells()));
+            let cells = shared.state.race_cells();
             for number in 0..Walk::NUMBERS {
                 let beside = walk.beside(number);
                 if self.is_done() || self.left < beside.len() {
@@ -188,7 +186,7 @@ impl<'a> Shared<'a, '_> {
 
     /// Drapes a racer in the same cells as the one that leads, as long as it is not clearly worse.
     fn challenge<'s>(&'s self, leader: &Racer<'_>, racer: &mut Racer<'s>, cells: &[usize]) {
-        for batch in cells.chunks(TUNING.race.cells) {
+        for batch in batches(cells) {
             let before = racer.scores.len();
             self.run(racer, batch);
             let led = leader.mean_of(racer.scores.len());
@@ -200,7 +198,8 @@ impl<'a> Shared<'a, '_> {
 
     /// Drapes a racer in some cells more, whatever limits they break.
     fn run<'s>(&'s self, racer: &mut Racer<'s>, cells: &[usize]) {
-        if cells.is_empty() || self.state.is_stopped() {
+        let is_done = cells.is_empty() && !racer.scores.is_empty();
+        if is_done || self.state.is_stopped() {
             return;
         }
         let Racer { positions, draped, .. } = racer;
@@ -225,4 +224,10 @@ impl<'a> Shared<'a, '_> {
             Err(fault) => *lock(&self.fault) = Some(fault),
         }
     }
+}
+
+/// The cells of each round of a race; without cells one round, of the drape without errors.
+fn batches(cells: &[usize]) -> Vec<&[usize]> {
+    let rounds: Vec<&[usize]> = cells.chunks(TUNING.race.cells).collect();
+    if rounds.is_empty() { vec![&[]] } else { rounds }
 }
