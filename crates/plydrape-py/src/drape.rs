@@ -177,7 +177,7 @@ pub fn judge_by(
 /// also : {"sheet", "catenaries"}, optional
 ///     The model that does not decide, to be draped along the plan too and shown beside as `Result.also`; it never judges.
 /// without_errors : bool, default False
-///     Whether the plan is judged without errors.
+///     Whether the plan is looked for and judged without errors: a quick look.
 /// progress : callable, optional
 ///     Called with (candidates draped, most, what is done), some 50 times a second. While the sheet decides on a plan, the last one
 ///     says how long that will take in all, as "deciding: 961 nodes, about 4 s".

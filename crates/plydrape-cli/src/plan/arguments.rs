@@ -71,7 +71,7 @@ pub struct Arguments {
     #[arg(long, value_name = "MODEL")]
     pub(super) also: Option<ModelName>,
 
-    /// Judge the plan without errors: no sample of cells, and nothing about the errors that it tolerates.
+    /// Plan and judge without errors, for a quick look: no cell is draped, and nothing is said of the errors that the plan tolerates.
     #[arg(long)]
     pub(super) without_errors: bool,
 

@@ -75,7 +75,7 @@ pub(super) fn scene(
     let motion = places.motion(file, target.as_ref())?;
     places.fits(file.grippers_span(), motion.positions.len())?;
     let sheets = models.check_sheets(&ply, &settings, motion.positions.len())?;
-    let plan = plan(&file.plan, ply.grippers(), document)?;
+    let plan = plan(&file.plan, ply.grippers(), settings.pad.gives(), document)?;
     let (arm, links) = robot::robot(file, document)?;
     let bodies = bodies(file, links, document)?;
     let errors = match (&file.errors, cell.errors) {

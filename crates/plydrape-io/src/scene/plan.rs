@@ -13,10 +13,11 @@ const MOST_STEPS: usize = 10_000;
 /// Most candidates that a search may drape.
 const MOST_EVALUATIONS: usize = 1_000_000;
 
-/// Checks the table `[plan]`.
+/// Checks the table `[plan]` of a scene with so many grippers, whose pads give or not.
 pub(super) fn plan(
     table: &PlanTable,
     grippers: usize,
+    gives: bool,
     document: &Document,
 ) -> Result<PlanSettings, Error> {
     let default = PlanSettings::default();
@@ -38,6 +39,7 @@ pub(super) fn plan(
         },
         evaluations: match &table.evaluations {
             Some(most) => count(most, [1, MOST_EVALUATIONS], "drapes", document)?,
+            None if gives => PlanSettings::EVALUATIONS_ON_MOUNTS,
             None => default.evaluations,
         },
         improve: table.improve.unwrap_or(default.improve),

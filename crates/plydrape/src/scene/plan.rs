@@ -22,6 +22,12 @@ pub struct PlanSettings {
     pub rate: f64,
 }
 
+impl PlanSettings {
+    /// How many candidates the search may drape of grippers on mounts that give, unless the scene says it: a walk from a good front goes on as
+    /// long as it gains, in small steps.
+    pub const EVALUATIONS_ON_MOUNTS: usize = 300;
+}
+
 impl Default for PlanSettings {
     fn default() -> Self {
         let method = PlanMethod::Path;
