@@ -128,6 +128,30 @@ fn a_sample_decides_with_the_errors_of_the_scene() {
     }
 }
 
+/// A plan without errors is looked for without them, too: a frame that may be 40 mm off changes nothing of it, where each cell with that error
+/// breaks a limit.
+#[test]
+fn a_plan_without_errors_is_looked_for_without_them() {
+    let home = tempfile::tempdir().unwrap();
+    let scene = home.path().join("dome.toml");
+    let found = |bound: &str| {
+        let text = format!(
+            "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\n\
+            material = \"prepreg_warm\"\n[mold]\nkind = \"sphere\"\nradius = \"1 m\"\n\
+            position = [0, 0, \"-1 m\"]\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"40 mm\"\n\
+            origin = \"centered\"\n[target]\nseed = \"middle\"\n[sheet]\nmesh = \"20 mm\"\n\
+            [plan]\nsteps = 40\nevaluations = 8\n\
+            [errors]\nframe = {{ position = {{ bound = \"{bound}\" }} }}\n"
+        );
+        std::fs::write(&scene, text).unwrap();
+        let plan = command().arg("plan").arg(&scene).args(["--without-errors", "--json"]).output();
+        let found = printed(&plan.unwrap());
+        ["accepted", "evaluations", "motion", "limits"].map(|key| found[key].clone())
+    };
+    let [small, large] = ["0.5 mm", "40 mm"].map(found);
+    assert_eq!((&small[0], &small), (&true.into(), &large));
+}
+
 /// A simulated motion is judged by the errors of its scene, and by none where the scene has none.
 #[test]
 fn a_simulation_takes_the_errors_of_its_scene_alone() {

@@ -207,7 +207,8 @@ fn a_plan_and_its_limits_are_read_in_si() {
 
     let scene = parse(text).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.plan, plydrape::scene::PlanSettings::default());
-    let usual = parse(&format!("[cell]\npreset = \"usual\"\n{}", text.replace("catenaries", "sheet")));
+    let usual =
+        parse(&format!("[cell]\npreset = \"usual\"\n{}", text.replace("catenaries", "sheet")));
     assert_eq!(usual.unwrap_or_else(|e| panic!("{e}")).plan.evaluations, 300);
     assert_eq!((scene.limits.most(Name::GripperDistance), scene.limits.workspace), (0.05, None));
 }

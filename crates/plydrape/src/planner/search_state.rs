@@ -157,7 +157,7 @@ impl<'a> SearchState<'a> {
         SearchState { origin, journal, repeats, cells, first_cells, proof, ..self }
     }
 
-    /// The same for a search in which no cell with errors is draped.
+    /// This state for a search in which no cell with errors is draped.
     #[must_use]
     pub fn without_cells(self) -> Self {
         let proof = Mutex::new(Proof { cells: 0, spare: 0 });
