@@ -28,6 +28,15 @@ fn the_template_passes_its_own_check() {
     assert_eq!(scene.limits.most(Name::Shear), 45f64.to_radians());
 }
 
+/// A scene of `plydrape new` is planned as one of its cell whose table `[plan]` is left out.
+#[test]
+fn the_template_plans_as_a_scene_that_says_nothing_of_it() {
+    let (before, after) = scene::TEMPLATE.split_once("[plan]").expect("a table");
+    let (_, after) = after.split_once("\n[").expect("another table");
+    let bare = parse(&format!("{before}[{after}")).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}")).plan, bare.plan);
+}
+
 /// A limit that is written in the template at its usual value, "95 %" for 0.95, is the usual one, so that a scene of `plydrape new` is not
 /// refused for a limit that only the other model measures.
 #[test]
