@@ -2,7 +2,7 @@
 
 use super::SummaryLine;
 use crate::numbers::{millimeters, short};
-use plydrape::layup::{Friction, Model, Settings, SheetTime};
+use plydrape::layup::{Friction, Lip, Model, Settings, SheetTime};
 use plydrape::scene::Scene;
 use plydrape_io::error;
 use plydrape_io::result::sheet::SheetSize;
@@ -50,9 +50,17 @@ fn size(scene: &Scene) -> String {
 
 fn pads(settings: &Settings) -> String {
     let pad = &settings.pad;
-    match pad.radius {
+    let held = match pad.radius {
         0.0 => "grippers hold a point".into(),
         radius => format!("pads of radius {} mm", millimeters(radius)),
+    };
+    match &pad.lip {
+        Some(Lip { radius, rigidity }) => format!(
+            "{held}, under a soft lip of radius {} mm and rigidity {} N·m",
+            millimeters(*radius),
+            short(*rigidity)
+        ),
+        None => held,
     }
 }
 

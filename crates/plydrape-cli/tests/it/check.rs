@@ -196,11 +196,13 @@ fn an_edge_that_hangs_too_low_is_warned_of_with_the_length_that_may_hang() {
     let words = warned.split("what an edge of ").nth(1).expect(&warned);
     let most: f64 = words.split(' ').next().unwrap().parse().unwrap();
     assert!((5.0..25.0).contains(&most), "{warned}");
-    let padded = edge(35.0).replace("[grippers]", "[grippers]\npad_radius = \"15 mm\"");
-    let warned = warning(&padded);
-    let words = warned.split("what an edge of ").nth(1).expect(&warned);
-    let with_pads: f64 = words.split(' ').next().unwrap().parse().unwrap();
-    assert!((with_pads - most - 15.0 / 2.0_f64.sqrt()).abs() < 0.15, "{most} {with_pads}");
+    let lip = "lip = { radius = \"15 mm\", rigidity = \"1 mN m\" }";
+    for held in ["pad_radius = \"15 mm\"", lip] {
+        let warned = warning(&edge(35.0).replace("[grippers]", &format!("[grippers]\n{held}")));
+        let words = warned.split("what an edge of ").nth(1).expect(&warned);
+        let with_pads: f64 = words.split(' ').next().unwrap().parse().unwrap();
+        assert!((with_pads - most - 15.0 / 2.0_f64.sqrt()).abs() < 0.15, "{most} {with_pads}");
+    }
     assert_eq!(warnings(&edge(0.98 * most)), [""; 0]);
     assert_eq!(warnings(&edge(1.02 * most)).len(), 1);
     assert_eq!(warnings(&format!("{}\n[contact]\nfriction = 0.3\n", edge(25.0))), [""; 0]);

@@ -95,13 +95,14 @@ pub(super) fn ply_fault(scene: &SceneEcho) -> Option<String> {
         Friction::Coulomb(coefficient) => coefficient,
         Friction::Stick | Friction::StickForEver => 0.0,
     };
+    let lip_radius = pad.lip.map_or(0.0, |lip| lip.radius);
     let lengths = [sheet.mesh.unwrap_or(0.0), sheet.overhang, pad.radius];
     if lengths.iter().chain(&[friction, contact.tack]).any(|value| *value < 0.0) {
         return Some("mesh, overhang, pads, friction and tack must not be negative".into());
     }
     // the lines of a sheet are made of these
     if sheet.mesh.is_some_and(|mesh| !(SIZES[0]..=SIZES[1]).contains(&mesh))
-        || sheet.overhang.max(pad.radius) > SIZES[1]
+        || sheet.overhang.max(pad.radius).max(lip_radius) > SIZES[1]
     {
         return Some("mesh, overhang and pads must have sizes that a scene may have".into());
     }
@@ -111,7 +112,8 @@ pub(super) fn ply_fault(scene: &SceneEcho) -> Option<String> {
 
     // mounts and pads, which may be left out but not be zero
     let mounts = [pad.lateral_stiffness, pad.axial_stiffness, pad.slip_force, pad.holding_force];
-    if !mounts.iter().flatten().all(|value| *value > 0.0) {
+    let lip = pad.lip.map(|lip| [lip.radius, lip.rigidity]);
+    if !mounts.iter().flatten().chain(lip.iter().flatten()).all(|value| *value > 0.0) {
         return Some("what mounts and pads bear must be above zero".into());
     }
     if scene.release.as_ref().is_some_and(|release| release.dwell.is_nan() || release.dwell < 0.0) {

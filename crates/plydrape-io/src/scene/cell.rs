@@ -67,7 +67,7 @@ fn from_file(document: &Document, ply: &Ply) -> Result<Cell, Error> {
             return Err(document.error(
                 span.clone(),
                 "[grippers] of a cell says more than how grippers hold the ply",
-                "keep `stiffness`, `slip_force`, `holding_force` and `max_tilt`; the rest belongs into [grippers] of the scene",
+                "keep `lip`, `stiffness`, `slip_force`, `holding_force` and `max_tilt`; the rest belongs into [grippers] of the scene",
             ));
         }
         cell = settings::held(table, &cell, document)?;
@@ -87,6 +87,7 @@ mod tests {
     use super::super::{SceneFile, parse};
     use super::*;
     use plydrape::errors::{Errors, Term};
+    use plydrape::layup::Lip;
     use std::path::Path;
 
     const SCENE: &str = "ply.grippers = [2, 2]\nply.cell = [0.1, 0.1]\nply.material = \"krogh2018\"\n\
@@ -129,7 +130,7 @@ mod tests {
         let usual = scene("cell.preset = \"usual\"", Path::new(""));
         let errors = usual.errors.expect("errors");
         assert_eq!(errors.material.shear, Term::Factor(2.0));
-        assert!(usual.layup.settings.pad.gives() && usual.layup.settings.pad.radius == 0.0);
+        assert!(usual.layup.settings.pad.gives() && usual.layup.settings.pad.lip.is_some());
         assert_eq!((errors.seed, errors.samples, errors.share), (0, 64, 0.95));
     }
 
@@ -161,6 +162,11 @@ mod tests {
         assert_eq!(slip.max_tilt, cell.max_tilt);
         let tilt = with("grippers.max_tilt = 0.5").layup.settings;
         assert_eq!((tilt.max_tilt, tilt.pad), (0.5, cell.pad));
+        let lip = |keys: &str| with(keys).layup.settings.pad.lip;
+        let usual = cell.pad.lip.expect("a lip");
+        let harder = Some(Lip { rigidity: 2e-3, ..usual });
+        assert_eq!(lip("grippers.lip.rigidity = \"2 mN m\""), harder);
+        assert_eq!(lip("grippers.lip.radius = 0"), None);
         let mount = with("grippers.stiffness = { lateral = 1000 }").layup.settings.pad;
         assert_eq!((mount.lateral_stiffness, mount.axial_stiffness), (Some(1000.0), None));
         assert!(!with("grippers.stiffness = {}").layup.settings.pad.gives());

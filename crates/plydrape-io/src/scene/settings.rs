@@ -2,15 +2,15 @@
 
 use super::choice::FrictionChoice;
 use super::file::{
-    EndKey, GrippersTable, MountTable, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey,
-    TimeKey,
+    EndKey, GrippersTable, LipTable, MountTable, SceneKeys, SheetTable, Slopes, SteppingKey,
+    TheoryKey, TimeKey,
 };
 use super::located::{Located, Whole};
 use super::quantity::{Read, read_given, read_or};
 use super::source::Document;
 use crate::Error;
 use plydrape::layup::{
-    ContactEnd, ContactSettings, Friction, PadSettings, Settings, SheetSettings, SheetTime,
+    ContactEnd, ContactSettings, Friction, Lip, PadSettings, Settings, SheetSettings, SheetTime,
     SlopeRule, Stepping,
 };
 use plydrape::ply::Ply;
@@ -132,6 +132,26 @@ fn sheet(table: &SheetTable, overhang: f64, document: &Document) -> Result<Sheet
     })
 }
 
+/// The lip of a cup as a scene changes that of its cell.
+fn lip(
+    table: Option<&Located<LipTable>>,
+    usual: Option<Lip>,
+    document: &Document,
+) -> Result<Option<Lip>, Error> {
+    let Some(Located { value: table, span }) = table else { return Ok(usual) };
+    let radius = read_given(&table.radius, document)?.or(usual.map(|lip| lip.radius));
+    let rigidity = read_given(&table.rigidity, document)?.or(usual.map(|lip| lip.rigidity));
+    match (radius, rigidity) {
+        (Some(0.0), _) => Ok(None),
+        (Some(radius), Some(rigidity)) => Ok(Some(Lip { radius, rigidity })),
+        _ => Err(document.error(
+            span.clone(),
+            "a lip needs a radius and a rigidity",
+            "write lip = { radius = \"15 mm\", rigidity = \"0.0003 N m\" }, or take those of a cell by preset = \"usual\" in [cell]",
+        )),
+    }
+}
+
 /// A cell as the table `[grippers]` changes it.
 pub(super) fn held(table: &GrippersTable, cell: &Cell, document: &Document) -> Result<Cell, Error> {
     let usual = &cell.pad;
@@ -143,6 +163,7 @@ pub(super) fn held(table: &GrippersTable, cell: &Cell, document: &Document) -> R
     };
     let pad = PadSettings {
         radius: read_or(&table.pad_radius, usual.radius, document)?,
+        lip: lip(table.lip.as_ref(), usual.lip, document)?,
         lateral_stiffness,
         axial_stiffness,
         slip_force: read_given(&table.slip_force, document)?.or(usual.slip_force),

@@ -97,24 +97,32 @@ struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// Refuses pads that overlap or hang over the boundary.
+    /// Refuses pads and lips that overlap, and pads that hang over the boundary.
     fn pads(&self) -> Result<(), Error> {
         let radius = self.settings.pad.radius;
-        let Some(span) = self.pad_span().filter(|_| radius > 0.0) else { return Ok(()) };
         let (pitch, overhang) = (pitch(self.ply), self.settings.sheet.overhang);
-        if 2.0 * radius >= pitch {
-            return Err(self.document.error(
+        let overlap = |what: &str, radius: f64, help: &str, span: Range<usize>| {
+            let [width, apart, most] = [2.0 * radius, pitch, 0.5 * pitch].map(millimeters);
+            self.document.error(
                 span,
-                format!(
-                    "the pads overlap: they are {} mm wide and {} mm apart",
-                    millimeters(2.0 * radius),
-                    millimeters(pitch)
+                format!("the {what} overlap: they are {width} mm wide and {apart} mm apart"),
+                format!("a radius below {most} mm leaves fabric between them{help}"),
+            )
+        };
+        if let Some(lip) = self.settings.pad.lip.filter(|lip| 2.0 * lip.radius >= pitch) {
+            let help = match self.lip_span() {
+                Some(_) => String::new(),
+                None => format!(
+                    "; write lip = {{ radius = \"{} mm\" }} in [grippers], where that of the cell is in force now",
+                    millimeters(0.4 * pitch)
                 ),
-                format!(
-                    "a radius below {} mm leaves fabric between them",
-                    millimeters(0.5 * pitch)
-                ),
-            ));
+            };
+            let span = self.lip_span().unwrap_or_else(|| self.file.grippers_span().clone());
+            return Err(overlap("lips", lip.radius, &help, span));
+        }
+        let Some(span) = self.pad_span().filter(|_| radius > 0.0) else { return Ok(()) };
+        if 2.0 * radius >= pitch {
+            return Err(overlap("pads", radius, "", span));
         }
         // cups of a ply that is cut are on it, or hold nothing
         if self.ply.cut.is_none() && radius > overhang * (1.0 + ROUNDING) {
@@ -184,6 +192,10 @@ impl Around<'_> {
         };
         let (grid, [a, b]) = (self.ply.grid, self.ply.cell);
         along(grid.nu, a) * along(grid.nv, b)
+    }
+
+    fn lip_span(&self) -> Option<Range<usize>> {
+        Some(self.file.grippers.as_ref()?.value.lip.as_ref()?.span.clone())
     }
 
     fn mesh_span(&self) -> Option<Range<usize>> {

@@ -174,6 +174,8 @@ usual! {
     Radius: Length, Allowed::Size, "a radius of", [0.005, 5.0], "molds have radii of 5 mm to 5 m", LENGTHS;
     /// From a needle gripper to a large suction plate.
     Pad: Length, Allowed::SizeOrZero, "a pad with a radius of", [0.0, 0.1], "pads have radii of up to 100 mm", LENGTHS;
+    /// From a thin one of silicone to a thick one of hard rubber.
+    LipRigidity: BendingRigidity, Allowed::Within([1e-9, 1e6], "a lip"), "a lip with a rigidity of", [1e-5, 0.1], "lips have 1e-5 N m to 0.1 N m", &["mN m", "N mm"];
     /// From a cup to a robot's frame, a table or a gantry.
     Body: Length, Allowed::Size, "a body of", [0.001, 5.0], "bodies and obstacles are 1 mm to 5 m large", LENGTHS;
     /// From the roughness of a mold to the thickness of a thick ply.

@@ -45,8 +45,9 @@ fn overhang(scene: &Scene) -> Option<String> {
         return None;
     }
     let beyond = reach_beyond_cups(&layup.ply, layup.settings.sheet.overhang);
-    // a corner is a square that is held along two sides, as wide as the pad leaves it along its diagonal
-    let held = FRAC_1_SQRT_2 * layup.settings.pad.radius;
+    // a corner is a square that is held along two sides, as wide as the pad or its lip leaves it along its diagonal
+    let pad = &layup.settings.pad;
+    let held = FRAC_1_SQRT_2 * pad.lip.map_or(pad.radius, |lip| pad.radius.max(lip.radius));
     let free = beyond - held;
     // where the ply bends most easily
     let ruck = [Kind::EdgeU, Kind::EdgeV].into_iter().filter_map(|kind| {

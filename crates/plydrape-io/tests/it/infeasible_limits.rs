@@ -2,6 +2,7 @@
 
 use crate::common::parse;
 use plydrape::errors::{Errors, RelativeError};
+use plydrape::layup::Lip;
 use plydrape::measure::{Name, Verdict};
 use plydrape::planner::infeasible_limits::{infeasible_limits, with_spring_back};
 use plydrape::scene::Scene;
@@ -280,6 +281,15 @@ fn a_ply_slides_on_a_slope_steeper_than_its_friction() {
     assert_eq!(verdict.name, Name::Position);
     let said = "let go of: the ply slides, and would stay if it stuck to the mold";
     assert!(verdict.at.ends_with(said), "{verdict:?}");
+}
+
+/// What springs back is held by no cup: lips change nothing of it.
+#[test]
+fn a_ply_springs_back_whatever_cups_held_it() {
+    let mut scene = slippery(DOME, "\"prepreg_warm\"");
+    let bare = springs_back(&scene).expect("a ply that springs back");
+    scene.layup.settings.pad.lip = Some(Lip { radius: 0.015, rigidity: 1e-3 });
+    assert_eq!(springs_back(&scene), Some(bare));
 }
 
 /// The remedy that is said is one: a ply so limp stays, and the scene has no limit left that no plan can keep.

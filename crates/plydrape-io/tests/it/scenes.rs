@@ -1,7 +1,7 @@
 //! Scenes that pass: the template, the examples, and the same positions written in other ways.
 
 use plydrape::errors::{Errors, GripperErrors, Term};
-use plydrape::layup::{Friction, Model, PadSettings, Settings, SheetSettings, SheetTime};
+use plydrape::layup::{Friction, Lip, Model, PadSettings, Settings, SheetSettings, SheetTime};
 use plydrape::material::{Section, ShearCurve, TensionLaw};
 use plydrape::measure::Limits;
 use plydrape::measure::Name;
@@ -386,7 +386,7 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
 
     let given = scene(
         &format!("{paper}\noverhang = \"30 mm\""),
-        "pad_radius = \"1.5 cm\"\nstiffness = { lateral = \"2 N/mm\" }\n\
+        "pad_radius = \"1.5 cm\"\nlip = { radius = \"20 mm\", rigidity = \"2 mN m\" }\nstiffness = { lateral = \"2 N/mm\" }\n\
          slip_force = \"6 N\"\nholding_force = 15",
         "[model]\nkind = \"sheet\"\n[sheet]\nmesh = \"12.5 mm\"\ntime = \"real\"\nkeep = 40\n\
          [contact]\nfriction = 0.3\ntack = \"0.09 kPa\"\n\
@@ -398,6 +398,7 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
     assert_eq!((settings.model, settings.sheet), (Model::Sheet, sheet));
     let pad = PadSettings {
         radius: 0.015,
+        lip: Some(Lip { radius: 0.02, rigidity: 2e-3 }),
         lateral_stiffness: Some(2e3),
         axial_stiffness: None,
         slip_force: Some(6.0),

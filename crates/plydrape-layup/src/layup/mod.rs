@@ -16,8 +16,8 @@ mod settings;
 pub use pick_up::PickUp;
 pub use release::{Release, ReleaseOrder};
 pub use settings::{
-    ContactEnd, ContactSettings, Friction, Model, PadSettings, Settings, SheetSettings, SheetTime,
-    SlopeRule, Stepping,
+    ContactEnd, ContactSettings, Friction, Lip, Model, PadSettings, Settings, SheetSettings,
+    SheetTime, SlopeRule, Stepping,
 };
 
 use crate::bodies::Bodies;

@@ -99,8 +99,11 @@ pub enum SheetTime {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PadSettings {
-    /// Radius of the pad that holds the fabric flat (m); zero holds one point.
+    /// Radius of the rigid pad that holds the fabric flat (m); zero holds one point.
     pub radius: f64,
+    /// The soft lip around the point or the rigid pad; `None` without one.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub lip: Option<Lip>,
     /// Stiffness of the mount along the ply (N/m); `None` if rigid.
     pub lateral_stiffness: Option<f64>,
     /// Stiffness of the mount across the ply (N/m); `None` if rigid.
@@ -111,6 +114,16 @@ pub struct PadSettings {
     /// Largest load across the ply that a pad holds (N); `None` if it holds any.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub holding_force: Option<f64>,
+}
+
+/// The lip of a vacuum cup: a soft disc that the vacuum joins to the fabric. Fabric under it bends with it, and shears as if it were free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Lip {
+    /// Radius (m).
+    pub radius: f64,
+    /// Flexural rigidity per width of the disc (N·m).
+    pub rigidity: f64,
 }
 
 impl PadSettings {
@@ -125,6 +138,7 @@ impl Default for PadSettings {
     fn default() -> Self {
         PadSettings {
             radius: 0.0,
+            lip: None,
             lateral_stiffness: None,
             axial_stiffness: None,
             slip_force: None,

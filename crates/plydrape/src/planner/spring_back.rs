@@ -39,7 +39,10 @@ pub(super) fn spring_back(
         return None;
     }
     // the mesh of the scene, or the coarse one, where that is soon done
-    let of_mesh = |mesh: Mesh| as_ranked(scene.layup.clone(), mesh);
+    let mut layup = scene.layup.clone();
+    // it is about a ply that no cup bends
+    layup.settings.pad.lip = None;
+    let of_mesh = |mesh: Mesh| as_ranked(layup.clone(), mesh);
     let is_small = |layup: &Layup| {
         let fabric = Fabric::new(&layup.ply, &layup.settings);
         fabric.is_ok_and(|fabric| fabric.places.len() <= MOST_NODES)

@@ -4,7 +4,7 @@
 //! your own cell are better.
 
 use crate::errors::{Errors, Term};
-use crate::layup::{PadSettings, ReleaseOrder, Settings};
+use crate::layup::{Lip, PadSettings, ReleaseOrder, Settings};
 
 /// What a scene takes of its cell where it does not say so itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +53,15 @@ pub struct CellFigure {
     set: fn(&mut Cell, f64),
 }
 
+/// A lip whose figures follow.
+const NO_LIP: Lip = Lip { radius: 0.0, rigidity: 0.0 };
+
+/// How large a cup is.
+const CUP_SIZE: &str =
+    "the cups of 30 mm whose forces the other figures are; a choice of this program";
+/// How stiff its lip is.
+const RUBBER: &str = "lips of vacuum cups are of rubber of 35 to 70 Shore A (Fluid Power Journal, Basic vacuum cup selection), which is a modulus of 1.5 to 10 MPa \
+(Reuss: lg E = 0.0235 S - 0.64), and 0.5 to 1.5 mm thick, by experience: 2e-5 to 4e-3 N m; the value is the geometric mean of that range";
 /// How far bellows give.
 const BELLOWS: &str = "bellows of vacuum cups give by 1 to 5 N/mm, sideways and along their axis, by experience; the value is a \
 choice of this program within that range";
@@ -81,6 +90,12 @@ Cao et al. 2008, Composites Part A 39; the factor is a choice of this program";
 
 /// The figures of the usual cell.
 const USUAL: &[CellFigure] = &[
+    figure("grippers.lip.radius", "15 mm", 0.015, CUP_SIZE, |cell, x| {
+        cell.pad.lip = Some(Lip { radius: x, ..cell.pad.lip.unwrap_or(NO_LIP) });
+    }),
+    figure("grippers.lip.rigidity", "0.0003 N m", 3e-4, RUBBER, |cell, x| {
+        cell.pad.lip = Some(Lip { rigidity: x, ..cell.pad.lip.unwrap_or(NO_LIP) });
+    }),
     figure("grippers.stiffness.lateral", "2 N/mm", 2e3, BELLOWS, |cell, x| {
         cell.pad.lateral_stiffness = Some(x);
     }),

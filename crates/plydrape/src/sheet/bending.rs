@@ -3,11 +3,13 @@
 //!
 //! Where the moment is D′ κ the energy is ½ D′ |κ|², quadratic in the positions, and its second derivative constant. Where it
 //! is a measured curve, the second derivative to κ is W″ along κ and M/|κ| across: neither is negative, because the moment
-//! rises.
+//! rises. Under the lip of a cup that holds the fabric, the rigidity of the lip is added.
 
+use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::fabric::Bend;
+use super::pads::Pads;
 use super::system::{Pair, System, add};
 use crate::material::MomentCurve;
 use crate::sheet::matrix3::{Matrix3, outer, plus, scaled};
@@ -27,8 +29,10 @@ struct Element {
     /// κ = Σ weight · x (1/m).
     weights: [f64; 3],
     direction: usize,
-    /// D′ (N·m).
+    /// D′ (N·m), zero where a curve has its place.
     rigidity: f64,
+    /// What the lip of a cup that holds the fabric adds to it (N·m).
+    lip: f64,
     /// Width · length (m²).
     area: f64,
 }
@@ -41,25 +45,30 @@ pub fn weights([before, after]: [f64; 2]) -> [f64; 3] {
 }
 
 impl Bending {
-    /// The bending of lines with a flexural rigidity per width D′ along u and v (N·m), or a curve of the moment in its place.
-    pub fn new(
-        bends: &[Bend],
-        rigidity: [f64; 2],
-        curves: &[Option<MomentCurve>; 2],
-        system: &System,
-    ) -> Self {
-        let element = |b: &Bend| {
+    /// The bending of the lines of a sheet that is held by pads.
+    pub fn new(sheet: &Sheet, pads: &Pads, system: &System) -> Self {
+        let (bends, curves) = (&sheet.fabric.bends, &sheet.moment);
+        let mut lips = vec![0.0; bends.len()];
+        let holding = sheet.lips.iter().zip(pads.held()).filter(|(_, nodes)| !nodes.is_empty());
+        for (bend, rigidity) in holding.flat_map(|(lip, _)| lip) {
+            lips[*bend] += rigidity;
+        }
+        let element = |(b, lip): (&Bend, f64)| {
             let [i, j, k] = b.nodes;
             Element {
                 nodes: b.nodes.map(|node| node as usize),
                 pairs: [[i, j], [j, k], [i, k]].map(|nodes| system.pair(nodes)),
                 weights: weights(b.spacing),
                 direction: b.direction,
-                rigidity: rigidity[b.direction],
+                rigidity: match curves[b.direction] {
+                    None => sheet.rigidity[b.direction],
+                    Some(_) => 0.0,
+                },
+                lip,
                 area: b.width * 0.5 * (b.spacing[0] + b.spacing[1]),
             }
         };
-        Bending { bends: bends.iter().map(element).collect(), curves: curves.clone() }
+        Bending { bends: bends.iter().zip(lips).map(element).collect(), curves: curves.clone() }
     }
 }
 
@@ -67,9 +76,10 @@ impl Energy for Bending {
     fn value(&self, now: &Configuration) -> f64 {
         let energy = |e: &Element| {
             let squared = e.curvature(&now.x).iter().map(|c| c * c).sum::<f64>();
+            let quadratic = 0.5 * (e.rigidity + e.lip) * e.area * squared;
             match &self.curves[e.direction] {
-                None => 0.5 * e.rigidity * e.area * squared,
-                Some(curve) => curve.bend(squared.sqrt())[0] * e.area,
+                None => quadratic,
+                Some(curve) => quadratic + curve.bend(squared.sqrt())[0] * e.area,
             }
         };
         self.bends.iter().map(energy).sum()
@@ -83,16 +93,16 @@ impl Energy for Bending {
             }
             let curvature = e.curvature(&now.x);
             match &self.curves[e.direction] {
-                None => e.add(e.rigidity * e.area, None, curvature, system),
+                None => e.add((e.rigidity + e.lip) * e.area, None, curvature, system),
                 Some(curve) => {
                     let size = curvature.iter().map(|c| c * c).sum::<f64>().sqrt();
                     let [_, moment, slope] = curve.bend(size);
                     if size > 0.0 {
                         let (secant, unit) = (moment / size, curvature.map(|c| c / size));
                         let softer = scaled((slope - secant) * e.area, &outer(unit, unit));
-                        e.add(secant * e.area, Some(&softer), curvature, system);
+                        e.add((secant + e.lip) * e.area, Some(&softer), curvature, system);
                     } else {
-                        e.add(slope * e.area, None, curvature, system);
+                        e.add((slope + e.lip) * e.area, None, curvature, system);
                     }
                 }
             }

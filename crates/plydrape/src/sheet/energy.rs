@@ -101,7 +101,7 @@ impl<'a> Energies<'a> {
             weight: Weight::new(masses, sheet.gravity),
             stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), system),
             shear: Shear::new(sheet, system),
-            bending: Bending::new(&fabric.bends, sheet.rigidity, &sheet.moment, system),
+            bending: Bending::new(sheet, pads, system),
             contact: sheet
                 .mold
                 .as_ref()

@@ -28,6 +28,7 @@ mod friction;
 mod gripper;
 mod hand_over;
 mod inertia;
+mod lip;
 mod march;
 pub(crate) mod matrix3;
 mod model;

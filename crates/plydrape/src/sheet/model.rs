@@ -2,6 +2,7 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
+use super::lip;
 use crate::Error;
 use crate::layup::{Friction, Layup, PadSettings, Settings, SheetTime};
 use crate::material::{MomentCurve, Section, ShearCurve, ShearRate, TensionLaw};
@@ -24,6 +25,8 @@ pub struct Sheet {
     pub fabric: Fabric,
     /// Grippers.
     pub grippers: Vec<Gripper>,
+    /// For each gripper the bends under its lip, with what it adds to their rigidity as long as it holds the ply (N·m).
+    pub lips: Vec<Vec<(usize, f64)>>,
     /// The mold; `None` for a ply that only hangs.
     pub mold: Option<Mold>,
     /// Mass per area (kg/m²).
@@ -104,8 +107,13 @@ impl Sheet {
         for stiffness in mount.into_iter().flatten() {
             positive("the stiffness of the mounts", stiffness)?;
         }
-        if 2.0 * radius >= pitch {
-            return Err(Error::SheetPadsOverlap { radius_mm: radius * 1e3, pitch_mm: pitch * 1e3 });
+        if let Some(lip) = &settings.pad.lip {
+            positive("the radius of the lips", lip.radius)?;
+            positive("the rigidity of the lips", lip.rigidity)?;
+        }
+        let widest = settings.pad.lip.map_or(radius, |lip| radius.max(lip.radius));
+        if 2.0 * widest >= pitch {
+            return Err(Error::SheetPadsOverlap { radius_mm: widest * 1e3, pitch_mm: pitch * 1e3 });
         }
         let most = coarsest_mesh(pitch, radius);
         if mesh > most * (1.0 + 1e-9) {
@@ -149,8 +157,14 @@ impl Sheet {
             let (slip_force, max_tilt) = (settings.pad.slip_force, settings.max_tilt);
             Gripper { place, radius, mount, slip_force, max_tilt }
         };
+        let lip = |n: usize| match &settings.pad.lip {
+            Some(lip) => lip::under(&fabric, lip, ply.place(n)),
+            None => Vec::new(),
+        };
+        let lips = (0..ply.grippers()).map(lip).collect();
         let sheet = Sheet {
             fabric,
+            lips,
             grippers: (0..ply.grippers()).map(gripper).collect(),
             mold: layup.mold.clone(),
             areal_mass,

@@ -10,7 +10,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Cell")]
 pub(in crate::scene) struct CellTable {
-    /// "usual": cups with bellows on a robot; "ideal": rigid and without errors; or a .toml file relative to the scene. It gives
+    /// "usual": cups with bellows on a robot; "ideal": rigid and without errors; or a .toml file relative to the scene. It gives `lip`,
     /// `stiffness`, `slip_force`, `holding_force` and `max_tilt` of [grippers], [release] and each term of [errors]; keys of
     /// the scene override it. `plydrape limits` lists the figures with their sources.
     #[schemars(extend("examples" = ["usual", "ideal"]))]

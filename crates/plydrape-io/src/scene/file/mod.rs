@@ -25,7 +25,7 @@ pub(super) use pick_up::PickUpTable;
 pub(super) use plan::{MethodKey, PlanTable};
 pub(super) use release::{OrderKey, ReleaseTable};
 pub(super) use robot::{DhTable, RobotTable};
-pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
+pub(super) use sheet::{LipTable, MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 
@@ -368,9 +368,11 @@ pub(super) struct GrippersTable {
     pub positions: Option<Located<Positions>>,
     /// Limit of the ball joints: largest gripper tilt (rad), that of the cell or 40 deg unless given.
     pub max_tilt: Option<Quantity<AcuteAngle>>,
-    /// Radius of the pads that hold the sheet flat (m). A radius of 0 holds one point.
+    /// Radius of the rigid pads that hold the sheet flat (m). A radius of 0 holds one point.
     #[schemars(extend("default" = written(PadSettings::default().radius, "mm")))]
     pub pad_radius: Option<Quantity<Pad>>,
+    /// The soft lips of the cups; those of the cell or none unless given.
+    pub lip: Option<Located<LipTable>>,
     /// How far the mounts of the pads yield; that of the cell or rigid unless given.
     pub stiffness: Option<Located<MountTable>>,
     /// Largest load along the ply that a pad holds before the fabric slides under it (N); that of the cell or any unless given.

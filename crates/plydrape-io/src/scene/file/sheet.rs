@@ -2,7 +2,7 @@
 
 use crate::scene::located::{Count, Located};
 use crate::scene::quantity::Quantity;
-use crate::scene::usual::{Mesh, Mount, Strain, TensionForce};
+use crate::scene::usual::{LipRigidity, Mesh, Mount, Pad, Strain, TensionForce};
 use plydrape::layup::SheetSettings;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -42,6 +42,17 @@ pub(in crate::scene) struct MountTable {
     pub lateral: Option<Quantity<Mount>>,
     /// Stiffness across the ply (N/m).
     pub axial: Option<Quantity<Mount>>,
+}
+
+/// The soft lip of a vacuum cup, which the vacuum joins to the fabric: the fabric under it bends with it, and shears as if it were free.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Lip")]
+pub(in crate::scene) struct LipTable {
+    /// Radius (m); that of the cell unless given. 0 is no lip.
+    pub radius: Option<Quantity<Pad>>,
+    /// Flexural rigidity per width (N·m), E t³/12(1 - ν²) of a disc of rubber t thick; that of the cell unless given.
+    pub rigidity: Option<Quantity<LipRigidity>>,
 }
 
 /// Measured points of a tensile test, the same along warp and weft.

@@ -10,10 +10,11 @@ Herrmann and Johnson), so that the kinks between elements bend too. The energy p
     T (|a1| - 1)^2 / 2 + T (|a2| - 1)^2 / 2 + (integral of tau over gamma) + bending,
 
 with the fiber vectors a1 and a2, the shear sin(gamma) = a1 . a2 / (|a1| |a2|), the tension
-stiffness T, the shear curve tau and two flexural rigidities. Gravity acts from the start, and time
-steps are implicit (Euler's), because the ply snaps from fold to fold. Cups are springs to where the
-robot holds them. Contact is that of plydrape's sheet: a node below the mold is pushed back, and
-held along the mold where it touched until it is clear again. All units are SI.
+stiffness T, the shear curve tau and two flexural rigidities, to which the lips of cups add theirs.
+Gravity acts from the start, and time steps are implicit (Euler's), because the ply snaps from fold
+to fold. Cups are springs to where the robot holds them. Contact is that of plydrape's sheet: a node
+below the mold is pushed back, and held along the mold where it touched until it is clear again. All
+units are SI.
 """
 
 import argparse
@@ -101,7 +102,15 @@ for x, m in ((u, test), (du, moment)):
     bending += ng.SymbolicBFI(curvature, intrule=gauss(3, 3))
     bending += ng.SymbolicBFI(-slope * InnerProduct(out, m * out), element_boundary=True)
 warp, weft = ply["rigidity"]
-own = moment[0, 0] * test[0, 0] / warp + moment[1, 1] * test[1, 1] / weft
+# The soft lip of a cup bends with the ply as long as the cup holds it, and does not resist twist.
+holds = [ng.Parameter(1.0) for _ in ply["grippers"]]
+lip = CoefficientFunction(0.0)
+for cup, hold_on in zip(ply["grippers"], holds, strict=True):
+    if cup["lip"]:
+        (a, b), (reach, rigidity) = cup["place"], cup["lip"]
+        under = ng.IfPos(reach**2 - (ng.x - a) ** 2 - (ng.y - b) ** 2, 1.0, 0.0)
+        lip += hold_on * rigidity * under
+own = moment[0, 0] * test[0, 0] / (warp + lip) + moment[1, 1] * test[1, 1] / (weft + lip)
 own += 2.0 * moment[0, 1] * test[0, 1] / (args.twist * np.sqrt(warp * weft))
 bending += ng.SymbolicBFI(-own, intrule=gauss(3, 3))
 
@@ -231,6 +240,8 @@ while len(states) < len(moments):
     along = ng.Normalize(ng.Cross(*fibers(state.components[:3])))
     for k, part in enumerate(normal.components):
         part.Set(along[k])
+    for hold_on, (*_, until, _spring) in zip(holds, cups, strict=True):
+        hold_on.Set(float(now <= until))
     bending.Assemble()
     bent, before = csr(bending), q.copy()
     for _ in range(20):

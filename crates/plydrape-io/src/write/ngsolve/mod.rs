@@ -80,6 +80,8 @@ struct Cup {
     name: String,
     place: [f64; 2],
     radius: f64,
+    /// Radius (m) and flexural rigidity (N·m) of its soft lip; `None` without one.
+    lip: Option<[f64; 2]>,
     stiffness: [f64; 3],
     /// When it lets go (s); `None` if it holds to the end.
     release: Option<f64>,
@@ -145,6 +147,7 @@ pub(crate) fn files(
             name: plydrape::ply::gripper_name(gripper.id),
             place: held.place,
             radius: held.radius,
+            lip: layup.settings.pad.lip.map(|lip| [lip.radius, lip.rigidity]),
             stiffness: held.mount.unwrap_or([RIGID * tension; 3]),
             release: (last + 1 < result.steps.len()).then(|| result.steps[last].time),
             positions: track().map(|gripper| gripper.commanded).collect(),

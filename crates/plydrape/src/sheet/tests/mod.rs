@@ -3,6 +3,7 @@
 mod derivatives;
 mod fixed_pads;
 pub(crate) mod hanging;
+mod lip;
 mod mounts;
 mod on_mold;
 mod pick_up;
@@ -38,6 +39,7 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
     Sheet {
         fabric: Fabric::rectangle(lines, pitch),
         grippers: held.iter().map(gripper).collect(),
+        lips: vec![Vec::new(); held.len()],
         mold: None,
         areal_mass: 3.143,
         rigidity: [9e-5; 2],

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Error;
-use crate::layup::{Layup, Model, PadSettings, Release, ReleaseOrder, Settings, SheetTime};
+use crate::layup::{Layup, Lip, Model, PadSettings, Release, ReleaseOrder, Settings, SheetTime};
 use crate::material::{Material, Section};
 use crate::measure::{Judge, Limits, Name};
 use crate::mold::{Cylinder, Face, Pose, Sphere};
@@ -67,6 +67,7 @@ fn layup(seed: u64) -> Layup {
         radius: r.choice(&[0.0, 0.0, 0.01, 0.04]),
         lateral_stiffness: r.choice(&[None, Some(2e3)]),
         axial_stiffness: r.choice(&[None, Some(5e3), Some(1.0)]),
+        lip: (seed % 3 == 1).then_some(Lip { radius: 0.3 * side, rigidity: 1e-3 }),
         ..PadSettings::default()
     };
     let mu = r.between(0.0, 1.5);
