@@ -120,6 +120,7 @@ def test_a_cell_gives_the_errors_mounts_and_release_that_a_scene_leaves_out() ->
     written = scene(
         grippers={
             **SCENE["grippers"],
+            "lip": {"radius": "15 mm", "rigidity": "0.0003 N m"},
             "stiffness": {"lateral": "2 N/mm", "axial": "2 N/mm"},
             "slip_force": "10 N",
             "holding_force": "20 N",
