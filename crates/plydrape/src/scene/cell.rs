@@ -169,7 +169,7 @@ impl CellPreset {
     pub fn about(self) -> &'static str {
         match self {
             CellPreset::Usual => {
-                "vacuum cups with bellows and soft lips, which let go of the ply, and errors of usual size"
+                "vacuum cups with bellows and lips, which let go of the ply, and errors of usual size"
             }
             CellPreset::Ideal => {
                 "grippers that are rigid and hold any load to the end, without errors"
