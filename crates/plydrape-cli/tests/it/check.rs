@@ -196,12 +196,15 @@ fn an_edge_that_hangs_too_low_is_warned_of_with_the_length_that_may_hang() {
     let words = warned.split("what an edge of ").nth(1).expect(&warned);
     let most: f64 = words.split(' ').next().unwrap().parse().unwrap();
     assert!((5.0..25.0).contains(&most), "{warned}");
-    let lip = "lip = { radius = \"15 mm\", rigidity = \"1 mN m\" }";
-    for held in ["pad_radius = \"15 mm\"", lip] {
+    // a lip far stiffer than the ply holds as much as a pad, and one far limper nothing
+    let lip = |rigidity: &str| format!("lip = {{ radius = \"15 mm\", rigidity = \"{rigidity}\" }}");
+    let held_by =
+        [("pad_radius = \"15 mm\"".into(), 15.0), (lip("0.1 N m"), 15.0), (lip("1e-8 N m"), 0.0)];
+    for (held, radius) in held_by {
         let warned = warning(&edge(35.0).replace("[grippers]", &format!("[grippers]\n{held}")));
         let words = warned.split("what an edge of ").nth(1).expect(&warned);
         let with_pads: f64 = words.split(' ').next().unwrap().parse().unwrap();
-        assert!((with_pads - most - 15.0 / 2.0_f64.sqrt()).abs() < 0.15, "{most} {with_pads}");
+        assert!((with_pads - most - radius / 2.0_f64.sqrt()).abs() < 0.15, "{most} {with_pads}");
     }
     assert_eq!(warnings(&edge(0.98 * most)), [""; 0]);
     assert_eq!(warnings(&edge(1.02 * most)).len(), 1);

@@ -45,17 +45,22 @@ fn overhang(scene: &Scene) -> Option<String> {
         return None;
     }
     let beyond = reach_beyond_cups(&layup.ply, layup.settings.sheet.overhang);
-    // a corner is a square that is held along two sides, as wide as the pad or its lip leaves it along its diagonal
     let pad = &layup.settings.pad;
-    let held = FRAC_1_SQRT_2 * pad.lip.map_or(pad.radius, |lip| pad.radius.max(lip.radius));
-    let free = beyond - held;
     // where the ply bends most easily
-    let ruck = [Kind::EdgeU, Kind::EdgeV].into_iter().filter_map(|kind| {
+    let rucks = [Kind::EdgeU, Kind::EdgeV].into_iter().filter_map(|kind| {
         let line = layup.ply.line(kind);
+        // a soft lip holds between nothing and what a rigid one does, by its share of the rigidity
+        let rigidity = line.flexural_rigidity * layup.ply.areal_mass() / line.mass;
+        let lip = pad.lip.map_or(0.0, |lip| lip.radius * lip.rigidity / (lip.rigidity + rigidity));
+        // a corner is a square that is held along two sides, as wide as the pad or its lip leaves it along its diagonal
+        let held = FRAC_1_SQRT_2 * pad.radius.max(lip);
+        let free = beyond - held;
         let weight = line.mass * layup.settings.gravity;
-        (free > 0.0).then(|| Ruck::of_free_edge(free, line.flexural_rigidity, weight))?
+        let ruck =
+            (free > 0.0).then(|| Ruck::of_free_edge(free, line.flexural_rigidity, weight))?;
+        Some((held, free, ruck?))
     });
-    let ruck = ruck.max_by(|a, b| a.height().total_cmp(&b.height()))?;
+    let (held, free, ruck) = rucks.max_by(|a, b| a.2.height().total_cmp(&b.2.height()))?;
     // it hangs from both sides: lower by what one edge hangs from the other, and as steeply along both
     let (height, slope) = (2.0 * ruck.height(), SQRT_2 * ruck.steepest());
     let [most, steepest] = [Name::Height, Name::OutOfPlane].map(|name| scene.limits.most(name));
