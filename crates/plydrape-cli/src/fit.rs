@@ -159,6 +159,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 
 impl Kind {
     fn request(&self) -> Result<Request, Failure> {
+        // measures of the specimens may be left out: a table may state those of its own
         let length = |option: &str, text: &Option<String>| {
             let help = "expected a length from 1 um to 10 km, e.g. \"100 mm\"";
             text.as_ref()
@@ -182,7 +183,10 @@ impl Kind {
                 })
                 .transpose()
         };
+
+        // each test has its own measures and its own columns
         Ok(match self {
+            // shear: a table gives displacement and force
             Kind::Bias(strips) => {
                 let [width, length] = strips.sizes(length)?;
                 strips.request(Test::Bias { width, length })
@@ -200,6 +204,7 @@ impl Kind {
                 weft: Vec::new(),
                 titles: [displacement.clone(), force.clone()],
             },
+            // bending: tables of strips along the warp and along the weft
             Kind::Overhang { strips, mass, angle, overhang } => {
                 let help = "expected an angle from 1 to 89 deg, e.g. \"41.5 deg\"";
                 let range = [1.0_f64, 89.0].map(f64::to_radians);

@@ -143,16 +143,21 @@ fn once(
     file: &Path,
     quiet: bool,
 ) -> Done {
+    // where the ply was seen, and where the files go
     let seen = read_offset(file, planned.tolerance())?.also_far(arguments.far);
     let result_file = read::file_of(&arguments.result);
     let beside = || result_file.parent().unwrap_or(Path::new("")).join("replan");
     let output = arguments.output.clone().unwrap_or_else(beside);
+
+    // the corrected motion
     let replanned = planned.replan(replanner, &seen)?;
     let answer = match arguments.json {
         true => json::to_text(&Answer::new(planned, replanner, &replanned, arguments.rate)?)?,
         false => String::new(),
     };
     let said = said(&seen, &replanned);
+
+    // the files of the result; no file that was read is replaced
     let read = [&planned.result().files[..], &[file.into()]].concat();
     let (result, files) = whole(|| {
         let folder = Folder::claim(&output, "replan", &read)?;
@@ -160,6 +165,8 @@ fn once(
         let files = write_into(folder, &result, &[])?;
         Ok::<_, Error>((result, files))
     })?;
+
+    // what is printed
     let text = match arguments.json {
         true => answer,
         false if quiet => String::new(),
@@ -269,6 +276,7 @@ impl<'a> Answer<'a> {
         rate: Option<f64>,
     ) -> Result<Self, Error> {
         let Replanned { motion, summary, .. } = replanned;
+        // the corrected motion, at the steps of the plan or at the rate asked for
         let (times, positions) = match rate {
             None => (motion.times().to_vec(), motion.positions().to_vec()),
             Some(rate) => {
@@ -276,6 +284,8 @@ impl<'a> Answer<'a> {
                 (sampled.times, sampled.positions)
             }
         };
+
+        // the flange of the robot along it, where a tool carries the grippers
         let flange = planned.scene().layup.tool.as_ref().map(|tool| {
             let postures: Vec<_> = positions.iter().map(|places| tool.posture(places)).collect();
             let pose = |posture: &Posture| tool.world.compose(&posture.frame.compose(&tool.flange));
@@ -288,6 +298,8 @@ impl<'a> Answer<'a> {
             };
             postures.into_iter().zip(&poses).zip(turns).map(flange).collect()
         });
+
+        // the offset that the motion takes out
         let picked_up = replanned.record.picked_up.as_ref();
         let (offset, residual) =
             picked_up.map(|picked| (picked.offset, picked.residual)).unwrap_or_default();

@@ -282,6 +282,7 @@ impl From<Diagnostic> for Error {
 
 impl From<Cause> for Error {
     fn from(cause: Cause) -> Self {
+        // the remedy in words of scenes and of test records; other causes have one of their own
         let help = match cause {
             Cause::NoCatenaries => "drape it by the sheet: kind = \"sheet\" in [model]",
             Cause::CatenariesPickUp => "drape it by the sheet alone, or leave out [pick_up]",

@@ -123,6 +123,7 @@ pub fn too_large(result: &ResultFile) -> Option<String> {
 /// # Errors
 /// [`Error`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
 pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, Error> {
+    // what drives a machine must be accepted, and not too large, unless the options allow it
     if format.drives() && !options.even_if_rejected {
         gate(result)?;
     }
@@ -130,12 +131,16 @@ pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<F
         let help = "see in the verdict what limits its speed, give a lower `rate` in [plan], or write them with --large (in Python large=True)";
         return Err(Error::not_possible(why, help));
     }
+
+    // the tension stiffness of the options is a number above 0
     let is_stiffness = |tension: f64| tension > 0.0 && tension.is_finite();
     if let Some(tension) = options.tension.filter(|tension| !is_stiffness(*tension)) {
         let message =
             format!("the tension stiffness is {tension} N/m, which is not a number above 0");
         return Err(Error::not_possible(message, "give a number above 0, e.g. 2e4"));
     }
+
+    // the files of the format, each with its name
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
         Format::Csv => {

@@ -218,12 +218,15 @@ fn hanging(
 
 /// A fault of the points of a specimen at its row, and one of its record at its header.
 fn placed(tables: &[Specimen], cause: Cause) -> Error {
+    // only faults of points and of records have a file and a place in it
     let (Cause::FitPoint { what, .. } | Cause::FitReach { what, .. }) = &cause else {
         return cause.into();
     };
     let Some((_, table)) = tables.iter().find(|(name, _)| name == what) else {
         return cause.into();
     };
+
+    // the fault is in the first column of its row or in the last one
     let point = match &cause {
         Cause::FitPoint { point, fault, .. } => {
             let column = match fault {
@@ -241,6 +244,8 @@ fn placed(tables: &[Specimen], cause: Cause) -> Error {
         }
         _ => None,
     };
+
+    // a fault of a point is shown at its row, one of the record at the header
     let error = Error::from(cause);
     match point {
         Some((place, fault)) => table.error(place, fault, error.help()),
@@ -357,12 +362,14 @@ impl Fitted {
         let (applied, unit, size) = words.applied;
         let (load, load_unit) = words.load;
         for ((name, table), remarks) in tables.iter().zip(remarks) {
+            // where in the file the points are
             let lines = |points: [usize; 2]| match points.map(|point| table.line(point)) {
                 [first, last] if first == last => format!("line {first} is left out"),
                 [first, last] => format!("lines {first} to {last} are left out"),
             };
             for remark in remarks {
                 let note = match *remark {
+                    // points that the fit leaves out
                     Remark::AfterPeak { points, peak } => format!(
                         "{}, because the {load} has fallen from its peak of {} {load_unit}",
                         lines(points),
@@ -384,6 +391,7 @@ impl Fitted {
                         "points beyond {} 1/m are left out, because the {load} has fallen from its peak",
                         short(curvature)
                     ),
+                    // points that it uses, but that somebody should check
                     Remark::BeginsLate { first } => format!(
                         "its {applied} begin at {} {unit}, which is taken for the way from no load: see whether that is so",
                         short(first / size)

@@ -64,6 +64,7 @@ fn positions(grid: Grid, spacing: f64, shear: f64, z: f64) -> Vec<[f64; 3]> {
 }
 
 fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) -> Step {
+    // a parabola for each catenary, and one crossing point for the two diagonals of a cell
     let mut shapes: Vec<Vec<[f64; 3]>> = Vec::new();
     let mut lengths = Vec::new();
     let graph = Lines::array(grid, [CELL; 2]);
@@ -74,6 +75,8 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         shapes.push(parabola(ends, lengths[k]));
     }
     lift_crossings(&graph, &mut shapes);
+
+    // the state of catenaries, grippers, solver and cells
     let catenaries = (0..graph.catenaries())
         .map(|k| catenary(graph.catenary(k), lengths[k], &shapes[k], mold))
         .collect();
@@ -90,6 +93,8 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         .map(|cell| cell.id)
         .map(|cell| Cell { cell, shear_deg: 0.0, shearing: None, landed_deg: [None; 2] })
         .collect();
+
+    // made-up measures that grow or fall with time; landing errors are known near the end only
     let measured = [
         (Name::Overstretch, 0.01 * time),
         (Name::Tilt, 19.0 - 3.0 * time),
@@ -160,6 +165,7 @@ fn lift_crossings(graph: &Lines, shapes: &mut [Vec<[f64; 3]>]) {
 }
 
 fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) -> CatenaryState {
+    // the first and the last station that touch the mold
     let arc = |k: usize| length * k as f64 / (STATIONS - 1) as f64;
     let touches = |k: &usize| mold.is_some_and(|z| shape[*k][2] < z + 0.001);
     let low = (0..STATIONS).find(touches);
@@ -173,6 +179,8 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
         slopes: [-0.3, 0.3],
         prescribed: [false; 2],
     };
+
+    // between them the catenary lies on the mold, and on both sides a span hangs
     let (spans, contact) = match low.zip(high) {
         None => (vec![span(0, 0, STATIONS - 1)], None),
         Some((a, b)) => {
@@ -351,6 +359,7 @@ pub(crate) fn tilted(nu: usize, nv: usize) -> ResultFile {
 
 /// A drape by a sheet of nine nodes with the grippers of [`draped`]; its states are in no file.
 pub(crate) fn sheet(nu: usize, nv: usize, steps: usize) -> ResultFile {
+    // the drape by catenaries, with the measures of a sheet in their place
     let mut result = draped(nu, nv, steps);
     result.scene.settings.model = Model::Sheet;
     for step in &mut result.steps {
@@ -364,6 +373,8 @@ pub(crate) fn sheet(nu: usize, nv: usize, steps: usize) -> ResultFile {
             (Name::Strain, 1e-4),
         ]);
     }
+
+    // what the summary says of a sheet
     let summary = &mut result.summary;
     summary.model = Model::Sheet;
     summary.catenaries = None;

@@ -163,6 +163,7 @@ impl Numbers<'_> {
         what: &str,
         wanted: &str,
     ) -> PyResult<(Vec<usize>, Vec<T>)> {
+        // what is no array of numbers is refused; the rest gets one type
         let py = self.0.py();
         let keywords = PyDict::new(py);
         keywords.set_item("dtype", name)?;
@@ -175,6 +176,8 @@ impl Numbers<'_> {
             Ok(array) => py.import("numpy")?.call_method("asarray", (array,), Some(&keywords)),
             Err(why) => Err(PyTypeError::new_err(why)),
         });
+
+        // the error says what was expected, and keeps the fault of NumPy as its cause
         let array = array.map_err(|fault| {
             let text = none(&fault.value(py).to_string());
             let made = match fault.is_instance_of::<PyTypeError>(py) {
@@ -184,6 +187,8 @@ impl Numbers<'_> {
             made.set_cause(py, Some(fault));
             made
         })?;
+
+        // the shape, and the numbers with the last axis running fastest
         let array = array.cast_into::<PyArrayDyn<T>>()?.readonly();
         let view = array.as_array();
         Ok((view.shape().to_vec(), view.iter().copied().collect()))

@@ -94,12 +94,15 @@ pub fn fit(
     curvature: Option<String>,
     moment: Option<String>,
 ) -> PyResult<Json> {
+    // all measures in SI units; those that a table states itself may be left out
     let length_of =
         |length, name| Amount::given(length, name, Measured::Length, &usual::Coupon::USUAL);
     let (width, length) = (length_of(width, "width")?, length_of(length, "length")?);
     let (side, fabric) = (length_of(side, "side")?, length_of(fabric, "fabric")?);
     let mass = Amount::given(mass, "mass", Measured::ArealMass, &usual::PlyMass::USUAL)?;
     let angle = angle.si("angle", Measured::Angle, &usual::AnyAngle::USUAL)?;
+
+    // each test has its own measures and its own columns
     let (test, titles) = match test {
         "bias" => (Test::Bias { width, length }, [displacement, force]),
         "rate" => (Test::Rate { width, length }, [displacement, force]),
@@ -113,6 +116,8 @@ pub fn fit(
             )));
         }
     };
+
+    // the same fit as that of the command line
     let fitted = plydrape_io::fit::fit(&Request { test, warp, weft, titles })
         .map_err(|fault| error::value(&fault))?;
     Json::new(&fitted.json())

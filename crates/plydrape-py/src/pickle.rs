@@ -124,6 +124,7 @@ pub fn restore<'py>(
     file: Option<&[u8]>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let any = match name {
+        // what holds a result: its text, and the file of its sheet where there is one
         "Result" => Bound::new(py, Result(Arc::new(result(state, file)?)))?.into_any(),
         "Sheet" => {
             Sheet::from_result(&Arc::new(result(state, file)?))?.into_pyobject(py)?.into_any()
@@ -138,12 +139,14 @@ pub fn restore<'py>(
             let result = Result(Arc::new(result(&state.result, file)?));
             Bound::new(py, Outcome { result, quantities: state.quantities })?.into_any()
         }
+        // what is a text alone
         "Scene" => Bound::new(py, from::<SceneState>(state)?.scene())?.into_any(),
         "Ply" => Bound::new(py, Ply(from(state)?))?.into_any(),
         "Material" => Bound::new(py, Material(from(state)?))?.into_any(),
         "Mold" => from::<MoldState>(state)?.mold().map(Mold).into_pyobject(py)?.into_any(),
         "Net" => Bound::new(py, Net(Arc::new(from(state)?)))?.into_any(),
         "Sample" => Bound::new(py, Sample(from(state)?))?.into_any(),
+        // one of the measures that there are, by its key
         "Measure" => {
             measures().into_iter().find(|one| one.key() == state).into_pyobject(py)?.into_any()
         }
@@ -152,6 +155,7 @@ pub fn restore<'py>(
             Bound::new(py, Surface(surface::Surface { size, vertices, gap }))?.into_any()
         }
         "ClosestPoints" => Bound::new(py, from::<ClosestState>(state)?.points())?.into_any(),
+        // a span is solved anew, a solver starts anew, and of many equilibria what was found is kept
         "Span" => {
             let state: SpanState = from(state)?;
             Bound::new(py, Span::solved(state.span(), state.exact())?)?.into_any()
@@ -309,6 +313,7 @@ impl SceneState {
     }
 
     fn scene(self) -> Scene {
+        // the echo has no mold: the state keeps it beside the echo, with its waves
         let SceneEcho {
             title,
             book_ply,
@@ -324,6 +329,8 @@ impl SceneState {
             release,
             pick_up,
         } = self.scene;
+
+        // the scene, put together again
         let motion = Motion { times: self.times, positions: self.positions };
         let layup = Layup {
             ply,
@@ -338,6 +345,8 @@ impl SceneState {
         };
         let (plan, also) = (self.plan, self.also);
         let scene = scenes::Scene { title, layup, limits, plan, errors, also, book_ply };
+
+        // what was found while files were read is not kept
         let file = SceneFile {
             scene,
             input,

@@ -35,12 +35,15 @@ fn catenaries(step: &SolvedStep) -> Vec<CatenaryState> {
     for n in 0..lines.catenaries() {
         let c = lines.catenary(n);
         let contact = snapshot.contacts[n].as_ref();
+        // a bias line that shear stretches has the force of the cells that shear along it
         let stretched = step.solver.problem().stretched(n);
         let shear_force = stretched.and_then(|path| {
             let is_falling = c.kind == Kind::Falling;
             let shears = lines.cells_of(n).filter_map(|cell| snapshot.shear[cell]);
             shear_force(layup, path, shears.filter(|shear| shear.falling == is_falling))
         });
+
+        // the line without its segments
         let mut line = CatenaryState {
             kind: c.kind,
             from: c.from,
@@ -52,12 +55,16 @@ fn catenaries(step: &SolvedStep) -> Vec<CatenaryState> {
             contact: None,
             bridging: snapshot.bridges[n],
         };
+
+        // segments that do not lie; spans come in the order of the catenaries
         while let Some((span, misfit)) = spans.next_if(|(span, _)| span.catenary == n) {
             if contact.is_none() {
                 line.length = span.length;
             }
             line.spans.push(free_state(span, misfit));
         }
+
+        // in contact: what touches the mold, and the other segments, in order along the line
         if let Some(contact) = contact {
             line.contact = Some(contact_state(contact, step.landings()[n].as_ref()));
             line.spans.extend(step.lying()[n].iter().map(lying_state));

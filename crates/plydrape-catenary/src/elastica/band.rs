@@ -43,6 +43,7 @@ impl Band {
     /// Replaces the matrix by its factors; false where it is singular.
     pub fn factorize(&mut self) -> bool {
         for pivot in 0..self.size {
+            // the largest entry of the column becomes the pivot
             let below = (pivot + self.half + 1).min(self.size);
             let end = (pivot + 2 * self.half + 1).min(self.size);
             let size = |row: usize| self.entries[self.place(row, pivot)].abs();
@@ -54,10 +55,14 @@ impl Band {
                     self.entries.swap(a, b);
                 }
             }
+
+            // no pivot: the matrix is singular
             let diagonal = self.entries[self.place(pivot, pivot)];
             if diagonal == 0.0 || !diagonal.is_finite() {
                 return false;
             }
+
+            // the column is eliminated from the rows below, and its places keep the factors
             for row in pivot + 1..below {
                 let entry = self.place(row, pivot);
                 let factor = self.entries[entry] / diagonal;

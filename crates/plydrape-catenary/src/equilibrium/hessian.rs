@@ -31,6 +31,7 @@ impl Hessian {
         self.diagonal.resize(problem.shared_slopes().len(), 0.0);
         for (n, element) in problem.elements.iter().enumerate() {
             let (force, slope) = (&state.element(n).force, &state.element(n).slope);
+            // second derivatives to its own end slopes: of ½H², and of an edge also of the free ends that diagonals follow
             let mut block = [[0.0; 2]; 2];
             for i in 0..2 {
                 for j in 0..2 {
@@ -43,6 +44,8 @@ impl Hessian {
                     }
                 }
             }
+
+            // from the end slopes to the shared slopes that they follow; their diagonal entries add up
             let row = element.ends.map(|end| followed(problem, state, end));
             for i in 0..2 {
                 for j in 0..2 {

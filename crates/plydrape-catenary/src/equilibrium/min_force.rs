@@ -85,6 +85,7 @@ fn gradient<T: Number>(
 ) {
     out.fill(T::from(0.0));
     adjoint.fill([T::from(0.0); 2]);
+    // a diagonal depends on the edge slopes of its planes: shared ones, and free ones that follow their edge
     for (n, element) in problem.elements.iter().enumerate().skip(problem.edge_elements) {
         let (force, slopes) = response(n).force;
         for end in 0..2 {
@@ -101,6 +102,8 @@ fn gradient<T: Number>(
             }
         }
     }
+
+    // an edge depends on its shared slopes by its own force and by its free end, which diagonals see
     for (n, element) in problem.elements[..problem.edge_elements].iter().enumerate() {
         for end in 0..2 {
             let End::Shared(shared) = element.ends[end] else {

@@ -194,12 +194,15 @@ impl Pass {
         self.held.clear();
         let shared = |n: usize| Dual64::new(slopes[n], change[n]);
         for (element, jets) in problem.elements.iter().zip(jets) {
+            // a straight element has the slope of its chord, and no force
             if element.state == SpanState::Straight {
                 let slope = element.chord_slope();
                 self.responses.push(Response::straight(slope));
                 self.held.push([slope; 2]);
                 continue;
             }
+
+            // the slopes that hold the ends; edges come first, so a diagonal knows the slopes of its edges
             let held = element.ends.map(|end| match end {
                 End::Free => None,
                 End::Prescribed(slope) => Some(slope),
@@ -210,6 +213,8 @@ impl Pass {
                     SlopeSource::Outcome(edge, end) => self.responses[edge].slope[end].0,
                 })),
             });
+
+            // how all that the element depends on changes along the direction
             let eps = |slope: Option<Dual64>| slope.map_or(0.0, |s| s.eps);
             let x = [
                 eps(held[0]),
@@ -220,6 +225,8 @@ impl Pass {
                 element.rigidity.eps,
                 element.length.eps,
             ];
+
+            // force, end slopes and end curvatures follow from the jets; a free end has the slope that comes out
             let slope = [0, 1].map(|end| along(&jets.slope[end], &x));
             let curvature = [0, 1].map(|end| along(&jets.curvature[end], &x).0);
             self.responses.push(Response { force: along(&jets.force, &x), slope, curvature });

@@ -99,13 +99,16 @@ pub struct EquilibriumTuning {
 impl Default for EquilibriumTuning {
     fn default() -> Self {
         EquilibriumTuning {
+            // geometry: shearing cells, vertical spans, upright planes, parallel edges
             full_constraint: 3f64.to_radians(),
             vertical_run: 1e-3,
             upright_plane: 1e-6,
             parallel_edges: 1e-6,
+            // when a solve has converged
             slope_tolerance: 1e-9,
             length_tolerance: 1e-8,
             rounding_residual: 1e-6,
+            // the force of one element: by series or anew, and how exact
             extrapolation: 2e-4,
             series_slope: 1e-5,
             series_force: 0.01,
@@ -114,6 +117,7 @@ impl Default for EquilibriumTuning {
             force_steps: 4,
             length_margin: 0.1,
             buckling_rounding: 1e3,
+            // Newton steps of the slopes, and the search along them
             iterations: 100,
             smallest_share: 1e-9,
             decrease: 1e-4,
@@ -122,6 +126,7 @@ impl Default for EquilibriumTuning {
             far_step: 0.2,
             longest_step: 0.3,
             active_sets: 12,
+            // linear systems of a step and of a derivative
             linear_iterations: 2,
             linear_unknowns: 500,
             few_unknowns: 64,
@@ -130,9 +135,11 @@ impl Default for EquilibriumTuning {
             linear_tolerance: [1e-12, 1e-4],
             tangent_tolerance: 1e-14,
             linear_rounding: 1e-10,
+            // shifts of the moment matrix where it is not positive
             first_shift: 1.0 / 64.0,
             shift_growth: 4.0,
             largest_shift: 64.0,
+            // continuation from a limp ply to its own rigidity
             limp: 1e-4,
             growth: 4.0,
             smallest_growth: 1.05,

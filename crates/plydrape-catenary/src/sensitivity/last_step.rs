@@ -34,6 +34,7 @@ impl LastStep {
         let Draping { solver, positions, contacts, .. } = draping;
         let sensitivity = Sensitivity::new(layup, solver, shape, positions, contacts, 0.0);
 
+        // the tightest segment of each catenary among those that lie
         let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Row::default() };
         let mut overstretch = vec![nothing; lines.catenaries()];
         let mut force: Vec<Option<Quantity>> = vec![None; lines.catenaries()];
@@ -44,6 +45,7 @@ impl LastStep {
                 }
             }
         }
+        // free spans may be tighter; they also give the force
         for span in &shape.spans {
             let found = sensitivity.overstretch(span);
             if found.value > overstretch[span.catenary].value {
@@ -77,10 +79,13 @@ fn lying(
     };
     let grippers = layup.ply.lines().ends(catenary);
     let tolerance = layup.settings.contact.tolerance;
+    // path minus fabric length of each segment, for given places of the two grippers
     let misfits = |ends: [Point; 2]| -> Vec<f64> {
         let segments = lying_segments(catenary, contact, ends, mold, tolerance);
         segments.iter().map(|segment| -segment.misfit.excess()).collect()
     };
+
+    // the values, at the places where the grippers are
     let ends = grippers.map(|gripper| positions[gripper]);
     let step = TUNING.step * layup.ply.shorter_side();
     let mut out: Vec<Quantity> = (misfits(ends).into_iter())
@@ -89,6 +94,8 @@ fn lying(
     if out.is_empty() {
         return out;
     }
+
+    // the gradients, by central differences with the contact as it is
     for (end, gripper) in grippers.into_iter().enumerate() {
         for axis in 0..3 {
             let moved = |by: f64| {

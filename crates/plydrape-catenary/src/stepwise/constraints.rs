@@ -11,17 +11,22 @@ impl Step<'_> {
     pub(super) fn limits(&self, sensitivity: &Sensitivity, program: &mut Program) {
         let limits = &self.task.limits;
         let (grid, scale) = (self.task.layup.ply.grid, program.scale);
+
+        // what exceeds its limit already may stay as it is
         let mut keep = |q: Option<Quantity>, limit: f64| {
             if let Some(q) = q {
                 program.at_most(&q.gradient, 1.0 / scale, limit.max(q.value) - q.value);
             }
         };
+        // shear of cells, tilt of grippers, and force of free spans
         let cells = self.task.layup.ply.lines().cells().len();
         (0..cells).for_each(|cell| keep(sensitivity.shear(cell), limits.shear));
         for gripper in 0..grid.grippers() {
             keep(Some(sensitivity.tilt(gripper)), limits.tilt);
         }
         sensitivity.shape.spans.iter().for_each(|span| keep(sensitivity.force(span), limits.force));
+
+        // grippers that do not land stay above the mold; all keep their distance from their neighbors
         let mut above = |q: Quantity, least: f64| {
             program.at_most(&q.gradient, -1.0, scale * (q.value - least.min(q.value)));
         };
@@ -37,11 +42,15 @@ impl Step<'_> {
                 above(sensitivity.separation(gripper - grid.nu, gripper), limits.gripper_distance);
             }
         }
+
+        // once a part of the ply is in contact, no gripper rises
         if self.landing {
             for gripper in (0..grid.grippers()).filter(|n| !self.lands(*n)) {
                 program.at_most(&self.clearance(sensitivity, gripper).gradient, 1.0, 0.0);
             }
         }
+
+        // the workspace, along each axis
         if let Some(ranges) = limits.workspace {
             for (gripper, p) in self.positions.iter().enumerate() {
                 for axis in 0..3 {
@@ -58,6 +67,7 @@ impl Step<'_> {
     pub(super) fn reaches(&self, sensitivity: &Sensitivity, program: &mut Program) {
         let scale = program.scale;
         for (gripper, target) in self.targets.iter().enumerate() {
+            // a gripper that lands goes to its target, the others no farther than one step
             let way = sub(*target, self.positions[gripper]);
             if self.lands(gripper) {
                 program.fix(gripper, way.map(|c| scale * c));
@@ -65,6 +75,8 @@ impl Step<'_> {
                 program.cone(vec![(gripper, 1.0)], [0.0; 3], scale * self.reach);
             }
         }
+
+        // a hanging edge whose grippers all land is fixed already; the others may stretch by little
         for span in self.edges(sensitivity) {
             let ends = [(0, -1.0), (1, 1.0)];
             let free: Vec<(usize, f64)> = ends
@@ -76,6 +88,7 @@ impl Step<'_> {
             }
             let [a, b] = span.ends;
             let lands = free.iter().any(|(gripper, _)| self.lands(*gripper));
+            // beside a gripper that lands, a part of the overstretch limit may be used; what is stretched more now may stay so
             let stretch = if lands {
                 TUNING.stretch_share * self.task.limits.overstretch
             } else {

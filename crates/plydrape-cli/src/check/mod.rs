@@ -97,6 +97,7 @@ fn nouns(lines: &[SummaryLine]) -> Vec<Noun<'_>> {
 /// Reads the scene; prints a summary unless `quiet`, and warnings.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let factor = arguments.shear_scale.as_deref().map(shear::factor).transpose()?;
+    // a plybook has its own summary; a page and another shear force are for one scene
     if plydrape_io::scene::is_book(&arguments.scene) {
         for (option, given) in [("--html", arguments.html), ("--shear-scale", factor.is_some())] {
             if given {
@@ -108,15 +109,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         }
         return book::check(&arguments.scene, arguments.json, quiet);
     }
+
+    // the summary, with what another shear force changes, and the warnings
     let scene = plydrape_io::scene::read(&arguments.scene)?;
     let (mut lines, warnings) = (summary(&scene), warnings::warnings(&scene));
     if let Some(factor) = factor {
         lines.extend(shear::shear(&scene, factor)?);
     }
+    // the page, if one is asked for
     let files = match arguments.html {
         true => page(&scene, arguments, &lines, &warnings)?,
         false => Vec::new(),
     };
+
+    // one object with all of it, or text with the warnings on standard error
     if arguments.json {
         let title = &scene.title;
         let printed = Printed { title, summary: nouns(&lines), warnings: &warnings, files: &files };
@@ -216,6 +222,7 @@ fn scatter(material: &Material) -> Option<String> {
 }
 
 fn material(material: &Material) -> String {
+    // mass and bending rigidity, and the moment over the curvature where the material has it
     let section = match material.section {
         Section::Line { mass, flexural_rigidity } => {
             format!("{} kg/m, EI {} N·m²", short(mass), short(flexural_rigidity))
@@ -240,6 +247,8 @@ fn material(material: &Material) -> String {
             )
         }
     };
+
+    // shear force over the shear angle, where the fabric locks, and what resin adds
     let shear = match &material.shear_curve {
         Some(ShearCurve::Table { angle, .. }) => format!("shear curve of {} points", angle.len()),
         Some(ShearCurve::Polynomial { coefficients }) if coefficients.len() == 1 => {
@@ -260,6 +269,8 @@ fn material(material: &Material) -> String {
         ),
         None => String::new(),
     };
+
+    // tension of the fabric over its strain
     let tension = match &material.tension {
         Some(TensionLaw::Linear { stiffness }) => format!(", EA' {} N/m", short(*stiffness)),
         Some(TensionLaw::Table { strain, .. }) => format!(", tension of {} points", strain.len()),

@@ -10,6 +10,7 @@ use plydrape::scene::{PlanMethod, Scene};
 /// Rules of the models, and of contact.
 pub(super) fn rules(scene: &Scene) -> [SummaryLine; 2] {
     let settings = &scene.layup.settings;
+    // the model that decides, and the other one if it is draped too
     let called = |model: Model| match model {
         Model::Sheet => "sheet",
         Model::Catenaries => "catenaries",
@@ -19,10 +20,14 @@ pub(super) fn rules(scene: &Scene) -> [SummaryLine; 2] {
         true => format!(", {} beside", called(settings.model.other())),
         false => String::new(),
     };
+
+    // the rule for the slopes of catenaries at grippers
     let slopes = match settings.slopes {
         SlopeRule::MinForce => "min-force",
         SlopeRule::MomentBalance => "moment-balance",
     };
+
+    // how contact with the mold is found, and what slope the ply has where it leaves the mold
     let stepping = match settings.contact.stepping {
         Stepping::Once => "looked for once per step",
         Stepping::Cut => "steps cut where they penetrate deeper",

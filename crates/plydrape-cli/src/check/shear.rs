@@ -28,6 +28,7 @@ pub(super) fn factor(text: &str) -> Result<f64, Failure> {
 
 /// The shear force where the ideal drape is sheared most, and each measure that the factor changes.
 pub(super) fn shear(scene: &SceneFile, factor: f64) -> Result<Vec<SummaryLine>, Failure> {
+    // without a shear force there is nothing to multiply
     let layup = &scene.layup;
     let Some(curve) = &layup.ply.material.shear_curve else {
         return Err(Failure::Refused {
@@ -38,6 +39,8 @@ pub(super) fn shear(scene: &SceneFile, factor: f64) -> Result<Vec<SummaryLine>, 
             help: "give `shear_curve` in [ply.material], or name a material that has one, such as prepreg_warm".into(),
         });
     };
+
+    // both forces at the largest shear angle of the ideal drape
     let drape = layup.target.as_ref().and_then(|target| target.drape.as_ref());
     let angle = drape.and_then(|net| net.report.largest_shear).map(|(angle, _)| angle.abs());
     let force = angle.map(|angle| {
@@ -49,6 +52,7 @@ pub(super) fn shear(scene: &SceneFile, factor: f64) -> Result<Vec<SummaryLine>, 
     let head = format!("{} times that of the material", short(factor));
     let force = force.map_or(head.clone(), |force| format!("{head}: {force}"));
 
+    // the motion of the scene, draped with both
     let mut scaled = layup.clone();
     scaled.ply.material = layup.ply.material.with_shear(factor);
     let [own, scaled] = [layup, &scaled]

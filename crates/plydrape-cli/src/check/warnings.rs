@@ -123,6 +123,7 @@ fn far(scene: &Scene) -> Option<String> {
 /// the same area.
 fn mass(scene: &Scene) -> Option<String> {
     let [a, b] = scene.layup.ply.cell;
+    // mass per area, how it is said, and the same number in grams
     let (areal, what, grams) = match scene.layup.ply.material.section {
         Section::Areal { mass, .. } => {
             (mass, "the material has".to_string(), format!("{} g/m^2", short(mass)))
@@ -137,11 +138,15 @@ fn mass(scene: &Scene) -> Option<String> {
             (mass / width, what, format!("{} g/m", short(mass)))
         }
     };
+
+    // what some ply may have is not warned of
     let [least, most] = PLIES;
     let is_of_a_ply = |areal: f64| (least..=most).contains(&areal);
     if is_of_a_ply(areal) {
         return None;
     }
+
+    // where a thousandth of it would be right, grams were likely meant
     let side = if areal > most { "more" } else { "less" };
     let remedy = if is_of_a_ply(1e-3 * areal) {
         format!("did you mean mass = \"{grams}\"?")
@@ -176,6 +181,7 @@ fn below(scene: &Scene) -> Vec<String> {
     let mut out = Vec::new();
     let name = |gripper: usize| format!("gripper {}", gripper_name(scene.layup.ply.id(gripper)));
     let mm = |depth: f64| millimeters(rounded(depth));
+    // a target deeper in the mold than the limit
     let mut allowed = scene.limits.most(Name::Penetration);
     let target = scene.layup.target.as_ref().and_then(|target| deepest(mold, &target.grippers));
     if let Some((gripper, depth)) = target.filter(|(_, depth)| *depth > allowed) {
@@ -187,6 +193,8 @@ fn below(scene: &Scene) -> Vec<String> {
             mm(scene.limits.most(Name::Penetration))
         ));
     }
+
+    // a motion that is deeper than the limit and than its target
     if let Some((step, gripper, depth)) =
         deepest_step(scene, mold).filter(|(.., depth)| *depth > allowed)
     {

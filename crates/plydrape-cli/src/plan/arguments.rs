@@ -150,6 +150,7 @@ impl Arguments {
 
     /// Puts what the options say in place of the scene's own; refuses a scene that cannot be planned.
     pub(super) fn apply(&self, scene: &mut SceneFile) -> Result<(), Failure> {
+        // a plan needs a mold, a target, and a scene that may be planned
         let file = &self.results.scene;
         let refused = |message: &str, help: &str| {
             let message = format!("`{}` {message}", file.display());
@@ -170,12 +171,14 @@ impl Arguments {
         if let Some(refusal) = scene.plan_refusal.take() {
             return Err(Failure::from(*refusal));
         }
+        // the place of the scene where the arm follows best
         if self.place {
             let world = self.placed(scene).map_err(|(message, help)| refused(message, help))?;
             if let Some(tool) = &mut scene.layup.tool {
                 tool.world = world;
             }
         }
+        // how to search
         if let Some(method) = self.method {
             scene.plan.method = method.into();
         }

@@ -190,6 +190,7 @@ fn say_infeasible<T: Serialize>(
 
 /// What was found and how long that took, in two lines.
 fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> String {
+    // the method of the search, and how far it went
     let Printed { evaluations, decisions, .. } = printed;
     let tried = match printed.method {
         PlanMethod::Stepwise => format!("stepwise plan of {evaluations} steps"),
@@ -199,6 +200,8 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
             )
         }
     };
+
+    // the file of a long motion has fewer samples a second than asked for
     let rate = match printed.rates {
         [asked, rate] if rate < asked => format!(
             "\nmotion.csv has {} samples a second: {} are too many for so long a motion",
@@ -207,6 +210,8 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
         ),
         _ => String::new(),
     };
+
+    // plans that the sample refused, and what ended the search
     let refused = match printed.refused {
         0 => String::new(),
         1 => ", in which the sample refused a plan".into(),
@@ -219,6 +224,8 @@ fn text(printed: &Printed, ended: Option<Ended>, time: Option<Duration>) -> Stri
         }
         _ => String::new(),
     };
+
+    // the time of the search, and the motion that it found
     let Motion { duration_s, max_speed, max_acceleration, max_jerk, .. } = printed.motion;
     format!(
         "{tried} in {:.1} s{refused}{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³{rate}",

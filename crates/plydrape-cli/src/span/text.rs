@@ -105,10 +105,13 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
 /// Places along the span; six digits of the largest number in each column, to the right.
 fn table(solved: &Solved) -> String {
     let head = ["x mm", "z mm", "slope", "moment N·mm", "vertical force N"];
+    // columns in the units of the heads
     let values: Vec<[f64; 5]> = solved
         .stations()
         .map(|s| [s.x * 1e3, s.z * 1e3, s.slope, s.moment * 1e3, s.vertical_force])
         .collect();
+
+    // as many decimals as give the largest number of a column six digits
     let decimals = [0, 1, 2, 3, 4].map(|column| {
         let largest = values.iter().fold(0.0, |m, row| f64::max(m, row[column].abs()));
         if largest > 0.0 { (5.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 }
@@ -116,10 +119,13 @@ fn table(solved: &Solved) -> String {
     let mut rows = vec![head.map(str::to_string)];
     rows.extend(values.iter().map(|row| {
         [0, 1, 2, 3, 4].map(|column| match solved.shape {
+            // a straight span that does not stretch carries no known force
             SpanShape::Straight if column == 4 => "–".to_string(),
             _ => without_sign_of_zero(format!("{:.*}", decimals[column], row[column])),
         })
     }));
+
+    // a column is as wide as its longest text
     let mut widths = [0; 5];
     for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {

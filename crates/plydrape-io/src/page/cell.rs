@@ -83,11 +83,14 @@ pub(super) fn cell(scene: &SceneEcho) -> Option<Cell<'_>> {
 /// Where in some steps everything is that moves: the pads, the stems, of a tool its flange, and of its arm the links, each as a place in micrometers and a
 /// quaternion in millionths; `None` where nothing is drawn there.
 pub(super) fn origins(result: &ResultFile, steps: &[&Step], form: Form) -> Option<Block> {
+    // nothing is drawn of a cell that has neither bodies nor a tool
     let scene = &result.scene;
     let tool = scene.tool.as_ref();
     if scene.bodies.is_nothing() && tool.is_none() {
         return None;
     }
+
+    // where the tool and the links of its arm are in each step
     let held = |step: &&Step| step.grippers.iter().map(|g| g.commanded).collect::<Vec<_>>();
     let postures: Option<Vec<Posture>> =
         tool.map(|tool| steps.iter().map(|step| tool.posture(&held(step))).collect());
@@ -99,6 +102,7 @@ pub(super) fn origins(result: &ResultFile, steps: &[&Step], form: Form) -> Optio
             origins.extend(micrometers(&place));
             origins.extend(quaternion.map(|c| (c * TURN).round() as i32));
         };
+        // pads lie along the ply; stems are upright in the frame of the tool
         for gripper in &step.grippers {
             add(gripper.position, gripper.quaternion);
         }
@@ -106,6 +110,7 @@ pub(super) fn origins(result: &ResultFile, steps: &[&Step], form: Form) -> Optio
         for gripper in &step.grippers {
             add(gripper.commanded, upright);
         }
+        // the flange, and the links of the arm
         if let (Some(frame), Some(tool)) = (frame, tool) {
             let flange = frame.compose(&tool.flange);
             add(flange.position, flange.quaternion());

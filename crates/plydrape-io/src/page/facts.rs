@@ -25,6 +25,7 @@ impl Fact {
 
 /// Ply, material, mold, motion and model of a result.
 pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
+    // how the motion was found: planned, or as the scene gives it
     let scene = &result.scene;
     let motion = match (&result.plan, result.steps.last()) {
         (Some(plan), last) => format!(
@@ -49,6 +50,8 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
         }
         (None, None) => "none".into(),
     };
+
+    // in the order in which the page shows them
     let fact = Fact::new;
     vec![
         fact("Ply", crate::store::shown::ply(&scene.ply)),
@@ -117,6 +120,8 @@ fn mold(mold: &Mold) -> String {
         Face::Outside => "",
         Face::Inside => ", from inside",
     };
+
+    // the kind of the mold and its sizes; what lies on a mold comes after the mold itself
     match mold {
         Mold::Plane(_) => "plane".into(),
         Mold::Cylinder(c) => format!("cylinder of radius {} mm{}", mm(c.radius), side(c.face)),

@@ -119,6 +119,7 @@ impl Sheet {
         drape: &Source,
         KeptStates { mut file, states }: KeptStates,
     ) -> Result<(Self, Vec<Field>, Vec<bool>), Error> {
+        // the numbers of all states that are drawn
         let result = drape.result;
         let sides = SheetSides::new(file.mesh());
         let mut packed = Packed::default();
@@ -128,12 +129,14 @@ impl Sheet {
             }
         }
 
+        // what colors can show; spread and limits belong to the model that decides
         let mesh = file.mesh();
         let known = packed.height.iter().any(|h| *h != UNKNOWN);
         let sample = if drape.decides { spread(result, mesh) } else { None };
         let judged = if drape.decides { result.summary.limits.as_slice() } else { &[] };
         let fields = fields(&packed, file.landing_step(), known, sample, judged);
 
+        // blocks of whole numbers: one entry for what stays the same, else one for each state
         let block = |components, values: &[i32]| Block::new(states.len(), components, values);
         let spread = sample.map(|verdict| {
             let heights = verdict.spread_mm.iter().map(|height| (height * 1e3).round() as i32);

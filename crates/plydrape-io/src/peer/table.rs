@@ -39,9 +39,11 @@ pub(crate) fn cost(comparison: &Comparison) -> String {
 /// The end, the first touch, and steps of both drapes side by side.
 #[must_use]
 pub fn table(comparison: &Comparison) -> String {
+    // the end and the first touch
     let mut cells = vec![["", "plydrape", NAME].map(str::to_owned).to_vec()];
     cells.extend(ends(comparison).into_iter().map(|row| row.to_vec()));
 
+    // steps at even distances, from the first to the last
     let mut steps = vec![
         ["step", "lowest mm", "lies %", "shear °", "cup N", "apart mm", "at most", "at u, v mm"]
             .map(str::to_owned)

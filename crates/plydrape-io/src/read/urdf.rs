@@ -321,6 +321,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     fn turning(&self, joint: &AnyJoint, pose: Pose) -> Result<Joint, Error> {
+        // the axis of the joint, in URDF x unless given
         let axis = match children(joint.node, "axis").next() {
             Some(axis) => self.numbers(axis, "xyz", None)?,
             None => [1.0, 0.0, 0.0],
@@ -332,6 +333,8 @@ impl<'a, 'i> Reader<'a, 'i> {
                 "give it one, as in xyz=\"0 0 1\"",
             )
         })?;
+
+        // its speed, and the range in which it turns
         let limit = children(joint.node, "limit").next().ok_or_else(|| {
             self.fault(
                 joint.node,
@@ -350,6 +353,8 @@ impl<'a, 'i> Reader<'a, 'i> {
                 [lower, upper]
             }
         };
+
+        // a joint that cannot move is refused
         if !(speed > 0.0 && range[0] < range[1]) {
             let message = format!(
                 "the joint {} cannot move: from {} to {} rad with {speed} rad/s",

@@ -151,6 +151,7 @@ pub(super) fn ply_fault(scene: &SceneEcho) -> Option<String> {
 
 /// What is impossible in bodies and obstacles.
 fn bodies_fault(bodies: &Bodies) -> Option<String> {
+    // every body and every obstacle has a shape of some size, and a name of plain text
     let moving = bodies.bodies().iter().map(|body| (&body.name, &body.shape));
     let standing = bodies.obstacles().iter().map(|body| (&body.name, &body.shape));
     let fault = moving.chain(standing).find_map(|(name, shape)| {
@@ -168,6 +169,8 @@ fn bodies_fault(bodies: &Bodies) -> Option<String> {
         let control = shown::control(name).map(|_| "a body has a name of more than plain text");
         (!sound).then_some("a body has no shape").or(control)
     });
+
+    // the axes of an obstacle are unit vectors at right angles
     let turned = |axes: &[[f64; 3]; 3]| {
         (0..3).all(|a| {
             (0..=a).all(|b| {

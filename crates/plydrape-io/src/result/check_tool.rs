@@ -8,12 +8,15 @@ use plydrape::tool::{MissingStroke, Tool};
 
 /// What is impossible in the tool and in what the motion takes of it.
 pub(super) fn fault(result: &ResultFile) -> Option<String> {
+    // only a scene with a tool has the motion of one
     let grippers = result.scene.ply.grippers();
     let (tool, record) = match (&result.scene.tool, &result.summary.tool) {
         (None, None) => return None,
         (Some(tool), record) => (tool, record.as_ref()),
         (None, Some(_)) => return Some("it has a motion of a tool, but no tool".into()),
     };
+
+    // the tool carries all grippers, and its axes and its arm can move
     if tool.mounts.len() != grippers {
         return Some(format!("its tool carries {} grippers, not {grippers}", tool.mounts.len()));
     }
@@ -28,6 +31,8 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
             return Some("its arm has an impossible joint".into());
         }
     }
+
+    // what the motion takes of the tool is of grippers, steps and axes that there are
     let record = record?;
     let steps = 1..=result.summary.steps_planned.max(1);
     let is_known = |missing: &MissingStroke| {

@@ -60,6 +60,8 @@ impl ContactColumns {
     /// Gives some catenaries the contact that is known and new.
     pub(super) fn fill(self, known: &mut Known, lines: &mut [CatenaryState]) -> Result<(), String> {
         known.resize(lines.len(), None);
+
+        // all columns have one entry for each contact segment that changed
         let found = [
             self.grown.len(),
             self.before.len(),
@@ -75,15 +77,18 @@ impl ContactColumns {
             self.catenary.into_iter().zip(columns)
         {
             line(lines, n)?;
+            // each new point has an arc length, and a landing error if there are any
             let count = points.len();
             let new = [arc.len(), errors.as_ref().map_or(count, Vec::len)];
             alike("numbers of contact points", count, &new)?;
+            // a segment that has grown keeps its old points; another one replaces them
             let old = known[n].take().filter(|_| grown);
             if before > count || (grown && old.is_none()) {
                 return Err(format!("the contact of catenary {n} has not grown"));
             }
             let mut contact =
                 ContactState { points, arc, landing_error_mm: errors, fiber_angle_deg: angle };
+            // the old points come after the first `before` of the new ones
             if let Some(old) = old {
                 contact.points.splice(before..before, old.points);
                 contact.arc.splice(before..before, old.arc);
@@ -95,6 +100,8 @@ impl ContactColumns {
             }
             known[n] = Some(contact).filter(|contact| !contact.arc.is_empty());
         }
+
+        // a segment that did not change is that of the step before
         for (line, contact) in lines.iter_mut().zip(known) {
             line.contact.clone_from(contact);
         }

@@ -73,6 +73,7 @@ impl<'a> Record<'a> {
     }
 
     fn mold(self) -> Result<Mold, String> {
+        // most molds are recorded as they are; formulas, height grids, meshes and layers are made again
         Ok(match self {
             Record::Plane(plane) => Mold::Plane(plane),
             Record::Cylinder(cylinder) => Mold::Cylinder(cylinder),

@@ -175,6 +175,7 @@ fn named(ply: &Ply) -> String {
 
 /// The result that a file in a folder describes, and the check sum that it names.
 fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, String), String> {
+    // the ply must be possible, and the catenaries those between its grippers
     let ply = read.scene.ply.clone();
     if let Some(what) = super::check::ply_fault(&read.scene) {
         return Err(what);
@@ -182,6 +183,8 @@ fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, Stri
     if read.catenaries.as_ref().is_some_and(|named| !named.are_of(&ply.lines())) {
         return Err(format!("its catenaries are not those of {}", named(&ply)));
     }
+
+    // the steps of the model that decides, and of the one beside it
     let (summary, catenaries) = (read.summary.into_owned(), read.catenaries.is_some());
     let steps = steps_of_model(&ply, summary.model, read.steps)?;
     let also = read.also.map(|AlsoDocument { summary, steps: columns }| {
@@ -200,6 +203,8 @@ fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, Stri
         files: Vec::new(),
         motion: OnceLock::new(),
     };
+
+    // catenaries are named exactly where some were draped
     if catenaries != result.steps_of(Model::Catenaries).is_some() {
         return Err(
             "its catenaries are named where none were draped, or not where they were".into()

@@ -170,6 +170,7 @@ impl StepColumns {
 
     /// The step again, or what is impossible in it.
     pub(super) fn step(self, ply: &Ply, known: &mut Known) -> Result<Step, String> {
+        // a step has all the parts of catenaries or not one of them
         let StepColumns { step, time, measures, grippers, .. } = self;
         let parts = (
             self.solver,
@@ -191,6 +192,7 @@ impl StepColumns {
                 Some(bridging),
                 Some(cells),
             ) => {
+                // the catenaries, and on each its spans and where it touches the mold
                 let mut lines = catenaries.lines(&ply.lines())?;
                 spans.fill(&mut lines)?;
                 contact.fill(known, &mut lines)?;
@@ -313,6 +315,7 @@ impl SpanColumns {
     }
 
     fn fill(self, lines: &mut [CatenaryState]) -> Result<(), String> {
+        // all columns have one entry for each span
         let found = [
             self.segment.len(),
             self.hold.len(),
@@ -333,6 +336,7 @@ impl SpanColumns {
                 slopes: self.slopes[k],
                 prescribed: self.prescribed[k],
             };
+            // a catenary has two segments at most, the first one first
             let line = line(lines, n)?;
             let last = line.spans.last().map(|span| span.segment);
             if span.segment > 1 || last >= Some(span.segment) {

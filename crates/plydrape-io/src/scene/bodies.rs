@@ -102,6 +102,7 @@ impl Reader<'_> {
     }
 
     fn shape(&self, keys: &ShapeKeys) -> Result<Shape, Error> {
+        // a body has one shape
         let document = self.document;
         let given: Vec<&Range<usize>> = [
             keys.cylinder.as_ref().map(|key| &key.span),
@@ -118,6 +119,8 @@ impl Reader<'_> {
                 "keep one of `cylinder`, `box` and `mesh`, and make another body of the other one",
             ));
         }
+
+        // only the numbers of a mesh file have no unit of their own
         if let (Some(unit), None) = (keys.unit, keys.mesh) {
             return Err(document.error(
                 unit.span.clone(),
@@ -129,6 +132,7 @@ impl Reader<'_> {
             (Some(table), ..) => self.cylinder(&table.value),
             (_, Some(table), _) => self.cuboid(&table.value),
             (.., Some(file)) => {
+                // a mesh keeps the coordinates of its file
                 let own = Pose::upright([0.0; 3]);
                 let purpose = Purpose { what: "body", tolerance: 0.0 };
                 let unit = keys.unit.as_ref();

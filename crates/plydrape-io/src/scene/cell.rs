@@ -49,6 +49,7 @@ pub(super) fn cell(
 }
 
 fn from_file(document: &Document, ply: &Ply) -> Result<Cell, Error> {
+    // a cell says where its numbers come from
     let file: CellFile = read::keys(document)?;
     match &file.source {
         Some(source) => check::line(source, document)?,
@@ -61,6 +62,8 @@ fn from_file(document: &Document, ply: &Ply) -> Result<Cell, Error> {
             ));
         }
     };
+
+    // how grippers hold the ply, not where they are
     let mut cell = Cell::default();
     if let Some(Located { value: table, span }) = &file.grippers {
         if !start::is_open(table) || table.pad_radius.is_some() {
@@ -72,6 +75,8 @@ fn from_file(document: &Document, ply: &Ply) -> Result<Cell, Error> {
         }
         cell = settings::held(table, &cell, document)?;
     }
+
+    // when pads let go, and how far all may be off
     if let Some(table) = &file.release {
         cell.release = Some(table.order.map_or(ReleaseOrder::End, OrderKey::into));
         cell.dwell = read_or(&table.dwell, 0.0, document)?;

@@ -194,11 +194,14 @@ pub(super) fn ply(
     grippers: Option<&GrippersTable>,
     document: &Document,
 ) -> Result<(Ply, CutRead), Error> {
+    // the material, at the temperature of the ply
     let table = &ply.value;
     let mut material = material::material(&table.material, document)?;
     if let Some(temperature) = &table.temperature {
         rate::set_temperature(&mut material, temperature, document)?;
     }
+
+    // a ply that is cut: its outline and its cups give grid, cell and warp
     if cut::is_cut(table) {
         let radius = grippers.and_then(|grippers| grippers.pad_radius.clone());
         let radius = read_or(&radius, 0.0, document)?;
@@ -209,6 +212,8 @@ pub(super) fn ply(
         let ply = Ply { grid, cell, material, warp, length_factor, pick_up_error, cut, found };
         return Ok((ply, CutRead { cups, drawn }));
     }
+
+    // a ply that ends at its grippers: its warp runs along u or along v
     let Some(cell) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {
         None | Some(Located { value: WarpChoice::U, .. }) => Direction::U,

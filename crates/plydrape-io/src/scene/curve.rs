@@ -55,6 +55,7 @@ fn climbing<M: Measure>(
     let mut values: Vec<f64> = Vec::with_capacity(list.len());
     for item in list {
         let value = item.read(document)?;
+        // the first value is 0, and each other one is larger than the one before
         let (fault, help) = match values.last() {
             None if value > 0.0 => (
                 format!("the {what}s of the bending do not start at 0"),

@@ -37,6 +37,7 @@ pub(super) fn errors(
     on_mold: bool,
     document: &Document,
 ) -> Result<Errors, Error> {
+    // what is not written comes from the cell; the largest shift is a part of the shorter side of the cells of the ply
     let default = cell.unwrap_or_default();
     let [a, b] = ply.cell;
     let reader = Reader { document, shift: LARGEST_SHIFT * a.min(b) };
@@ -44,6 +45,7 @@ pub(super) fn errors(
         reader.term(term, other, [LARGEST_TURN; 2], "10 deg")
     };
     Ok(Errors {
+        // how the sample of cells is drawn, and the share of it that must keep the limits
         seed: match &table.seed {
             Some(seed) => super::plan::number(seed, document)?,
             None => default.seed,
@@ -53,6 +55,7 @@ pub(super) fn errors(
             None => default.samples,
         },
         share: read_or(&table.share, default.share, document)?,
+        // errors of the tool frame, of each gripper and of where it holds the ply
         frame: FrameErrors {
             position: reader.shift(&table.frame.position, default.frame.position)?,
             angle: turn(&table.frame.angle, default.frame.angle)?,
@@ -70,6 +73,7 @@ pub(super) fn errors(
             offset: reader.shift(&table.pick_up.offset, default.pick_up.offset)?,
             yaw: turn(&table.pick_up.yaw, default.pick_up.yaw)?,
         },
+        // errors of the ply
         material: MaterialErrors {
             areal_mass: reader.share(&table.material.areal_mass, default.material.areal_mass)?,
             bending: reader.share(&table.material.bending, default.material.bending)?,
@@ -81,6 +85,7 @@ pub(super) fn errors(
                 "5 %",
             )?,
         },
+        // without a mold there are no errors of one
         mold: match &table.mold {
             Some(mold) if !on_mold => {
                 return Err(document.error(
@@ -141,6 +146,8 @@ impl Reader<'_> {
         };
         let most = "a deviation of 30 %, a bound of 90 %";
         let [normal, even] = LARGEST_SHARE;
+
+        // an error is given by one of three: a normal law, a bound or a factor
         match (deviation, bound, factor) {
             (Some(value), None, None) => {
                 self.size(value, normal, most).map(errors::Term::Deviation)

@@ -248,6 +248,7 @@ pub fn read_fit(path: &Path, reading: Reading, chosen: &[Option<&str>]) -> Resul
 }
 
 fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Result<Table, Error> {
+    // each row is a point of the test; of an overhang it has one number
     let csv = Csv::new(&document, reading.columns(), chosen)?;
     let mut stated = stated(&document, &csv.header())?;
     let (mut rows, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
@@ -266,6 +267,8 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
         }
         places.push([row.place(0), row.place(reading.columns().len() - 1)]);
     }
+
+    // there are points, plain numbers are plausible, and specimens or directions that the test keeps apart are not mixed
     let header = csv.header();
     if rows.is_empty() {
         return Err(document.error(
@@ -281,6 +284,8 @@ fn table(document: Document, reading: Reading, chosen: &[Option<&str>]) -> Resul
     if matches!(reading, Reading::Overhang | Reading::Points) {
         of_one_value(&csv, &DIRECTIONS, "give strips along warp and weft files of their own")?;
     }
+
+    // measures of the specimen may be in columns of their own
     in_columns(&document, &csv, reading, &mut stated)?;
     Ok(Table { rows, times, places, header, stated, document })
 }

@@ -40,6 +40,7 @@ pub struct IdealDrape {
 
 /// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
 pub(super) fn ideal_drape(file: &SceneKeys, document: &Document) -> Result<IdealDrape, Error> {
+    // the ply and the mold
     let grippers = file.grippers.as_ref().map(|table| &table.value);
     let (ply, _) = ply(&file.ply, grippers, document)?;
     let Some(table) = &file.mold else {
@@ -50,6 +51,8 @@ pub(super) fn ideal_drape(file: &SceneKeys, document: &Document) -> Result<Ideal
     };
     let tolerance = contact(file, &ply, document)?.tolerance;
     let (mold, report) = mold::mold(&table.value, &ply, tolerance, document)?;
+
+    // how the ply is laid: by seed, heading and shear, not by places of grippers
     let Some(table) = &file.target else {
         return Err(document.error_anywhere(
             "the scene has no [target], which says how the ply is laid on the mold",
@@ -65,9 +68,13 @@ pub(super) fn ideal_drape(file: &SceneKeys, document: &Document) -> Result<Ideal
     }
     let turn = cut::from_warp(&file.ply.value, &ply, document)?;
     let target::Laid { net, seeds, wanted } = target::net(table, &ply, turn, &mold, document)?;
+
+    // the limit of the shear; no gripper moves
     let motion = Motion { times: Vec::new(), positions: Vec::new() };
     let layup = Layup::new(ply, Settings::default(), motion);
     let shear_limit = limits(&file.limits, &layup, document)?.most(Name::Shear);
+
+    // title, warnings, and the files that the scene names
     let title = title(file.title.as_ref(), document)?;
     let mesh = report.map_or_else(Vec::new, |report| report.warnings());
     let warnings = [file.limits.notices(), mesh].concat();

@@ -73,6 +73,7 @@ impl<'a> Models<'a> {
     /// Refuses mounts that give where catenaries hold the grippers: as a model, or in the stepwise planner. They are those of the scene, or of
     /// its cell.
     pub fn check_mounts(&self, cell: Option<&NamedCell>) -> Result<(), Error> {
+        // the mounts that give: those of the scene, or of its cell where the scene says nothing about them
         let grippers = self.file.grippers.as_ref();
         let mounts = grippers.and_then(|table| table.value.stiffness.as_ref());
         let gives = |mount: &&Located<MountTable>| {
@@ -81,6 +82,8 @@ impl<'a> Models<'a> {
         let cell = cell.filter(|named| mounts.is_none() && named.cell.pad.gives());
         let own = mounts.filter(gives).map(|mounts| &mounts.span);
         let Some(span) = own.or(cell.map(|named| &named.span)) else { return Ok(()) };
+
+        // what holds grippers rigidly: the model that decides, the one beside it, or the planner
         let stepwise = matches!(self.file.plan.method, Some(MethodKey::Stepwise));
         let (what, help) = match (self.decides, self.also) {
             (Model::Catenaries, _) => (
@@ -97,6 +100,8 @@ impl<'a> Models<'a> {
             ),
             _ => return Ok(()),
         };
+
+        // the message says so where the mounts are those of the cell
         match cell {
             None => Err(self.document.error(span.clone(), what, help)),
             Some(named) => Err(self.document.error(

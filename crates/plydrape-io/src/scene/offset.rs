@@ -214,6 +214,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
     };
     match (offset, point.as_slice()) {
         (Some(table), []) => {
+            // a shift and a turn that are given as numbers
             let OffsetTable { x, y, yaw, about } = &table.value;
             if x.is_none() && y.is_none() && yaw.is_none() {
                 return Err(document.error(
@@ -231,6 +232,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
             };
             let about = about.as_ref().map(pair).transpose()?;
             let offset = Offset { shift: [shift(x)?, shift(y)?], yaw, about };
+            // a tolerance says how well seen points must fit together
             if let Some(own) = own {
                 return Err(document.error(
                     own.span,
@@ -241,6 +243,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
             Ok(SeenOffset { offset, residual: None, far })
         }
         (None, [first, ..]) => {
+            // the offset that brings planned points to where they were seen
             let pairs = point
                 .iter()
                 .map(|point| Ok((pair(&point.value.planned)?, pair(&point.value.seen)?)));
@@ -249,6 +252,7 @@ fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, Error> {
                 Some(own) => own.read(document)?,
                 None => tolerance,
             };
+            // a point that does not fit is named, other faults are shown at the first one
             let (offset, residual) = Offset::of_points(&pairs, tolerance).map_err(|fault| {
                 let span = match fault {
                     plydrape::Error::OffsetDistorted { point: n, .. } => point[n].span.clone(),

@@ -95,6 +95,7 @@ fn table_of(
     layup: &Layup,
     document: &Document,
 ) -> Result<(f64, Option<usize>), Error> {
+    // the obstacle that is the table, by its name
     let obstacles = layup.bodies.obstacles();
     let obstacle = match &keys.table {
         Some(name) => {
@@ -118,6 +119,8 @@ fn table_of(
         }
         None => None,
     };
+
+    // the ply lies at a given height, or on top of that obstacle
     let height = match (&keys.height, obstacle) {
         (Some(height), _) => height.read(document)?,
         (None, Some(n)) => obstacles[n].bounds()[1][2],

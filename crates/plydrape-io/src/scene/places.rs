@@ -149,6 +149,7 @@ fn from_table(
     ply: &Ply,
     scene: &Document,
 ) -> Result<Places, Error> {
+    // rows and columns need an array of grippers along the yarns
     let grid = ply.grid;
     if grid == Grid::NONE {
         return Err(scene.error(
@@ -157,6 +158,8 @@ fn from_table(
             "give the positions as a CSV file with the columns i, j, x, y, z, or `spacing` and `height`",
         ));
     }
+
+    // a row for each gripper along v
     let help = format!(
         "give a row for every gripper along v ({}), each with a position [x, y, z] for every gripper along u ({})",
         grid.nv, grid.nu
@@ -172,6 +175,8 @@ fn from_table(
         spans: Vec::with_capacity(grid.grippers()),
         height: None,
     };
+
+    // in each row a position for each gripper along u
     for row in rows {
         if row.value.len() != grid.nu {
             let message = format!(
@@ -190,6 +195,7 @@ fn from_table(
 }
 
 fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
+    // each row puts one gripper at its place, and each gripper once
     let mut points = vec![None; ply.grippers()];
     let mut spans = vec![0..0; ply.grippers()];
     let header = {
@@ -210,6 +216,8 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, Error> {
         csv.check_plain()?;
         csv.header()
     };
+
+    // no gripper is left without a place
     if let Some(missing) = points.iter().position(Option::is_none) {
         return Err(document.error(
             header,

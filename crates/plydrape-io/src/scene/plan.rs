@@ -20,6 +20,7 @@ pub(super) fn plan(
     gives: bool,
     document: &Document,
 ) -> Result<PlanSettings, Error> {
+    // the more grippers, the fewer steps a plan may have
     let default = PlanSettings::default();
     let most_steps = MOST_STEPS.min(MOST_POSITIONS / grippers);
     Ok(PlanSettings {
@@ -37,6 +38,7 @@ pub(super) fn plan(
             Some(seed) => number(seed, document)?,
             None => default.seed,
         },
+        // a search on mounts that give has a number of drapes of its own
         evaluations: match &table.evaluations {
             Some(most) => count(most, [1, MOST_EVALUATIONS], "drapes", document)?,
             None if gives => PlanSettings::EVALUATIONS_ON_MOUNTS,

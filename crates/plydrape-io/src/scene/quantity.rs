@@ -264,6 +264,7 @@ impl<M: Measure> Quantity<M> {
 
     /// The value in SI units and its dimension, `None` where a plain number leaves it open.
     pub fn with_dimension(&self, document: &Document) -> Result<(f64, Option<Dimension>), Error> {
+        // a plain number has no dimension of its own
         let error =
             |message: String, help: String| document.error(self.span.clone(), message, help);
         let remedy = format!("expected {}, e.g. \"{}\"", M::NAME, M::EXAMPLE);
@@ -271,6 +272,8 @@ impl<M: Measure> Quantity<M> {
             Raw::Number(number) => return Ok((*number, None)),
             Raw::Text(text) => text,
         };
+
+        // a text has a number and a unit
         let shown = document.excerpt(&self.span);
         let (value, dimension) = units::quantity(text).map_err(|fault| {
             let Fault { message, help } = fault;
@@ -281,6 +284,8 @@ impl<M: Measure> Quantity<M> {
             };
             error(format!("{shown} cannot be read: {message}"), help)
         })?;
+
+        // the unit must fit what the key measures; shares and infinity may go without one
         match dimension {
             Some(found) if M::DIMENSIONS.contains(&found) => {
                 Ok((si::<M>(value, found).unwrap_or(value), Some(found)))
@@ -313,12 +318,15 @@ impl<M: Measure> Quantity<M> {
 
     /// Refuses a plain number that is far from what is usual.
     fn believed(&self, document: &Document, usual: &Usual) -> Result<(), Error> {
+        // a value with its unit is believed, and so is a plain number that is usual
         let number = match self.value.raw {
             Raw::Number(number) if number != 0.0 && number.is_finite() && !usual.holds(number) => {
                 number
             }
             _ => return Ok(()),
         };
+
+        // which units may have been meant, and what to write if the number is right
         let (written, unit) = (document.excerpt(&self.span), usual.unit);
         let written = written.trim_matches('"');
         let meant = usual.meant(number, si::<M>);
@@ -467,6 +475,8 @@ impl<M: Measure> Read for Quantity<M> {
 
     fn read(&self, document: &Document) -> Result<f64, Error> {
         let usual = &M::usual().within(M::ALLOWED.sizes());
+
+        // what is refused depends on the values that a key of this kind may have
         match M::ALLOWED {
             Allowed::Finite => self.si(document, usual),
             Allowed::NotNegative => self.not_negative(document, usual),

@@ -33,6 +33,7 @@ pub(super) fn shear(
 
 /// Relaxation times that fall as temperatures rise.
 fn over_temperatures(table: &RelaxationTable, document: &Document) -> Result<Relaxation, Error> {
+    // a time for each temperature, two or more
     let RelaxationTable { temperature, time } = table;
     let counts = [temperature.value.len(), time.value.len()];
     if counts[0] != counts[1] || counts[0] < 2 {
@@ -42,6 +43,8 @@ fn over_temperatures(table: &RelaxationTable, document: &Document) -> Result<Rel
             "give as many times as temperatures, two or more, or one time alone, as in relaxation = \"0.4 s\"",
         ));
     }
+
+    // a warmer resin relaxes faster: temperatures rise and times fall
     let mut known = Relaxation { temperature: Vec::new(), time: Vec::new() };
     for (temperature, time) in temperature.value.iter().zip(&time.value) {
         let kelvin = temperature.read(document)?;
@@ -71,6 +74,7 @@ pub(super) fn set_temperature(
     temperature: &Quantity<PlyTemperature>,
     document: &Document,
 ) -> Result<(), Error> {
+    // a temperature matters only where relaxation times are known at several temperatures
     let kelvin = temperature.read(document)?;
     let rate = material.shear_rate.as_mut().filter(|rate| rate.relaxation.temperature.len() > 1);
     let Some(rate) = rate else {
@@ -80,6 +84,8 @@ pub(super) fn set_temperature(
             "leave it out, or give the material the relaxation times of its resin, as in shear_rate = { stiffness = \"200 N/m\", relaxation = { temperature = [\"25 degC\", \"60 degC\"], time = [\"2 s\", \"80 ms\"] } }",
         ));
     };
+
+    // relaxation times are known between the coldest and the warmest of these
     let known = &rate.relaxation.temperature;
     let [coldest, warmest] = [known[0], known[known.len() - 1]];
     if !(coldest..=warmest).contains(&kelvin) {

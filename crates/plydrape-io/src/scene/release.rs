@@ -17,11 +17,14 @@ pub(super) fn release(
     on_mold: bool,
     document: &Document,
 ) -> Result<Option<Release>, Error> {
+    // without the table, pads let go as in the cell, or at the end if they picked the ply up
     let Some(Located { value: ReleaseTable { order, dwell }, span }) = &file.release else {
         let picked_up = file.pick_up.is_some().then_some(ReleaseOrder::End);
         let order = cell.release.or(picked_up).filter(|_| on_mold);
         return Ok(order.map(|order| Release::new(order, cell.dwell)));
     };
+
+    // pads can let go of a sheet, and where there is a mold on which it lies
     if model == Model::Catenaries {
         return Err(document.error(
             span.clone(),
@@ -36,6 +39,8 @@ pub(super) fn release(
             "say what the mold is in [mold], or leave out [release]",
         ));
     }
+
+    // the order of the scene, or else that of the cell, or else at the end
     let dwell = read_or(dwell, cell.dwell, document)?;
     let order = order.map(OrderKey::into).or(cell.release).unwrap_or(ReleaseOrder::End);
     Ok(Some(Release::new(order, dwell)))

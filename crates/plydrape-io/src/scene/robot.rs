@@ -28,6 +28,8 @@ pub(super) fn robot(
     document: &Document,
 ) -> Result<(Option<Arm>, Vec<Body>), Error> {
     let Some(table) = &file.robot else { return Ok((None, Vec::new())) };
+
+    // an arm needs a tool that it carries
     if file.tool.is_none() {
         return Err(document.error(
             table.span.clone(),
@@ -35,6 +37,8 @@ pub(super) fn robot(
             "say in [tool] how the frame carries the grippers",
         ));
     }
+
+    // the arm comes from a URDF file or from a table of Denavit and Hartenberg
     let RobotTable { arm, dh, start, joint_margin, singularity, joint_acceleration, .. } =
         &table.value;
     let (name, joints, flange, bodies) = match (arm, dh) {
@@ -61,6 +65,8 @@ pub(super) fn robot(
             ("arm".into(), joints, flange, Vec::new())
         }
     };
+
+    // where its joints begin, and how near they may come to their limits and to a singularity
     let start = read_given(start, document)?;
     let margin = read_or(joint_margin, LEAST_MARGIN, document)?;
     let singular = read_or(singularity, LEAST_SINGULAR, document)?;

@@ -27,6 +27,7 @@ pub(super) fn settings(
     ply: &Ply,
     document: &Document,
 ) -> Result<Settings, Error> {
+    // constants of the model; a net knows the theory of small sag alone
     let (model, usual) = (&file.model, Settings::default());
     let axial_stiffness = read_or(&model.axial_stiffness, usual.axial_stiffness, document)?;
     let gravity = read_or(&model.gravity, usual.gravity, document)?;
@@ -37,6 +38,8 @@ pub(super) fn settings(
             "leave `theory` out; `plydrape span --theory exact` solves one span, and the sheet (kind = \"sheet\") bends by the curvature that it has, also with a measured moment",
         ));
     }
+
+    // how grippers hold the ply: as the scene says, or else as in the cell
     let held = match &file.grippers {
         Some(table) => held(&table.value, cell, document)?,
         None => *cell,
@@ -63,6 +66,7 @@ pub(super) fn contact(
     ply: &Ply,
     document: &Document,
 ) -> Result<ContactSettings, Error> {
+    // the tolerance is small against a cell of the ply
     let (contact, usual) = (&file.contact, ContactSettings::default());
     let tolerance = match &contact.tolerance {
         Some(tolerance) => {
@@ -79,6 +83,8 @@ pub(super) fn contact(
         }
         None => usual.tolerance,
     };
+
+    // how contact is followed, how spans leave the mold, and how the ply sticks to it
     Ok(ContactSettings {
         tolerance,
         stepping: match contact.stepping {

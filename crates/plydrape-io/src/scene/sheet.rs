@@ -50,6 +50,7 @@ fn stiffness(
     otherwise: &str,
     document: &Document,
 ) -> Result<(), Error> {
+    // whether the material resists bending, and which keys say so
     let rigid = match material.section {
         Section::Line { flexural_rigidity, .. } => flexural_rigidity > 0.0,
         Section::Areal { warp_rigidity, weft_rigidity, .. } => {
@@ -60,6 +61,8 @@ fn stiffness(
         Section::Line { .. } => "`flexural_rigidity`",
         Section::Areal { .. } => "`bending_rigidity_warp` and `_weft`",
     };
+
+    // each stiffness that the sheet needs, with its key and the test that measures it
     let tests = [
         (material.tension.is_some(), "tension", "`tension`", "a tensile test"),
         (
@@ -70,6 +73,8 @@ fn stiffness(
         ),
         (rigid, "bending", bending, "a cantilever test (ASTM D1388)"),
     ];
+
+    // all that is missing is named at once
     let missing: Vec<_> = tests.iter().filter(|(known, ..)| !known).collect();
     if missing.is_empty() {
         return Ok(());
@@ -141,11 +146,14 @@ impl Around<'_> {
 
     /// The largest distance between lines of nodes (m); refuses one that leaves no line between two pads.
     fn mesh(&self) -> Result<f64, Error> {
+        // as fine as the scene says, or else by a fixed number of lines across a cell
         let mesh = self.settings.sheet.mesh.unwrap_or(pitch(self.ply) / LINES);
         let most = coarsest_mesh(pitch(self.ply), self.settings.pad.radius);
         if mesh <= most * (1.0 + ROUNDING) {
             return Ok(mesh);
         }
+
+        // a mesh that is given is too coarse; without one it is the pads that are too large
         let between = format!("{} mm of fabric between neighboring pads", millimeters(2.0 * most));
         let Some(span) = self.mesh_span() else {
             let span = self.pad_span().unwrap_or_else(|| self.file.grippers_span().clone());

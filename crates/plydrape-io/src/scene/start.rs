@@ -24,6 +24,8 @@ pub(super) fn start(
 ) -> Result<Places, Error> {
     let keys = &table.value;
     let &Surroundings { ply, document, .. } = around;
+
+    // grippers start at positions, or in a rectangle of a spacing at a height
     match (&keys.positions, &keys.spacing, &keys.height) {
         (Some(positions), None, None) => {
             if let Some(key) = other_key(keys) {

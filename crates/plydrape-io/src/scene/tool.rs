@@ -23,6 +23,7 @@ pub(super) fn tool(
     limits: &Limits,
     document: &Document,
 ) -> Result<Tool, Error> {
+    // the axes of each gripper, at most one in each direction
     let mut axes: Vec<Axis> = Vec::new();
     for written in table.axes.iter().flat_map(|axes| &axes.value) {
         let axis = axis(written, start, limits, document)?;
@@ -35,6 +36,8 @@ pub(super) fn tool(
         }
         axes.push(axis);
     }
+
+    // rates that are not given are the usual ones
     let usual = Tool::new(start, axes);
     Ok(Tool {
         turn_rate: read_or(&table.turn_rate, usual.turn_rate, document)?,
@@ -83,6 +86,7 @@ fn axis(
     limits: &Limits,
     document: &Document,
 ) -> Result<Axis, Error> {
+    // a stroke is counted from the start, so 0 is within it
     let table = &written.value;
     let stroke = table.stroke.read(document)?;
     if !(stroke[0] <= 0.0 && 0.0 <= stroke[1] && stroke[0] < stroke[1]) {
@@ -92,6 +96,8 @@ fn axis(
             "write how far the axis goes back and how far it goes on from there, as in stroke = [\"-20 mm\", \"120 mm\"]",
         ));
     }
+
+    // a stroke far longer than the array is a slip of the unit
     let across = diagonal(start);
     let length = stroke[1] - stroke[0];
     if across > 0.0 && length > LONGEST * across {
@@ -105,6 +111,8 @@ fn axis(
             "plain numbers are meters: write millimeters with their unit, as in stroke = [\"-20 mm\", \"120 mm\"]",
         ));
     }
+
+    // direction and speed, which is that of the limits unless given
     let (name, direction) = match table.direction.value {
         AxisKey::X => ("x", [1.0, 0.0, 0.0]),
         AxisKey::Y => ("y", [0.0, 1.0, 0.0]),

@@ -29,6 +29,7 @@ pub(super) fn trajectory(
     ply: &Ply,
     scene: &Document,
 ) -> Result<(Motion, Places), Error> {
+    // the scene names a file, which has the steps and the times of the motion
     let Some(name) = &table.value.file else {
         return Err(scene.error(
             table.span.clone(),
@@ -45,6 +46,8 @@ pub(super) fn trajectory(
             "remove `steps` and `duration`, or write kind = \"straight\"",
         ));
     }
+
+    // each row says where one gripper is at one time
     let document = csv_file(&name.value, &name.span, scene)?;
     let mut steps = Steps::new(&document, ply);
     let csv = Table::new(&document, &COLUMNS, &[])?;
@@ -52,10 +55,14 @@ pub(super) fn trajectory(
         steps.add(&row)?;
     }
     steps.finish(csv.header())?;
+
+    // numbers without a unit must be plausible
     csv.check_plain()?;
     if !csv.has_unit(0) {
         believed(&steps.motion, csv.header(), &document)?;
     }
+
+    // the grippers start where the first step has them
     let (motion, spans) = (steps.motion, steps.first_spans);
     let start = Places {
         points: motion.positions.first().cloned().unwrap_or_default(),

@@ -185,6 +185,7 @@ fn known_units() -> String {
 
 /// The unit that differs from a symbol in its letters' case only, or by a usual long name.
 fn nearest_unit(symbol: &str) -> Option<&'static str> {
+    // usual names in place of symbols
     let small = symbol.to_lowercase();
     let long = match small.as_str() {
         "millimeter" | "millimetre" | "millimeters" | "millimetres" => "mm",
@@ -212,6 +213,8 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
         "percent" => "%",
         _ => "",
     };
+
+    // moments are known too, as two symbols without a space between them
     let same = |unit: &str| unit == long || unit.to_lowercase() == small;
     UNITS.iter().map(|(unit, ..)| *unit).chain(["Nm", "Nmm"]).find(|u| same(u))
 }

@@ -210,8 +210,10 @@ proptest! {
         let all = ["a", "b", "c", "d"];
         let mut users: BTreeMap<String, Vec<u8>> = BTreeMap::new();
         for (k, (run, mask, content)) in acts.into_iter().enumerate() {
+            // some of the four files: a run writes them all, an edit writes the first of them
             let chosen: Vec<&str> = (0..4).filter(|i| mask >> i & 1 == 1).map(|i| all[i]).collect();
             if run {
+                // a run leaves its files beside those of the user, or all as it was
                 let bytes = [content];
                 let files: Vec<(&str, &[u8])> = chosen.iter().map(|n| (*n, &bytes[..])).collect();
                 let before = contents(dir.path());
@@ -228,6 +230,7 @@ proptest! {
                     Err(_) => prop_assert_eq!(contents(dir.path()), before),
                 }
             } else {
+                // an edit makes the file the user's own
                 let mine = format!("mine {k}").into_bytes();
                 fs::write(dir.path().join(chosen[0]), &mine).unwrap();
                 users.insert(chosen[0].to_owned(), mine);

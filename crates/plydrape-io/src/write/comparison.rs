@@ -16,12 +16,15 @@ pub const NAME: &str = "comparison.csv";
 /// # Errors
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn table(rows: &[Row]) -> Result<String, Error> {
+    // the limits of all strategies, each once
     let mut columns: Vec<(Name, &str)> = Vec::new();
     for verdict in rows.iter().flat_map(|row| &row.limits) {
         if !columns.iter().any(|(name, _)| *name == verdict.name) {
             columns.push((verdict.name, &verdict.unit));
         }
     }
+
+    // the header, with four columns for each limit
     let mut table = Writer::from_writer(Vec::new());
     let mut header = ["strategy", "accepted", "t (s)", "note"].map(str::to_owned).to_vec();
     for (name, unit) in &columns {
@@ -34,6 +37,8 @@ pub fn table(rows: &[Row]) -> Result<String, Error> {
         ]);
     }
     table.write_record(&header)?;
+
+    // a row for each strategy; cells of a limit that it has not are empty
     for row in rows {
         let time = row.time_s.map(csv::number).unwrap_or_default();
         let note = csv::cell(row.note.as_deref().unwrap_or_default());

@@ -11,6 +11,7 @@ impl Shape {
             Shape::Mesh { vertices, triangles } => (vertices.clone(), triangles.clone()),
             Shape::Box { .. } => {
                 let ends = self.bounds();
+                // each bit of the number of a corner says at which end of one axis it is
                 let corner = |n: usize| [0, 1, 2].map(|c| ends[n >> c & 1][c]);
                 let faces: [[u32; 4]; 6] = [
                     [0, 2, 3, 1],
@@ -20,6 +21,7 @@ impl Shape {
                     [0, 4, 6, 2],
                     [1, 3, 7, 5],
                 ];
+                // each face is cut in two along a diagonal
                 let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
                 ((0..8).map(corner).collect(), faces.into_iter().flat_map(halves).collect())
             }
@@ -28,10 +30,12 @@ impl Shape {
                     let (sin, cos) = (TAU * f64::from(k) / f64::from(sides)).sin_cos();
                     [radius * cos, radius * sin, z]
                 };
+                // corners around the axis, low and high in turn, then the middles of the two ends
                 let mut vertices: Vec<[f64; 3]> =
                     (0..sides).flat_map(|k| [place(k, *from), place(k, *to)]).collect();
                 let [low, high] = [2 * sides, 2 * sides + 1];
                 vertices.extend([[0.0, 0.0, *from], [0.0, 0.0, *to]]);
+                // a side is two triangles, with one more to the middle of each end
                 let side = |k: u32| {
                     let [a, b] = [2 * k, 2 * ((k + 1) % sides)];
                     [[a, b, b + 1], [a, b + 1, a + 1], [b, a, low], [a + 1, b + 1, high]]

@@ -52,6 +52,7 @@ impl Site {
             Site::Catenary(n) => {
                 let lines = ply.lines();
                 let c = lines.catenary(n);
+                // where the fibers are the diagonals of the cells, bias lines are their sides
                 let is_side =
                     lines.cells_of(n).any(|cell| lines.cells()[cell].fibers == Fibers::Diagonals);
                 let kind = match (c.kind.is_edge(), is_side) {
@@ -74,6 +75,7 @@ impl Site {
                 let [u, v] = uv.map(|c| c * 1e3);
                 format!("fabric point ({u:.1}, {v:.1}) mm")
             }
+            // parts of the tool and of the robot, by name where the layup has them
             Site::Frame => "frame of the tool".into(),
             Site::Axis(axis, n) => match layup.tool.as_ref().and_then(|tool| tool.axes.get(axis)) {
                 Some(axis) => format!("axis {} of gripper {}", axis.name, name(n)),
@@ -84,6 +86,7 @@ impl Site {
                 None => format!("joint {}", n + 1),
             },
             Site::Flange => "the flange".into(),
+            // no single part
             Site::AllEdges => "all edges".into(),
             Site::AllGrippers => "all grippers".into(),
             Site::Nowhere => "nowhere".into(),

@@ -30,6 +30,7 @@ fn corners(height: f64) -> Vec<Point> {
 /// one free segment of 60 mm that is 0.3 mm too long and one of 100 mm that is 0.2 mm too short; one point has landed 1 mm off its place and 0.1 mm
 /// below the mold, another hangs 20 mm over it; the cell is sheared by 0.2.
 pub fn state(layup: &Layup) -> PlyState {
+    // 3 N and 4 N make a pull of 5 N, beside a load of 6 N
     let gripper = |position: &Point| GripperState {
         position: *position,
         commanded: *position,
@@ -39,6 +40,7 @@ pub fn state(layup: &Layup) -> PlyState {
         slide: 0.0,
         holds: true,
     };
+    // a segment of the one line, of 200 mm in all, with no shape of its own
     let line = |catenary: usize, length: f64, path: f64| LineState {
         site: Site::Catenary(catenary),
         catenary: Some(catenary),
@@ -55,6 +57,7 @@ pub fn state(layup: &Layup) -> PlyState {
         bridge: None,
         fiber_angle: None,
     };
+    // a point that is not above the mold has landed, 1 mm off its place
     let point = |height: f64| FabricPoint {
         site: Site::Fabric([0.05; 2]),
         place: [0.05, 0.05, height],
@@ -76,6 +79,7 @@ pub fn state(layup: &Layup) -> PlyState {
         step: 1,
         time: 0.0,
         points: vec![point(-1e-4), point(0.02)],
+        // a slack segment, one on the mold, and one that is overstretched
         lines: vec![
             line(0, 0.06, 0.0597),
             LineState { lies: true, ..line(0, 0.04, 0.04) },

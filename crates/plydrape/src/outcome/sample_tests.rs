@@ -147,6 +147,7 @@ fn the_value_that_is_judged_agrees_with_the_verdict() {
 /// with the drapes of its cells and with the same verdict by any number of threads; by one, no cell is begun after the last.
 #[test]
 fn no_cell_counts_after_the_one_that_decides() {
+    // the box ends at a margin from the gripper that is farthest along x
     let mut errors = Errors { seed: 5, ..Errors::default() };
     errors.frame.position = Term::Deviation(1e-3);
     let mut scene = lines();
@@ -155,6 +156,7 @@ fn no_cell_counts_after_the_one_that_decides() {
     let mut ends = Vec::new();
     for margin in [-0.9, 0.5e-3, 1.5e-3, 0.9] {
         scene.limits.workspace = Some([[-1.0, right + margin], [-1.0, 1.0], [-1.0, 1.0]]);
+        // the sample, and how many cells were draped for it
         let by = |threads: usize| {
             let done = AtomicUsize::new(0);
             let count = |_: usize, of: usize| {
@@ -166,17 +168,23 @@ fn no_cell_counts_after_the_one_that_decides() {
             let sample = pool.install(|| errors.judge(&scene, &watch)).unwrap();
             (sample, done.load(Ordering::Relaxed))
         };
+
+        // one thread drapes only the cells that count, and more threads find the same sample
         let (one, done) = by(1);
         assert_eq!(done, one.cells.len());
         for threads in [2, 5] {
             assert_eq!(one, by(threads).0);
         }
+
+        // by the shifts: which cells stay in the box, and after how many the verdict is clear
         let kept: Vec<bool> = (0..64).map(|n| errors.draw(n, 4).frame.shift[0] <= margin).collect();
         let failed = |cells: usize| kept[..cells].iter().filter(|kept| !**kept).count();
         let last = |cells: &usize| {
             failed(*cells) == 4 || cells - failed(*cells) == 61 || (*cells == 59 && failed(59) == 0)
         };
         let last = (1..=64).find(last).unwrap();
+
+        // the sample agrees in its cells, its verdict and its confidence
         let cells: Vec<bool> = one.cells.iter().map(|cell| cell.accepted).collect();
         assert_eq!(cells, kept[..last], "{margin}");
         assert_eq!((one.ok, one.needed), (failed(last) < 4, 61));
@@ -184,6 +192,8 @@ fn no_cell_counts_after_the_one_that_decides() {
         assert_eq!(one.limits.iter().all(|limit| limit.ok), one.ok);
         ends.push(last);
     }
+
+    // all cells fail, all keep the box, and between these the larger margin takes more cells
     assert!(ends[0] == 4 && ends[3] == 59 && ends[1] > 4 && ends[2] > ends[1], "{ends:?}");
 }
 
@@ -308,6 +318,7 @@ fn nothing_is_accepted_that_was_not_draped() {
 /// large as what is left to the limit of the height. Of a refused drape nothing is asked.
 #[test]
 fn sensitivity_is_the_range_of_heights_by_minute_changes() {
+    // a target where the motion ends, and no limit but that of the height
     let mut scene = sheet();
     let last = scene.layup.motion.positions.last().expect("steps").clone();
     scene.layup.target = Some(Target { grippers: last, drape: None });
@@ -315,6 +326,7 @@ fn sensitivity_is_the_range_of_heights_by_minute_changes() {
     for name in Name::ALL {
         scene.limits.set(*name, None);
     }
+    // the sensitivity and the height of a drape, by a bound on the height
     let sensitivity = |bound: f64| {
         let limited =
             Scene { limits: scene.limits.clone().with(Name::Height, bound), ..scene.clone() };
@@ -325,6 +337,7 @@ fn sensitivity_is_the_range_of_heights_by_minute_changes() {
     let (found, own) = sensitivity(1.0);
     let found = found.expect("an accepted sheet");
 
+    // the height with the changes of one draw
     let changes = minute_changes(&scene.layup);
     assert_eq!(
         changes.gripper.position,
@@ -336,12 +349,15 @@ fn sensitivity_is_the_range_of_heights_by_minute_changes() {
         let judged = judge(&changed.layup, &limits, usize::MAX, &|| false).expect("a sheet");
         judged.limits.iter().find(|v| v.name == Name::Height).expect("a target").value
     };
+
+    // the sensitivity is the range of all heights; its limit is what the highest leaves of the bound
     let heights: Vec<f64> = (0..4).map(height).chain([own]).collect();
     let highest = heights.iter().copied().fold(0.0, f64::max);
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     assert!(highest > lowest && (found.value - (highest - lowest)).abs() < 1e-12, "{found:?}");
     assert!((found.limit - (1e3 - highest)).abs() < 1e-9, "{found:?}");
 
+    // half the height as the bound: the drape is refused
     let (refused, _) = sensitivity(0.5e-3 * own);
     assert_eq!(refused, None);
 }

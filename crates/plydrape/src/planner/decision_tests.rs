@@ -29,6 +29,7 @@ fn scene() -> Scene {
 #[test]
 fn a_plan_that_keeps_its_limits_at_its_steps_alone_is_refused() {
     let mut scene = scene();
+    // control points that go 30 mm aside and back, and 5 mm forward with each step
     let start = scene.layup.motion.positions[0].clone();
     let aside = [0.0, 0.0, 0.03, 0.03, 0.0, 0.0].into_iter().enumerate();
     let step = |(k, x): (usize, f64)| {
@@ -36,6 +37,8 @@ fn a_plan_that_keeps_its_limits_at_its_steps_alone_is_refused() {
     };
     let positions: Vec<_> = aside.map(step).collect();
     let motion = TimedMotion::new(&positions, &scene.limits.motion_bounds()).unwrap();
+
+    // the workspace ends between the farthest place at a step and that half-way between steps
     let farthest = |times: &[f64]| {
         let places = times.iter().flat_map(|t| motion.at(*t)).map(|place| place[0]);
         places.fold(f64::NEG_INFINITY, f64::max)
@@ -47,9 +50,11 @@ fn a_plan_that_keeps_its_limits_at_its_steps_alone_is_refused() {
     let side = 0.5 * (at_steps + between);
     scene.limits.workspace = Some([[-1.0, side], [-1.0, 1.0], [-1.0, 1.0]]);
 
+    // at its own steps the motion keeps the workspace
     let own = simulate(&along(&scene, &motion), |_| ControlFlow::Continue(())).unwrap();
     assert!(own.accepted(), "{:?}", own.drape.summary);
 
+    // the decision also looks half-way between the steps, and finds that it leaves the workspace
     let mut go_on = |_: &super::Progress| ControlFlow::Continue(());
     let state = SearchState::new(1, &mut go_on);
     let decided = Decision::uncounted(&scene, None, positions, &state).unwrap().decided;

@@ -108,6 +108,7 @@ impl<'a> SearchState<'a> {
     /// The state of a search of at most `most` candidates or steps.
     pub fn new(most: usize, watcher: Watcher<'a>) -> Self {
         SearchState {
+            // the search has not ended, and nothing is draped yet
             stopped: AtomicBool::new(false),
             interrupted: AtomicBool::new(false),
             finishing: AtomicBool::new(false),
@@ -115,10 +116,12 @@ impl<'a> SearchState<'a> {
             decisions: AtomicUsize::new(0),
             refusals: AtomicUsize::new(0),
             most,
+            // cells as for rigid grippers, until the scene is known
             cells: Mutex::new((0..TUNING.cells[0]).collect()),
             first_cells: TUNING.cells[0],
             race: (0..super::path::tuning::TUNING.race.all_cells()).collect(),
             proof: Mutex::new(Proof { cells: TUNING.proving[0], spare: TUNING.spare[0] }),
+            // any plan is better than none
             best: Mutex::new(Best {
                 watcher,
                 score: f64::INFINITY,
@@ -133,6 +136,7 @@ impl<'a> SearchState<'a> {
                 step: None,
                 pace: Pace::default(),
             }),
+            // nothing to go on from
             origin: None,
             journal: Mutex::default(),
             repeats: AtomicBool::new(false),

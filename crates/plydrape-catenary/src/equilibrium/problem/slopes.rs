@@ -89,11 +89,13 @@ impl<T: Number> Slopes<T> {
         elements: &mut [Element<T>],
     ) {
         for (direction, grippers) in around.lines.chains() {
+            // a line without bending stiffness takes no slope from its grippers
             if !around.is_rigid(direction) {
                 continue;
             }
             for &gripper in grippers {
                 let sides = self.sides[gripper][direction];
+                // cells that shear prescribe the slopes of the edges that hang at their grippers
                 if let Some(constraint) = constraints[gripper] {
                     for side in sides {
                         if let Side::Hanging(element, end) = side {
@@ -104,6 +106,7 @@ impl<T: Number> Slopes<T> {
                         }
                     }
                 } else if let [Side::Hanging(a, end_a), Side::Hanging(b, end_b)] = sides {
+                    // edges that hang on both sides of a gripper share one unknown slope
                     let slope = self.shared.len();
                     self.shared.push(SharedSlope { gripper, direction, elements: [a, b] });
                     self.shared_at[gripper][direction] = Some(slope);

@@ -402,6 +402,7 @@ fn element_line(nodes: usize) -> String {
 
 /// Adds the elements of a scope in their place.
 fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<(), Error> {
+    // nodes that elements use become points, each of them once
     let mut indices: HashMap<u64, u32> = HashMap::with_capacity(scope.nodes.len());
     for element in &scope.elements {
         let mut corners = [0; 4];
@@ -426,6 +427,8 @@ fn add(soup: &mut Soup, file: &str, scope: &Scope, placing: &Placing) -> Result<
         }
         soup.push(&corners[..element.count], element.number);
     }
+
+    // note which elements that were left out lie beside the surface
     if !scope.lost.is_empty() {
         note_lost(&mut soup.skipped, scope, placing);
     }

@@ -53,12 +53,16 @@ pub fn parse(
     tolerance: f64,
 ) -> Result<(Mesh, MeshReport), Error> {
     let no_mold = |fault: LayupError| Error::file(file, format!("{file}: {fault}"), fault.remedy());
+
+    // an empty file is no mesh, whatever its format
     let bytes = &*encoding::unicode(bytes);
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
     if bytes.trim_ascii().is_empty() && !extension.is_empty() {
         let others = ": the file is empty".to_owned();
         return Err(no_mold(LayupError::MeshEmpty { noun: "triangle", others }));
     }
+
+    // the ending of the name gives the format
     let soup = match extension.to_ascii_lowercase().as_str() {
         "stl" => stl::read(file, bytes)?,
         "obj" => obj::read(file, bytes)?,
@@ -81,6 +85,8 @@ pub fn parse(
             return Err(Error::file(file, message, help));
         }
     };
+
+    // refuse too many triangles before a mesh is made of them
     size::mesh(soup.triangles.len() as f64).map_err(|error| error.of_file(file))?;
     Mesh::of_soup(soup, scale, pose, tolerance).map_err(no_mold)
 }

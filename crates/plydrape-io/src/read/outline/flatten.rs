@@ -108,6 +108,7 @@ impl Nurbs {
         points: &[[f64; 2]],
         weights: &[f64],
     ) -> Result<Self, String> {
+        // there are enough control points and knots for the degree
         if degree == 0 || degree > MOST_DEGREE {
             return Err(format!("its degree is {degree}, expected 1 to {MOST_DEGREE}"));
         }
@@ -125,6 +126,8 @@ impl Nurbs {
                 points.len()
             ));
         }
+
+        // knots never fall, and they span some range of the curve
         let sorted = knots.windows(2).all(|pair| pair[0] <= pair[1]);
         if !sorted || !knots[expected - 1].is_finite() || !knots[0].is_finite() {
             return Err("its knots do not grow from the first to the last".into());
@@ -132,6 +135,8 @@ impl Nurbs {
         if knots[degree] >= knots[points.len()] {
             return Err("its knots are all the same".into());
         }
+
+        // weights are positive, one for each control point
         if !weights.is_empty() && weights.len() != points.len() {
             let (weights, points) = (weights.len(), points.len());
             return Err(format!("it has {weights} weights for {points} control points"));
@@ -139,6 +144,8 @@ impl Nurbs {
         if let Some(weight) = weights.iter().find(|w| !w.is_finite() || **w <= 0.0) {
             return Err(format!("it has a weight of {weight}, expected numbers above 0"));
         }
+
+        // control points in homogeneous coordinates
         let weight = |n: usize| weights.get(n).copied().unwrap_or(1.0);
         let points = points.iter().enumerate();
         let points = points.map(|(n, p)| [weight(n) * p[0], weight(n) * p[1], weight(n)]).collect();

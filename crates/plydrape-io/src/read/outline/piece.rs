@@ -150,8 +150,11 @@ impl Nest {
     fn not_one(&self, piece: Option<&Piece>, found: &[usize], texts: &[Text]) -> Fault {
         let (count, all) = (found.len(), self.pieces.len());
         let point = |[x, y]: [f64; 2]| format!("({}, {}) mm", millimeters(x), millimeters(y));
+
+        // why this is no choice: nobody chose, nothing fits, or several pieces do
         let message = match (piece, count) {
             (None, _) => {
+                // the two largest pieces show why the drawing has more than one
                 let [outer, inner] = [0, 1].map(|n| self.pieces[n]);
                 let why = match self.are_of_two_blocks(outer, inner) {
                     true => "is of another block than",
@@ -175,12 +178,15 @@ impl Nest {
                 format!("{count} pieces have the label {}", toml(text))
             }
         };
+
+        // list those that fit if there are several, else all pieces
         let shown = if count > 1 { found } else { &self.pieces[..] };
         Fault::new(message, format!("choose one in [ply]:\n{}", self.list(shown, texts)))
     }
 
     /// Pieces, each in a line with the key that chooses it and what it is.
     fn list(&self, shown: &[usize], texts: &[Text]) -> String {
+        // labels and blocks of a piece, and those that no other piece has
         let labels = self.labels(texts);
         let labels_of = |n: usize| {
             let place = self.pieces.iter().position(|piece| *piece == n);
@@ -201,6 +207,7 @@ impl Nest {
         };
         let mut out: Vec<String> = Vec::new();
         for &n in shown.iter().take(MOST) {
+            // what can choose the piece: a point in it, its label and its block
             let line = &self.lines[n];
             let point = self.point_in(n).map(|point| {
                 let [x, y] = point.map(millimeters);
@@ -209,6 +216,7 @@ impl Nest {
             let label = labels_of(n).first().map(|label| format!("label = {}", toml(label)));
             let block = line.placed.blocks.first();
             let block = block.map(|block| format!("block = {}", toml(block)));
+            // the key is a label or a block that is its own, else the point; the other facts are only shown
             let key = (only_label(n).map(|label| format!("label = {}", toml(label))))
                 .or_else(|| only_block(n).map(|block| format!("block = {}", toml(block))))
                 .or_else(|| point.clone());
@@ -220,6 +228,8 @@ impl Nest {
             let key = key.map_or_else(|| "a piece".into(), |key| format!("piece = {{ {key} }}"));
             out.push(format!("{key} ({size}{facts})"));
         }
+
+        // a long list is cut short
         if shown.len() > MOST {
             out.push(format!("and {} more", shown.len() - MOST));
         }

@@ -41,6 +41,7 @@ pub(super) fn state(
     sizes: &Sizes,
     after: Option<(u32, f64)>,
 ) -> Result<(), String> {
+    // arrays as long as the mesh asks for, also that of pads that let go
     let releases = state.pad_holds.is_some();
     for (array, values) in arrays(releases)[OF_MESH..].iter().zip(state.values()) {
         sound(array, values, sizes)?;
@@ -50,6 +51,8 @@ pub(super) fn state(
         let (expected, found) = (pads(sizes.releases), pads(releases));
         return Err(length("pad_holds", found, expected));
     }
+
+    // rotations of pads are unit quaternions
     for (n, q) in state.pad_rotation.iter().enumerate() {
         let length = q.iter().map(|q| q * q).sum::<f64>().sqrt();
         if (length - 1.0).abs() > UNIT {
@@ -57,6 +60,8 @@ pub(super) fn state(
             return Err(value("pad_rotation", n, length, rule));
         }
     }
+
+    // a state does not come before the one that is listed before it
     let (step, time) = after.unwrap_or((1, f64::NEG_INFINITY));
     let rule = "states come in the order of steps and times, from step 1 on";
     if state.step < step {

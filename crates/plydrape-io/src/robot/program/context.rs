@@ -293,11 +293,14 @@ impl Maker<'_> {
     }
 
     fn point(&self, passed: &Passed, from: &mut usize, number: usize, share: f64) -> PointOf {
+        // the center of the tool at the point before and at this one, and how fast it moves between them
         let Track { program, center, .. } = self.track;
         let (sample, duration) = (passed.sample, passed.duration);
         let pose = |k: usize| center.as_ref().map_or(Pose::ORIGIN, |center| center[k]);
         let [before, now] = [*from, sample].map(pose);
         let rate = |way: f64| if duration > 0.0 { way / duration } else { 0.0 };
+
+        // external axes: those of the array, or the progress that another controller follows
         let axes = |k: usize| -> Vec<f64> {
             match self.track.moves_axes {
                 true => program.axes.iter().map(|axis| axis.values[k]).collect(),
@@ -308,6 +311,8 @@ impl Maker<'_> {
         let ways = axes(sample).into_iter().zip(axes(*from)).map(|(now, then)| (now - then).abs());
         let farthest = ways.fold(0.0, f64::max);
         *from = sample;
+
+        // the joints of the arm, and the side on which shoulder, elbow and wrist are
         let arm = program.arm.as_ref();
         let angles = arm.map(|joints| joints.angles[sample]);
         let sides = arm.zip(angles).map(|(joints, angles)| joints.arm.sides(&angles));

@@ -199,6 +199,7 @@ impl Program {
     /// # Errors
     /// [`Error`] says what is wrong.
     pub fn check(&self) -> Result<(), Error> {
+        // times rise from 0
         let count = self.times.len();
         if count == 0 || self.times[0] != 0.0 {
             return Err(Error::not_possible(
@@ -213,6 +214,8 @@ impl Program {
                 return Err(Error::not_possible(message, "leave one of them out of the motion"));
             }
         }
+
+        // what has one finite value for each time: poses, axes, tilts of pads, joints of the arm
         let is_finite = |pose: &Pose| {
             pose.position.iter().chain(pose.axes.as_flattened()).all(|x| x.is_finite())
         };
@@ -225,6 +228,8 @@ impl Program {
         let joints = |arm: &ArmJoints| {
             arm.angles.len() == count && arm.angles.as_flattened().iter().all(|x| x.is_finite())
         };
+
+        // the first part where a value is missing or not finite
         let wrong = (self.flange.iter().find(|flange| !poses(flange)).map(|_| "flange"))
             .or_else(|| self.axes.iter().find(|axis| !numbers(axis)).map(|axis| &*axis.name))
             .or_else(|| {
@@ -248,6 +253,7 @@ impl Program {
 
 /// The times of a motion (s), and its pads.
 fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), Error> {
+    // a pad for each gripper, which gets a pose at each time
     let ply = &result.scene.ply;
     let mut pads: Vec<Pad> = (0..ply.grippers())
         .map(|n| Pad { name: gripper_name(ply.id(n)), poses: Vec::new(), tilts: Vec::new() })
@@ -257,6 +263,8 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), Error> {
             pad.poses.push(pose::of_quaternion(place, quaternion));
         }
     };
+
+    // a planned motion is written at its rate, any other one step by step
     let times = match (&result.plan, result.motion()?) {
         (Some(plan), Some(Turned { motion, attitudes })) => {
             for found in [motion.grippers(), attitudes.grippers()] {

@@ -153,11 +153,14 @@ fn controlled(name: &str, initial: f64) -> String {
 
 /// The joints of the arm from its foot to the tool's center, which is at a pose in the frame of the flange.
 fn arm(arm: &Arm, tool: &Pose) -> String {
+    // a pose in URDF: a place, and roll, pitch and yaw
     let mut text = format!("  <link name=\"{FOOT}\"/>\n");
     let origin = |pose: &Pose| {
         let ([x, y, z], [yaw, pitch, roll]) = (pose.position, euler_zyx(pose));
         format!("<origin xyz=\"{x} {y} {z}\" rpy=\"{roll} {pitch} {yaw}\"/>")
     };
+
+    // each joint begins at the link that the joint before turns
     let mut parent = FOOT.to_owned();
     for joint in &arm.joints {
         let Joint { name, axis: [x, y, z], range: [lower, upper], speed, pose } = joint;
@@ -176,6 +179,8 @@ fn arm(arm: &Arm, tool: &Pose) -> String {
         );
         parent = format!("{PREFIX}{name}");
     }
+
+    // the tool is fixed to the last link
     let place = origin(&arm.flange.compose(tool));
     let _ = write!(
         text,
@@ -191,6 +196,7 @@ fn arm(arm: &Arm, tool: &Pose) -> String {
 
 /// The parameters of the controllers.
 fn parameters(program: &Program, controllers: &[&str]) -> String {
+    // the type of each controller
     let mut text = "controller_manager:\n  ros__parameters:\n    update_rate: 500\n".to_owned();
     for name in controllers {
         let kind = match *name {
@@ -200,6 +206,8 @@ fn parameters(program: &Program, controllers: &[&str]) -> String {
         };
         let _ = write!(text, "    {name}:\n      type: {kind}\n");
     }
+
+    // joints of the arm and axes of the array follow one trajectory
     if !program.axes.is_empty() || program.arm.is_some() {
         let arm = program.arm.iter().flat_map(|known| &known.arm.joints);
         let arm = arm.map(|joint| joint.name.as_str());
@@ -212,6 +220,8 @@ fn parameters(program: &Program, controllers: &[&str]) -> String {
             names.join(", ")
         );
     }
+
+    // the vacuum of each gripper can be commanded and read
     let grippers = program.grippers();
     let _ = write!(text, "{OUTPUTS}:\n  ros__parameters:\n    gpios: [{}]\n", grippers.join(", "));
     for part in ["command_interfaces", "state_interfaces"] {

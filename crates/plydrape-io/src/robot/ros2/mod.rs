@@ -83,10 +83,12 @@ pub const PLY: &str = "/plydrape/ply";
 /// # Errors
 /// [`Error`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
 pub fn files(result: &ResultFile, tf: bool) -> Result<Files, Error> {
+    // the motion, and the description of the array that makes it
     let program = Program::new(result)?;
     let (mut bag, mut files) = motion(&program, tf)?;
     files.extend(description::files(result, &program));
 
+    // the loads that the grippers are expected to carry
     if let Some(known) = &Loads::new(result) {
         let loads = loads::loads(&program, known)?;
         finite::check(&loads)?;
@@ -98,9 +100,13 @@ pub fn files(result: &ResultFile, tf: bool) -> Result<Files, Error> {
         }
         files.push(("loads.yaml".into(), (text + &yaml(&loads)?).into_bytes()));
     }
+
+    // the mold, which is the same all the time
     if let Some(mold) = markers::mold(result) {
         bag.latched(MOLD, schema::MARKERS, &mold)?;
     }
+
+    // the ply in each step, with the state of the sheet if the sheet decides and the state was kept
     bag.channel(PLY, schema::MARKERS, bag::VOLATILE)?;
     let paint = markers::Paint::new(result);
     let decides = result.sheet_states.as_ref().filter(|_| result.model() == Model::Sheet);

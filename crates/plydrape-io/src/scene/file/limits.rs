@@ -117,6 +117,7 @@ impl JsonSchema for LimitsTable {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        // a key for each measure that has a bound
         let mut properties = serde_json::Map::new();
         for (name, bound) in Name::bounded() {
             properties.insert(
@@ -124,6 +125,8 @@ impl JsonSchema for LimitsTable {
                 crate::scene::bound::schema(name, &bound, generator),
             );
         }
+
+        // the keys that are no bound of a measure: preset, workspace and safety of the grip
         let mut safety = generator.subschema_for::<Quantity<GripSafety>>();
         safety.insert("default".into(), Limits::GRIP_SAFETY.into());
         let mut own = |key: &str, mut schema: Schema, about: &str| {
@@ -150,6 +153,8 @@ impl JsonSchema for LimitsTable {
             safety,
             "By how much the grippers' `slip_force` and `holding_force` must exceed the loads.",
         );
+
+        // no other keys are allowed
         json_schema!({
             "type": "object",
             "description": "What an accepted drape keeps to.",

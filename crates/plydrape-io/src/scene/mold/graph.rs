@@ -23,10 +23,13 @@ pub(super) fn saddle(keys: &Keys) -> Result<Mold, Error> {
 
 /// Checks the keys of a formula, which must be defined wherever the mold is.
 pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, Error> {
+    // the formula, and the range in which it is the mold
     let document = keys.document;
     let text = keys.required(&keys.table.z, "z", "\"0.1*x^2 - y^2\"")?;
     let z = formula::read(&text.value).map_err(|error| in_place(text, document, error))?;
     let domain = range(keys)?;
+
+    // without a range it must be defined as far as the ply may reach
     let [u, v] = extent(ply);
     let reach = u.hypot(v);
     let looked_at = domain.unwrap_or([[-reach, reach]; 2]);

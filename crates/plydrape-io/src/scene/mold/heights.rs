@@ -14,6 +14,7 @@ const SAME: f64 = 1e-7;
 
 /// Reads the file of a height grid.
 pub(super) fn heights(file: &Located<String>, scene: &Document) -> Result<HeightGrid, Error> {
+    // the points of the file, in any order
     let document = csv_file(&file.value, &file.span, scene)?;
     let columns = [X, Y, Z];
     let csv = Table::new(&document, &columns, &[])?;
@@ -30,6 +31,8 @@ pub(super) fn heights(file: &Located<String>, scene: &Document) -> Result<Height
             "give every node of the grid one row with x, y and z",
         ));
     }
+
+    // the grid: where its nodes are along x and along y, and how high the mold is at each
     let axes = [0, 1].map(|n| axis(&points, n));
     let z = in_order(&axes, &points, &spans, &document, &csv.header())?;
     let [x, y] = axes;
@@ -64,6 +67,7 @@ fn in_order(
     document: &Document,
     header: &Range<usize>,
 ) -> Result<Vec<f64>, Error> {
+    // each row belongs to the nearest node of the grid
     let nearest = |axis: &[f64], place: f64| {
         let k = axis.partition_point(|node| *node < place).min(axis.len() - 1);
         if k > 0 && place - axis[k - 1] < axis[k] - place { k - 1 } else { k }
@@ -74,6 +78,8 @@ fn in_order(
         .map(|(row, point)| (nearest(x, point[0]) + x.len() * nearest(y, point[1]), row))
         .collect();
     rows.sort_unstable();
+
+    // rows are sorted by node, so two of one node follow each other
     let twice = rows.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1).min();
     if let Some(row) = twice {
         let [px, py, _] = points[row];
@@ -83,6 +89,8 @@ fn in_order(
             "give every node of the grid one row",
         ));
     }
+
+    // the first node without a row
     let missing = rows.iter().zip(0..).find(|((node, _), expected)| node != expected);
     let missing = missing.map(|(_, expected)| expected);
     let missing = missing.or((rows.len() < x.len() * y.len()).then_some(rows.len()));

@@ -10,6 +10,8 @@ use plydrape::mold::{Mold, Plane};
 /// Checks the keys of a plane.
 pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Error> {
     let point = read_or(&table.point, [0.0; 3], document)?;
+
+    // the normal is given, or follows from a tilt and its direction; a plane without both is level
     let normal = match (&table.normal, &table.tilt) {
         (Some(normal), None) => {
             if let Some(direction) = &table.tilt_direction {
@@ -37,6 +39,7 @@ pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, Erro
                     "expected a tilt below 89.9 deg",
                 ));
             }
+            // the plane rises in the direction of the tilt
             let climb = read_or(&table.tilt_direction, 0.0, document)?;
             [-angle.sin() * climb.cos(), -angle.sin() * climb.sin(), angle.cos()]
         }

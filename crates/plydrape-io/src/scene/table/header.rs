@@ -176,6 +176,7 @@ fn column_place(
     places: &[usize],
     chosen: Option<&str>,
 ) -> Result<(usize, Option<f64>), Error> {
+    // where two titles fit the column, nobody guesses which one is meant
     let document = titles.document;
     let index = places[0];
     let place = titles.fields[index].clone();
@@ -197,6 +198,8 @@ fn column_place(
         };
         return Err(document.error(second, message, help));
     }
+
+    // the unit is in the header, or in the title that the option names
     let unit = titles.titles[index].1;
     let said = chosen.and_then(|chosen| title(chosen).1);
     let size = match unit.or(said) {

@@ -157,6 +157,7 @@ impl<'a> Table<'a> {
     /// At the largest number of such a column.
     pub fn check_plain(&self) -> Result<(), Error> {
         for (n, column) in self.expected.iter().enumerate() {
+            // the largest number of a column that has no unit
             let (Some(plain), None) = (column.plain, self.found.columns[n].1) else { continue };
             let mut largest: Option<(f64, Range<usize>)> = None;
             for row in self.rows() {
@@ -165,6 +166,7 @@ impl<'a> Table<'a> {
                     largest = Some((value, row.place(n)));
                 }
             }
+            // where it is not found in practice, another unit was probably meant
             let [least, most] = plain.believed;
             if let Some((value, place)) = largest
                 && (value > most || (value < least && value > 0.0))
@@ -208,6 +210,7 @@ impl Row<'_> {
 
     /// The text in an expected column.
     pub fn text(&self, column: usize) -> Result<&str, Error> {
+        // a row with more fields than the header: perhaps decimal commas cut its numbers in two
         let Header { columns, fields, separator, .. } = &self.table.found;
         let filled = self.fields.iter().rposition(|field| !field.is_empty());
         if let Some(last) = filled
@@ -219,6 +222,8 @@ impl Row<'_> {
                 "where numbers have a decimal comma, separate the columns by semicolons, or write numbers with a decimal point",
             ));
         }
+
+        // the field of the column, which every row must fill
         let (index, _) = columns[column];
         let text = self.field(index);
         if !text.is_empty() {

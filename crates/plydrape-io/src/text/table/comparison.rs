@@ -13,6 +13,7 @@ const MOST_BROKEN: usize = 2;
 /// One row a strategy, with the limits that it breaks below it, the worst first; last the best strategy.
 #[must_use]
 pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
+    // the cells of the table, a row for each strategy
     let titles = ["strategy", "height mm", "position mm", "tilt °", "time s", "verdict"];
     let mut cells = vec![titles.map(str::to_owned).to_vec()];
     cells.extend(rows.iter().map(|row| {
@@ -26,6 +27,8 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
             verdict(row).into(),
         ]
     }));
+
+    // below each row the limits that the strategy breaks, and its note
     let table = aligned(&cells, &[0, 5]);
     let mut lines = table.lines();
     let mut text = lines.next().map(|title| format!("{title}\n")).unwrap_or_default();
@@ -37,6 +40,8 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
             text.push('\n');
         }
     }
+
+    // in which world the accepted ones were judged, and which strategy is the best
     let worlds: Vec<World> = rows.iter().filter(|row| row.accepted).map(|row| row.world).collect();
     text += &accepted_in(&worlds);
     let accepted = |best| rows.iter().any(|row| row.strategy == best && row.accepted);

@@ -107,6 +107,7 @@ pub fn verdict(result: &ResultFile, ink: Ink) -> String {
 /// The largest loads of cups beside what they hold, or where that is not known the largest load and the largest pull of grippers with their
 /// limits; empty where the model knows none.
 fn forces(result: &ResultFile) -> String {
+    // loads of cups beside what these hold, where that is known
     let summary = &result.summary;
     let pad = &result.scene.settings.pad;
     let held = |name: Name, direction: &str, holds: Option<f64>| {
@@ -123,6 +124,8 @@ fn forces(result: &ResultFile) -> String {
     if !cups.is_empty() {
         return format!("largest load of a cup {}", cups.join(", "));
     }
+
+    // else the largest load and the largest pull of grippers
     let force = |name: Name, words: &str| {
         let value = significant(summary.worst.value(name)?);
         let limit = summary.limits.iter().find(|verdict| verdict.name == name);

@@ -20,6 +20,7 @@ pub(super) fn write(
     mold: Option<&RigidMold>,
     deck: &mut Deck,
 ) {
+    // what the deck was made of, for which programs, and what it can show
     let scene = &result.scene;
     paragraph(deck, &format!("Ply between grippers: {}", scene.title));
     paragraph(deck, &format!("Written from the result file of {}.", result.program));
@@ -30,6 +31,7 @@ pub(super) fn write(
         "What it is for: how the ply hangs between its grippers (step HANG), by another program. Statics cannot lay a ply, which snaps from fold to fold (step LAY); `plydrape export --to ngsolve` can.",
     );
 
+    // the ply: its shells and how they resist
     heading(deck, "What the deck carries");
     paragraph(
         deck,
@@ -73,6 +75,8 @@ pub(super) fn write(
     for line in &section.assumed {
         paragraph(deck, line);
     }
+
+    // the grippers with their steps, and the mold
     let held = if mesh.strip { "the whole line across the strip" } else { "one node" };
     paragraph(
         deck,
@@ -94,6 +98,7 @@ pub(super) fn write(
         None => {}
     }
 
+    // what the model of the result has and the deck leaves out
     heading(deck, "What the deck does not carry");
     let [ply, touch] = match result.model() {
         Model::Catenaries => [
@@ -113,6 +118,8 @@ pub(super) fn write(
         deck,
         "The grippers' size, mass and tilt limit, their mounts, and pads that let go: a gripper is a point (of a strip, a line).",
     );
+
+    // these only where the scene has them
     if scene.ply.cut.is_none() && scene.settings.sheet.overhang > 0.0 {
         paragraph(deck, "The fabric beyond the grippers of the array.");
     }

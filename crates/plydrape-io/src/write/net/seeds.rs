@@ -13,6 +13,7 @@ use plydrape::net::{Choice, Seeds};
 /// # Errors
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn table(seeds: &Seeds) -> Result<String, Error> {
+    // titles with their units
     let mut table = Writer::from_writer(Vec::new());
     table.write_record([
         "u (m)",
@@ -26,6 +27,8 @@ pub fn table(seeds: &Seeds) -> Result<String, Error> {
         "turn (deg)",
         "taken",
     ])?;
+
+    // a row for each choice; two values are not known where the held point has no place on the mold
     for (n, choice) in seeds.choices.iter().enumerate() {
         let Choice { at, heading, held_heading, missing, off, .. } = choice;
         let degrees = |angle: f64| number(angle.to_degrees());

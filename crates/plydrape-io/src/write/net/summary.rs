@@ -122,6 +122,7 @@ impl Summary {
     /// A net and what is found of it in a few numbers, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
     pub fn new(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
+        // accepted: all of the ply lies on the mold, and no cell shears beyond the limit
         let (placement, report) = (&net.placement, &net.report);
         let boundary = findings.boundary.as_ref().map(BoundarySummary::new);
         let hair = HAIR * placement.mesh[0].min(placement.mesh[1]);
@@ -133,6 +134,7 @@ impl Summary {
         };
         Summary {
             accepted: all && within,
+            // how the net was laid, and its shear
             nodes: placement.nodes,
             mesh: placement.mesh,
             generators: placement.generators,
@@ -144,6 +146,7 @@ impl Summary {
             mean_shear_deg: report.mean_shear.to_degrees(),
             shear_limit_deg: shear_limit.map(f64::to_degrees),
             max_edge_error: report.largest_edge_error,
+            // nodes with and without a place on the mold
             placed: report.placed,
             off_mold: report.off_mold,
             folded: report.folded,

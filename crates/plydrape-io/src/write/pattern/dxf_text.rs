@@ -71,6 +71,7 @@ impl Text {
 
     /// All of it.
     pub fn finish(self) -> String {
+        // the header has the bounds of the entities and the next free handle
         let mut all = Text { entities: String::new(), ..Text::new(&self.layers) };
         all.bounds = self.bounds;
         all.handles = self.handles;
@@ -78,6 +79,8 @@ impl Text {
         all.section("CLASSES");
         all.pair(0, &"ENDSEC");
         all.tables();
+
+        // model space and paper space, which every drawing has
         all.section("BLOCKS");
         for (owner, name, begin, end) in
             [(MODEL, "*Model_Space", "22", "23"), (PAPER, "*Paper_Space", "24", "25")]
@@ -95,9 +98,13 @@ impl Text {
             all.strings(&[(8, "0"), (100, "AcDbBlockEnd")]);
         }
         all.pair(0, &"ENDSEC");
+
+        // what was drawn
         all.section("ENTITIES");
         all.entities += &self.entities;
         all.pair(0, &"ENDSEC");
+
+        // the root dictionary
         all.section("OBJECTS");
         all.strings(&[(0, "DICTIONARY"), (5, ROOT), (330, "0"), (100, "AcDbDictionary")]);
         all.strings(&[(281, "1"), (3, "ACAD_GROUP"), (350, "31")]);
@@ -120,9 +127,12 @@ impl Text {
     }
 
     fn tables(&mut self) {
+        // programs expect all tables, also those without entries
         self.section("TABLES");
         self.table("VPORT", "1", 0);
         self.pair(0, &"ENDTAB");
+
+        // line types
         self.table("LTYPE", "2", 3);
         for (name, handle, note) in
             [("ByBlock", "10", ""), ("ByLayer", "11", ""), ("Continuous", "12", "Solid line")]
@@ -131,6 +141,8 @@ impl Text {
             self.strings(&[(2, name), (70, "0"), (3, note), (72, "65"), (73, "0"), (40, "0.0")]);
         }
         self.pair(0, &"ENDTAB");
+
+        // layer 0, which every drawing has, and the layers of this one
         let layers = std::mem::take(&mut self.layers);
         self.table("LAYER", "3", layers.len() + 1);
         for (n, (name, color)) in [("0", 7)].iter().chain(&layers).enumerate() {
@@ -138,15 +150,21 @@ impl Text {
             self.pairs(&[(2, name), (70, &0), (62, color), (6, &"Continuous"), (370, &-3)]);
         }
         self.pair(0, &"ENDTAB");
+
+        // one style of text
         self.table("STYLE", "4", 1);
         self.record("STYLE", "13", "4", "AcDbTextStyleTableRecord");
         self.strings(&[(2, "Standard"), (70, "0"), (40, "0.0"), (41, "1.0"), (50, "0.0")]);
         self.strings(&[(71, "0"), (42, "2.5"), (3, "txt"), (4, "")]);
         self.pair(0, &"ENDTAB");
+
+        // no views and no coordinate systems
         for (name, handle) in [("VIEW", "5"), ("UCS", "6")] {
             self.table(name, handle, 0);
             self.pair(0, &"ENDTAB");
         }
+
+        // the application, and one style of dimensions
         self.table("APPID", "7", 1);
         self.record("APPID", "14", "7", "AcDbRegAppTableRecord");
         self.strings(&[(2, "ACAD"), (70, "0"), (0, "ENDTAB")]);
@@ -155,6 +173,8 @@ impl Text {
         self.strings(&[(0, "DIMSTYLE"), (105, "15"), (330, "8"), (100, "AcDbSymbolTableRecord")]);
         self.strings(&[(100, "AcDbDimStyleTableRecord"), (2, "Standard"), (70, "0")]);
         self.pair(0, &"ENDTAB");
+
+        // the blocks of model space and paper space
         self.table("BLOCK_RECORD", "9", 2);
         for (name, handle) in [("*Model_Space", MODEL), ("*Paper_Space", PAPER)] {
             self.record("BLOCK_RECORD", handle, "9", "AcDbBlockTableRecord");

@@ -117,6 +117,7 @@ impl PolyData {
 
     /// The whole file.
     pub fn bytes(&self) -> Vec<u8> {
+        // what is of the whole, and how many points and cells there are
         let mut file = File::default();
         file.text.push_str(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" \
@@ -131,6 +132,7 @@ impl PolyData {
         }
         let _ = writeln!(file.text, "{piece} NumberOfStrips=\"0\">");
 
+        // points, and cells one behind the other with the place where each ends
         file.section("Points", &[Array::vectors("Points", &self.points)]);
         let mut end = 0;
         let ends = self.cells.iter().map(|cell| {
@@ -142,8 +144,12 @@ impl PolyData {
             Array::whole("connectivity", self.cells.iter().flatten().copied()),
         ];
         file.section(&format!("{:?}", self.kind), &joined);
+
+        // values at points and in cells
         file.section("PointData", &self.at_points);
         file.section("CellData", &self.in_cells);
+
+        // the bytes of all arrays, behind the text that names them
         file.text.push_str("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
         let mut bytes = file.text.into_bytes();
         bytes.extend(file.appended);

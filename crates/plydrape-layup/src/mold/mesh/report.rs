@@ -92,6 +92,7 @@ impl MeshReport {
 
     /// Details of one kind that are treated alike, in a sentence for each kind.
     fn details(&self) -> impl Iterator<Item = String> + '_ {
+        // a sentence for what the ply spans and one for what it does not, of each kind
         let kinds = [DetailKind::Pit, DetailKind::Hole, DetailKind::Stud];
         kinds.into_iter().flat_map(|kind| [true, false].map(|spanned| (kind, spanned))).filter_map(
             |(kind, spanned)| {
@@ -100,12 +101,16 @@ impl MeshReport {
                 if own.is_empty() {
                     return None;
                 }
+
+                // the first few with size and place, the others by their number
                 let first: Vec<String> =
                     own.iter().take(Finding::KEPT).map(|detail| detail.text()).collect();
                 let more = match own.len().saturating_sub(Finding::KEPT) {
                     0 => String::new(),
                     more => format!(", and {more} more"),
                 };
+
+                // what the ply or the ideal drape does there, and how to change the mold
                 let what = match (kind, spanned) {
                     (DetailKind::Stud, _) => {
                         "no ply follows what is so narrow, but the ideal drape does; cut it off in the file of the mold"
@@ -206,6 +211,7 @@ fn millimeters(length: f64) -> f64 {
 /// One line for the mold and one for each kind of finding.
 impl fmt::Display for MeshReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // the mold: its triangles, its surfaces, and the size of the box around it
         let [low, high] = self.bounds;
         let [x, y, z] = [0, 1, 2].map(|n| high[n] - low[n]);
         write!(
@@ -213,6 +219,8 @@ impl fmt::Display for MeshReport {
             "{} triangles, {} vertices, {} surface(s), {} of them closed; {x:.4} x {y:.4} x {z:.4} m",
             self.triangles, self.vertices, self.surfaces, self.closed
         )?;
+
+        // what was repaired: boundaries of faces, then vertices and triangles
         if let Some((width, place)) = self.stitched.widest {
             let Stitches { count, .. } = self.stitched;
             write!(
@@ -233,6 +241,8 @@ impl fmt::Display for MeshReport {
                 write!(f, " near ({x:.4}, {y:.4}, {z:.4}) m")?;
             }
         }
+
+        // what the mold lacks: holes in its surfaces, and elements that were left out
         for hole in &self.holes {
             let [low, high] = hole.bounds;
             let [x, y, z] = [0, 1, 2].map(|n| 0.5 * (low[n] + high[n]));
