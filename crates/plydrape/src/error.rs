@@ -348,6 +348,7 @@ impl Error {
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {
+            // points that give no offset
             Error::OffsetTooFew { .. } => "three points near the corners of the ply are best",
             Error::OffsetTooClose { .. } => {
                 "choose points that are far apart, such as the corners of the ply"
@@ -355,6 +356,7 @@ impl Error {
             Error::OffsetDistorted { .. } => {
                 "see whether two points are swapped, or whether the ply is distorted, which no replanned motion puts right"
             }
+            // plans that cannot be corrected
             Error::ReplanAgain => {
                 "replan the plan that it came from: the offset is from where that one picks the ply up"
             }
@@ -366,6 +368,7 @@ impl Error {
             Error::ReplanNoTransport { .. } => {
                 "plan a pick-up farther from the mold or higher above it, or plan again with [grippers] where the ply lies"
             }
+            // offsets that the motion of this plan cannot take out
             Error::ReplanOffset => "give a shift in mm and a yaw up to 180 deg",
             Error::ReplanTouches { .. } => {
                 "lay the ply down nearer to where it was planned, or plan again with [grippers] where it lies"

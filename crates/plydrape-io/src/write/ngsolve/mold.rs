@@ -32,6 +32,7 @@ pub(super) struct DistanceGrid {
 impl DistanceGrid {
     /// The distances of the mold of a result, `reach` (m) beyond the grippers, for grippers that are a `pitch` (m) apart; `None` without a mold.
     pub fn under(result: &ResultFile, reach: f64, pitch: f64) -> Option<DistanceGrid> {
+        // how high and how low the mold is around the motion of the grippers
         let mold = result.scene.mold.as_ref()?;
         let [low, high] = extent(result)?;
         let (low, high) = (low.map(|c| c - reach), high.map(|c| c + reach));
@@ -39,6 +40,7 @@ impl DistanceGrid {
         let heights = || surface.iter().map(|vertex| vertex[2]);
         let [bottom, top] = [heights().reduce(f64::min)?, heights().reduce(f64::max)?];
 
+        // points at a share of the pitch of the grippers, farther apart for a large mold
         let sides = [high[0] - low[0], high[1] - low[1], top - bottom];
         let count = |step: f64| {
             [0, 1, 2].map(|c| {
@@ -50,6 +52,8 @@ impl DistanceGrid {
         while count(step).iter().product::<f64>() > MOST {
             step *= 1.1;
         }
+
+        // the distance at each point; beyond the boundary of the mold it is a pitch
         let shape = count(step).map(|n| n as usize);
         let low = [low[0], low[1], bottom - LAYERS * step];
         let far = pitch;
