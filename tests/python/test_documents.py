@@ -14,6 +14,7 @@ from typing import Any
 
 import plydrape
 import pytest
+import tomllib
 from program import ROOT, binary
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -127,6 +128,43 @@ def test_the_page_of_all_keys_is_made_from_the_schema() -> None:
     """The file in the sources is what `python docs/keys.py` writes."""
     made_now = made("keys").page()
     assert (ROOT / "docs" / "guide" / "keys.md").read_text(encoding="utf-8") == made_now
+
+
+def test_the_template_has_keys_of_the_schema_and_their_defaults() -> None:
+    """What `plydrape new` writes, also behind a `#`, are keys of their tables.
+
+    A value that it sets is the default of its key, or says the default of the usual cell.
+    """
+    schema = json.loads((ROOT / "docs" / "scene.schema.json").read_text(encoding="utf-8"))
+    source = ROOT / "crates" / "plydrape-io" / "src" / "scene" / "template.toml"
+
+    def keys(part: dict[str, Any]) -> dict[str, Any]:
+        while "properties" not in part:
+            choices = part.get("anyOf", []) + part.get("oneOf", [])
+            tables = [one for one in choices if "$ref" in one or one.get("type") == "object"]
+            name = part.get("$ref", "").rsplit("/", 1)[-1]
+            part = schema["$defs"][name] if name else part.get("items") or tables[0]
+        found: dict[str, Any] = part["properties"]
+        return found
+
+    known, count = schema["properties"], 0
+    others: dict[str, Any] = {}
+    for line in source.read_text(encoding="utf-8").splitlines():
+        if head := re.match(r"(?:# )?\[{1,2}([a-z_.]+)\]{1,2}", line):
+            known = schema["properties"]
+            for part in head[1].split("."):
+                known = keys(known[part])
+        elif entry := re.match(r"(# )?([a-z_]+) = (\S.*)$", line):
+            assert entry[2] in known, line
+            count += 1
+            default = known[entry[2]].get("default")
+            if entry[1] is None and default is not None:
+                value = tomllib.loads(f"value = {entry[3]}")["value"]
+                if value not in (default, f"{default} Pa"):
+                    others[entry[2]] = value
+    assert count > 120
+    # a scene in the usual cell has mounts that give, and more drapes
+    assert others == {"evaluations": 300}
 
 
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="there is no cargo")
