@@ -41,7 +41,7 @@ pub struct Layers(pub Vec<Layer>);
 
 /// What is known of a part of the plan.
 #[derive(Debug, Clone)]
-enum Cell {
+enum GridCell {
     /// All of it has the full thickness.
     Inside,
     /// Nothing of it.
@@ -55,7 +55,7 @@ enum Cell {
 struct Grid {
     side: f64,
     count: [usize; 2],
-    cells: Vec<Cell>,
+    cells: Vec<GridCell>,
 }
 
 /// The boundary of a layer as seen from a place.
@@ -109,9 +109,9 @@ impl Layer {
             return none;
         }
         let lines = match self.grid.cell(self.bounds[0], place) {
-            Cell::Inside => return full,
-            Cell::Outside => return none,
-            Cell::Near(lines) => lines,
+            GridCell::Inside => return full,
+            GridCell::Outside => return none,
+            GridCell::Near(lines) => lines,
         };
         if is_inside(&self.rings, place) {
             return full;
@@ -170,19 +170,19 @@ impl Grid {
             // a millionth more than half a cell's diagonal, for rounding
             let reach = reach * (1.0 + 1e-6);
             if is_inside(rings, middle) && nearest > reach {
-                return Cell::Inside;
+                return GridCell::Inside;
             }
             if nearest > reach + width {
-                return Cell::Outside;
+                return GridCell::Outside;
             }
             let near = lines.iter().filter(|line| away(line) <= nearest + 2.0 * reach);
-            Cell::Near(near.copied().collect())
+            GridCell::Near(near.copied().collect())
         };
         let cells = (0..count[0] * count[1]).map(cell).collect();
         Grid { side, count, cells }
     }
 
-    fn cell(&self, low: [f64; 2], place: [f64; 2]) -> &Cell {
+    fn cell(&self, low: [f64; 2], place: [f64; 2]) -> &GridCell {
         let [i, j] = [0, 1]
             .map(|n| (((place[n] - low[n]) / self.side).max(0.0) as usize).min(self.count[n] - 1));
         &self.cells[j * self.count[0] + i]

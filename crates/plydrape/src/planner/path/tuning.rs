@@ -8,22 +8,22 @@ use std::f64::consts::{FRAC_PI_2, LN_10, PI};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathTuning {
     /// The way from the start to the first formation of a front.
-    pub transport: Transport,
+    pub transport: TransportTuning,
     /// Fronts and the trajectories that they give.
-    pub front: Front,
+    pub front: FrontTuning,
     /// Preload of grippers on mounts.
-    pub preload: Preload,
+    pub preload: PreloadTuning,
     /// The search for the best front.
-    pub search: Search,
+    pub search: SearchTuning,
     /// The race of the best fronts, for grippers on mounts.
-    pub race: Race,
+    pub race: RaceTuning,
     /// The walk from a good front, for grippers on mounts.
-    pub walk: Walk,
+    pub walk: WalkTuning,
 }
 
 /// Constants of the way from the start to the first formation of a front.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Transport {
+pub struct TransportTuning {
     /// Distance that the ply keeps from the mold and from the table while it is carried (cells).
     pub margin: f64,
     /// Points of a cell along each side at which this distance is measured, the farther end not counted.
@@ -69,7 +69,7 @@ pub struct Transport {
 
 /// Constants of fronts and their trajectories.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Front {
+pub struct FrontTuning {
     /// Radius over which the tip of the lifted mold at the start of the front is rounded (cells).
     pub tip: f64,
     /// Divisions of a cell of the net on the lifted mold; even, so that the middle of a cell is a node.
@@ -115,7 +115,7 @@ pub struct Front {
 
 /// Constants of the preload of grippers on mounts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Preload {
+pub struct PreloadTuning {
     /// Largest pull of a line inside the ply, as a share of the load that a gripper may carry.
     pub pull: f64,
     /// Pull of a line along the border of the ply, as a multiple of that of a line inside: it alone keeps the border straight.
@@ -142,7 +142,7 @@ pub struct Preload {
 
 /// Constants of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Search {
+pub struct SearchTuning {
     /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
     pub good: f64,
     /// Score of a ranking below which a plan is decided on: first, and once the error of the coarse mesh is known. Above 1,
@@ -178,7 +178,7 @@ pub struct Search {
 
 /// Constants of the race.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Race {
+pub struct RaceTuning {
     /// Fronts that begin.
     pub fronts: usize,
     /// Cells of the first round; each other round has twice as many as the one before.
@@ -189,7 +189,7 @@ pub struct Race {
     pub lag: f64,
 }
 
-impl Race {
+impl RaceTuning {
     /// Cells of all rounds.
     #[must_use]
     pub const fn all_cells(&self) -> usize {
@@ -205,7 +205,7 @@ impl Race {
 
 /// Constants of the walk.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Walk {
+pub struct WalkTuning {
     /// First step of the logarithm of the ratio of axes.
     pub ratio: f64,
     /// First step of the squareness.
@@ -236,7 +236,7 @@ pub struct Walk {
 
 /// The constants in use.
 pub const TUNING: PathTuning = PathTuning {
-    transport: Transport {
+    transport: TransportTuning {
         margin: 0.1,
         divisions: 5,
         boundary_halvings: 24,
@@ -255,7 +255,7 @@ pub const TUNING: PathTuning = PathTuning {
         turn: PI / 30.0,
         most_turning: 0.4,
     },
-    front: Front {
+    front: FrontTuning {
         tip: 1e-3,
         divisions: 4,
         height_nodes: 121,
@@ -284,7 +284,7 @@ pub const TUNING: PathTuning = PathTuning {
             [0.0, 2.5e-3],
         ],
     },
-    preload: Preload {
+    preload: PreloadTuning {
         pull: 0.25,
         border: 2.5,
         release: 0.4,
@@ -296,7 +296,7 @@ pub const TUNING: PathTuning = PathTuning {
         fall: 0.1,
         deviations: 3.0,
     },
-    search: Search {
+    search: SearchTuning {
         good: 0.8,
         promising: [1.4, 1.1],
         promising_on_mounts: 0.9,
@@ -311,8 +311,8 @@ pub const TUNING: PathTuning = PathTuning {
         gain: 0.95,
         samples: 5,
     },
-    race: Race { fronts: 16, cells: 4, last: 4, lag: 1.1 },
-    walk: Walk {
+    race: RaceTuning { fronts: 16, cells: 4, last: 4, lag: 1.1 },
+    walk: WalkTuning {
         ratio: 0.25,
         squareness: 0.5,
         square: [-1.0, 0.9],
