@@ -224,8 +224,6 @@ pub struct WalkTuning {
     pub angle: f64,
     /// First step of the start, as a share of the fabric.
     pub start: f64,
-    /// Factor of a step that gained.
-    pub longer: f64,
     /// Factor of a step that did not.
     pub shorter: f64,
     /// Shortest step, in first steps.
@@ -322,7 +320,6 @@ pub const TUNING: PathTuning = PathTuning {
         pretension: 5e-4,
         angle: 0.4,
         start: 0.1,
-        longer: 1.3,
         shorter: 0.6,
         shortest: 0.3,
         gain: 0.985,

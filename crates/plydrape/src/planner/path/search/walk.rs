@@ -1,7 +1,7 @@
 //! A walk downhill from a good front, one of its numbers after the other: those of cells that land in another order first.
 //!
-//! A pattern search (Hooke and Jeeves 1961, "Direct search"): each number is made larger and smaller by a step, a gain is kept and
-//! makes the step longer, and no gain makes it shorter. Numbers stay in their ranges.
+//! A pattern search (Hooke and Jeeves 1961, "Direct search"): each number is made larger and smaller by a step, a gain is kept,
+//! and no gain makes the step shorter. Numbers stay in their ranges.
 
 use crate::planner::path::strategy::Strategy;
 use crate::planner::path::tuning::TUNING;
@@ -81,8 +81,9 @@ impl Walk {
 
     /// Goes to a front that is better, or stays where none is.
     pub fn go(&mut self, number: usize, better: Option<Strategy>) {
-        self.steps[number] *=
-            if better.is_some() { TUNING.walk.longer } else { TUNING.walk.shorter };
+        if better.is_none() {
+            self.steps[number] *= TUNING.walk.shorter;
+        }
         self.front = better.unwrap_or(self.front);
     }
 
