@@ -2324,7 +2324,7 @@ class Scene:
         """
     def replace(self, /, **changes: typing.Any) -> Scene:
         """
-        The same scene with other values: keyword arguments as those of a scene, of which only those that change are needed.
+        This scene with other values: keyword arguments as those of a scene, of which only those that change are needed.
 
         A dict is merged into the table of that name, key by key; None takes a table or a key away. A table with another `kind` is
         taken whole. The scene itself stays as it is, and comments of its file are not in the `text` of the new one.
@@ -2461,7 +2461,7 @@ class Scene:
         slow: bool = False,
     ) -> Scene:
         """
-        The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
+        This scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
         if its start stretches the ply, this one is draped: its overstretch says by how much.
 
         Parameters

@@ -22,7 +22,7 @@ pub struct Slot {
 
 /// A symmetric matrix of 3×3 blocks, one block row per node.
 ///
-/// Its numbers are sums: [`Self::clear`] sets all of them to zero, and blocks are added in any order. Its pattern stays; a clone
+/// The numbers are sums: [`Self::clear`] sets all of them to zero, and blocks are added in any order. Its pattern stays; a clone
 /// shares it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMatrix {

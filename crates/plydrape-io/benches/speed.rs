@@ -89,7 +89,7 @@ fn equilibrium_4x2_cold(bencher: Bencher) {
     });
 }
 
-/// The same place once more: what `benches/python.py` asks of Python, without Python.
+/// A place once more: what `benches/python.py` asks of Python, without Python.
 #[divan::bench]
 fn equilibrium_4x2_again(bencher: Bencher) {
     let scene = example();

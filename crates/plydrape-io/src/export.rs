@@ -53,7 +53,7 @@ impl Format {
         found.map(|(_, format)| *format).or(Robot::named(word).map(Format::Robot))
     }
 
-    /// Its name; of a program that of its language.
+    /// The name of the format; of a program that of its language.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

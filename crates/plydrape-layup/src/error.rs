@@ -62,7 +62,7 @@ pub enum Error {
     MeshVertex {
         /// Which triangle, counted from 1.
         triangle: usize,
-        /// Its index of a vertex, counted from 0.
+        /// The index of a vertex, counted from 0.
         vertex: u32,
         /// How many vertices there are.
         vertices: usize,
@@ -444,7 +444,7 @@ impl Error {
         }
     }
 
-    /// The same fault of positions in a step, counted from 1.
+    /// This fault of positions in a step, counted from 1.
     #[must_use]
     pub(crate) fn at_step(mut self, number: usize) -> Self {
         if let Error::GripperCount { step, .. }

@@ -409,7 +409,7 @@ impl Scene {
         Ok(out)
     }
 
-    /// The same scene with other values: keyword arguments as those of a scene, of which only those that change are needed.
+    /// This scene with other values: keyword arguments as those of a scene, of which only those that change are needed.
     ///
     /// A dict is merged into the table of that name, key by key; None takes a table or a key away. A table with another `kind` is
     /// taken whole. The scene itself stays as it is, and comments of its file are not in the `text` of the new one.
@@ -514,7 +514,7 @@ impl Scene {
         Some(Array::rows(&[grippers.len(), 3], grippers.iter().copied()))
     }
 
-    /// The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
+    /// This scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
     /// if its start stretches the ply, this one is draped: its overstretch says by how much.
     ///
     /// Parameters

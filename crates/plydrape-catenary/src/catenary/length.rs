@@ -76,7 +76,7 @@ impl Profile {
 
     /// Arc length L (m) with derivatives to H and both slopes, and its excess: the solver's inner loop.
     ///
-    /// The same numbers as the general kernel with `N` = 3, at half its cost.
+    /// The numbers of the general kernel with `N` = 3, at half its cost.
     fn length_to_unknowns(&self) -> (Jet<3>, Excess) {
         let r = self.response();
         let mut sum = UnknownsSum::new(self, &r);

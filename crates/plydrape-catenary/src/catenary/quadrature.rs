@@ -128,7 +128,7 @@ pub static LONG: Rule<32> = Rule {
 /// How the slope of a span behaves over its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sweep {
-    /// It sweeps evenly, over so much if it did all along what it does at its fastest.
+    /// It sweeps evenly: the range over which it would sweep if it did all along what it does at its fastest.
     Even(f64),
     /// A part that grows evenly by `load`, and boundary layers e^(−kt) and e^(−k(1−t)).
     Layered {

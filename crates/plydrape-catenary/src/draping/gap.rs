@@ -12,7 +12,7 @@ pub struct Run {
     pub from: f64,
     /// Where it ends, as a fraction of the span's run.
     pub to: f64,
-    /// Its deepest point, as a fraction of the span's run.
+    /// The deepest point of the gap, as a fraction of the span's run.
     pub deepest: f64,
     /// Distance from the mold there (m), negative below it.
     pub depth: f64,

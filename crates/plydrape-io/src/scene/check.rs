@@ -335,7 +335,7 @@ impl Surroundings<'_> {
         };
         start::check(&start, self)?;
         if let Some(steps) = file.motion.as_ref().and_then(|table| table.value.steps.as_ref()) {
-            // before so many positions are made
+            // before all of these positions are made
             let Whole(count) = steps.value;
             self.fits(&steps.span, usize::try_from(count).unwrap_or(0))?;
         }

@@ -13,7 +13,7 @@ const MOST_STEPS: usize = 10_000;
 /// Most candidates that a search may drape.
 const MOST_EVALUATIONS: usize = 1_000_000;
 
-/// Checks the table `[plan]` of a scene with so many grippers, whose pads give or not.
+/// Checks the table `[plan]` of a scene with a number of grippers, whose pads give or not.
 pub(super) fn plan(
     table: &PlanTable,
     grippers: usize,

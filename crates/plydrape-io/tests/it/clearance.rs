@@ -72,7 +72,7 @@ fn an_obstacle_between_two_steps_is_met_and_named() {
     assert!(found.ok && (found.value - 34.0).abs() < 1.0, "{found:?}");
 }
 
-/// The same cube as a box, as a mesh and turned by a quarter, placed by `position` or by `at`.
+/// A cube as a box, as a mesh and turned by a quarter, placed by `position` or by `at`.
 #[test]
 fn a_mesh_is_as_near_as_the_box_that_it_is() {
     let stl = cube_as_stl();

@@ -104,12 +104,12 @@ pub fn motion(positions: Vec<Vec<Point>>) -> Motion {
 
 /// Positions on straight ways, as far as a share of them, in equal steps.
 pub fn straight(from: &[Point], to: &[Point], far: f64, steps: usize) -> Vec<Vec<Point>> {
-    let at = |n: usize| {
+    let step = |n: usize| {
         let t = far * n as f64 / (steps - 1) as f64;
         let mix = |(a, b): (&Point, &Point)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
         from.iter().zip(to).map(mix).collect()
     };
-    (0..steps).map(at).collect()
+    (0..steps).map(step).collect()
 }
 
 /// How contact is found, at a tolerance (m).

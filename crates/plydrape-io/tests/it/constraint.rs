@@ -12,7 +12,7 @@ fn sheared(grid: Grid, angle: f64) -> Vec<Point> {
     places.map(|[u, v]| [u + v * angle.sin(), v * angle.cos(), 0.0]).collect()
 }
 
-/// The same turned about z by `turn`, then tilted so that it climbs by `climb` (rad) towards `towards`.
+/// Points turned about z by `turn`, then tilted so that it climbs by `climb` (rad) towards `towards`.
 fn posed(points: &[Point], turn: f64, climb: f64, towards: f64) -> Vec<Point> {
     let (s, c) = turn.sin_cos();
     let (st, ct) = towards.sin_cos();

@@ -105,7 +105,7 @@ fn a_strip_rolled_on_a_parabola_lies_where_it_belongs_whatever_the_steps() {
     }
 }
 
-/// The same on a sphere and on a cylinder, along a circle.
+/// The comparison on a sphere and on a cylinder, along a circle.
 #[test]
 fn a_strip_rolled_on_a_circle_lies_where_it_belongs() {
     let radius = 0.6;
@@ -230,7 +230,7 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
     assert!(finest[0][1] < 0.02 && finest[1][1] < 0.02, "{finest:?}");
 }
 
-/// The same sphere as a closed form and as a formula drapes the same.
+/// A sphere as a closed form and as a formula drapes the same.
 #[test]
 fn a_sphere_as_a_formula_drapes_like_the_sphere() {
     let radius = 0.6;

@@ -56,7 +56,7 @@ fn min_force_meets_the_reference_solution() {
     close(&[all], &[1.897002], 6e-7);
 }
 
-/// The same, with the moments balanced.
+/// The comparison with the moments balanced.
 #[test]
 fn moment_balance_meets_the_reference_solution() {
     let ply = paper_ply(4, 2);

@@ -103,7 +103,7 @@ fn on_a_cylinder_the_targets_are_the_flat_ply_rolled_up() {
     straight_paths_leave_wrinkles(&scene, 1e-9);
 }
 
-/// The same trial left as much on a saddle. It is wrapped along one axis and bridged along the other: its
+/// The trial left as much on a saddle. It is wrapped along one axis and bridged along the other: its
 /// edges along the hollow do not lie.
 #[test]
 fn a_saddle_by_straight_paths_is_bridged_along_its_hollow() {

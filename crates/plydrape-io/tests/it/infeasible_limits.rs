@@ -259,9 +259,10 @@ fn a_ply_springs_back_from_a_dome_and_stays_on_a_cylinder() {
 /// An edge beyond the cups is laid like the rest: it lies on a cylinder without stretch, and on a dome it springs back farther.
 #[test]
 fn an_edge_beyond_the_cups_is_laid_too() {
-    let at = |overhang, mold| springs_back(&beyond_cups(overhang, mold, "\"prepreg_warm\""));
-    assert_eq!(at(30.0, CYLINDER), None);
-    let [without, with] = [0.0, 30.0].map(|overhang| at(overhang, DOME).expect("it springs back"));
+    let height = |overhang, mold| springs_back(&beyond_cups(overhang, mold, "\"prepreg_warm\""));
+    assert_eq!(height(30.0, CYLINDER), None);
+    let [without, with] =
+        [0.0, 30.0].map(|overhang| height(overhang, DOME).expect("it springs back"));
     assert!(with > without, "{with} and {without} mm");
 }
 

@@ -123,7 +123,7 @@ fn obj_is_read_with_polygons_negative_indices_and_all_that_stands_beside() {
     }
 }
 
-/// The same wavy sheet, read by `tobj` and `stl_io`: the same vertices and as many triangles.
+/// A wavy sheet, read by `tobj` and `stl_io`: the same vertices and as many triangles.
 #[test]
 fn the_readers_agree_with_those_of_other_programs() {
     let vertex = |n: usize| {

@@ -153,14 +153,14 @@ fn grippers_end_at_nodes_of_the_net() {
 #[test]
 fn a_seed_in_the_middle_of_a_flat_ply_moves_it_by_half() {
     let plane = "kind = \"plane\"\ntilt = \"10 deg\"";
-    let by = |target: &str| {
+    let grippers = |target: &str| {
         scene(plane, &format!("[target]\nshear = \"20 deg\"\n{target}"), "")
             .layup
             .target
             .unwrap()
             .grippers
     };
-    let (corner, middle) = (by(""), by("seed = \"middle\""));
+    let (corner, middle) = (grippers(""), grippers("seed = \"middle\""));
     let half = [0, 1, 2].map(|k| 0.5 * (corner[0][k] + corner[15][k]));
     for (a, b) in corner.iter().zip(&middle) {
         for k in 0..3 {

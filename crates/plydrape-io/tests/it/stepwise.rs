@@ -401,7 +401,7 @@ fn a_scaled_scene_has_the_scaled_plan() {
     }
 }
 
-/// The same scene gives the same plan, to the last bit.
+/// A scene gives the same plan each time, to the last bit.
 #[test]
 fn a_plan_is_the_same_every_time() {
     let mut scene = cut("05_cylinder");

@@ -185,7 +185,7 @@ fn a_cell_is_judged_by_the_shear_that_it_landed_with_in_both_senses() {
     }
 }
 
-/// The same verdict from coarse and fine steps at a fine tolerance: examples 01, 04 and 06 by their straight paths, whose limits
+/// Coarse and fine steps give one verdict at a fine tolerance: examples 01, 04 and 06 by their straight paths, whose limits
 /// each keep their side, and whose slack and landing shear differ by no more than what a step of the coarsest catches.
 #[test]
 fn verdicts_converge_in_steps_and_tolerance() {

@@ -31,7 +31,7 @@ pub type Angles = [f64; JOINTS];
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Arm {
-    /// Its name.
+    /// Name of the arm.
     pub name: String,
     /// The joints from the foot to the flange.
     pub joints: [Joint; JOINTS],
@@ -62,7 +62,7 @@ impl Arm {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Joint {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
     /// Where its frame is in that of the joint before, or of the foot, at an angle of zero.
     pub pose: Pose,

@@ -43,7 +43,7 @@ impl Steepness {
 }
 
 impl Height {
-    /// The same height everywhere.
+    /// One height everywhere.
     pub(super) fn constant(z: f64) -> Self {
         Height { z, gradient: [0.0; 2], hessian: [0.0; 3] }
     }

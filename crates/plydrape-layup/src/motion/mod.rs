@@ -225,7 +225,7 @@ impl TimedMotion {
         check::moving(planned).into_iter().map(<[Vector]>::to_vec).collect()
     }
 
-    /// The same motion over a time λ times as long: the same shapes of the ply, in the same order.
+    /// This motion over a time λ times as long: the same shapes of the ply, in the same order.
     #[must_use]
     pub fn slowed(&self, factor: f64) -> Self {
         match &self.path {
@@ -368,7 +368,7 @@ impl TimedMotion {
     ///
     /// # Errors
     /// [`Error::MotionRate`] if the rate is no number above 0, [`Error::MotionTooManySamples`] if a motion
-    /// of so many steps would be larger than a scene's may be.
+    /// with all of these steps would be larger than a scene's may be.
     pub fn samples(&self, rate: f64) -> Result<Vec<f64>, Error> {
         check::samples(rate, self.duration(), self.grippers())
     }

@@ -47,7 +47,7 @@ impl Motion {
     #[must_use]
     pub fn apart(&self, window: f64) -> Vec<usize> {
         let Some(last) = self.times.len().checked_sub(1) else { return Vec::new() };
-        // a window of so many steps is one of as many, whatever rounding makes of their times
+        // a window of a number of steps is one of as many, whatever rounding makes of their times
         let window = window * (1.0 - 1e-9);
         let mut steps = vec![0];
         for k in 1..last {

@@ -126,7 +126,7 @@ impl TimeLaw {
         TimeLaw { length: length + next.length, duration: begin + next.duration, ..self }
     }
 
-    /// Its rows, see [`Self::of_rows`].
+    /// The rows of the law, see [`Self::of_rows`].
     pub fn rows(&self) -> Vec<[f64; 5]> {
         let row = |(begin, [s, v, a, j]): &(f64, State)| [*begin, *s, *v, *a, *j];
         let mut rows: Vec<[f64; 5]> = self.phases.iter().map(row).collect();
@@ -134,7 +134,7 @@ impl TimeLaw {
         rows
     }
 
-    /// The same time law over a time λ times as long.
+    /// This time law over a time λ times as long.
     pub fn stretched(&self, factor: f64) -> Self {
         let phase = |(begin, [s, v, a, j]): &(f64, State)| {
             (begin * factor, [*s, v / factor, a / factor.powi(2), j / factor.powi(3)])

@@ -92,7 +92,7 @@ pub(super) fn turned(v: [f64; 3], from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
 
 /// (k² − 1)/s for s = |Δn|² = 4 sin²(φ/2) and k = (φ/2)/sin(φ/2).
 ///
-/// Its series is Σ 2 sⁿ⁻²/(n² C(2n, n)) from n = 2 on, that of the square of the arcsine.
+/// The series is Σ 2 sⁿ⁻²/(n² C(2n, n)) from n = 2 on, that of the square of the arcsine.
 fn stretch(s: f64) -> f64 {
     const SERIES: [f64; 8] = [
         1.0 / 12.0,

@@ -239,8 +239,8 @@ pub struct Shares {
 impl Shares {
     /// The shares of grippers that are seen from a place in the fabric (m).
     fn new(ply: &Ply, grippers: impl Iterator<Item = usize>, [u, v]: [f64; 2]) -> Self {
-        let way = |n: usize| (n, [ply.place(n)[0] - u, ply.place(n)[1] - v]);
-        let ways: Vec<(usize, [f64; 2])> = grippers.map(way).collect();
+        let distance = |n: usize| (n, [ply.place(n)[0] - u, ply.place(n)[1] - v]);
+        let ways: Vec<(usize, [f64; 2])> = grippers.map(distance).collect();
         let moment = |a: usize, b: usize| ways.iter().map(|(_, way)| way[a] * way[b]).sum::<f64>();
         let (uu, uv, vv) = (moment(0, 0), moment(0, 1), moment(1, 1));
         let (square, determinant) = (uu + vv, uu * vv - uv * uv);
@@ -263,11 +263,11 @@ impl Shares {
             self.grippers.iter().fold([0.0; 3], add)
         });
         let left = |way: [f64; 3]| unit([-way[1], way[0], 0.0]).unwrap_or([0.0, 1.0, 0.0]);
-        let of = |sum| unit(sum).unwrap_or([1.0, 0.0, 0.0]);
+        let direction = |sum| unit(sum).unwrap_or([1.0, 0.0, 0.0]);
         let Some([cos, sin]) = self.line else {
-            return [of(u), unit(v).unwrap_or(left(of(u)))];
+            return [direction(u), unit(v).unwrap_or(left(direction(u)))];
         };
-        let line = of(along(u.map(|c| cos * c), sin, v));
+        let line = direction(along(u.map(|c| cos * c), sin, v));
         [[cos, -sin], [sin, cos]].map(|[a, b]| along(line.map(|c| a * c), b, left(line)))
     }
 }

@@ -94,7 +94,7 @@ impl Outline {
         bounds(&self.boundary)
     }
 
-    /// The same outline with all of its points moved by a map that keeps senses, as turns and shifts do.
+    /// This outline with all of its points moved by a map that keeps senses, as turns and shifts do.
     #[must_use]
     pub fn moved(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         let mapped = |ring: &Ring| ring.iter().map(|p| map(*p)).collect();

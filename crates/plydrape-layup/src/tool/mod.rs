@@ -72,7 +72,7 @@ fn is_exact(with_errors: &bool) -> bool {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Axis {
-    /// Its name, `z` if it runs along z.
+    /// Name of the axis, `z` if it runs along z.
     pub name: String,
     /// Unit vector along which it moves, in the frame.
     pub direction: [f64; 3],

@@ -74,7 +74,7 @@ fn apart(a: &Motion, b: &Motion) -> f64 {
     pairs.map(|(p, q)| distance(*p, *q)).fold(0.0, f64::max)
 }
 
-/// The same sample is the same cell with more grippers, drawn after others, by many threads, and with other terms left out.
+/// A sample is the same cell with more grippers, drawn after others, by many threads, and with other terms left out.
 #[test]
 fn a_draw_does_not_depend_on_what_else_is_drawn() {
     let errors = budget();

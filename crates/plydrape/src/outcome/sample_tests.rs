@@ -157,7 +157,7 @@ fn no_cell_counts_after_the_one_that_decides() {
     for margin in [-0.9, 0.5e-3, 1.5e-3, 0.9] {
         scene.limits.workspace = Some([[-1.0, right + margin], [-1.0, 1.0], [-1.0, 1.0]]);
         // the sample, and how many cells were draped for it
-        let by = |threads: usize| {
+        let drawn = |threads: usize| {
             let done = AtomicUsize::new(0);
             let count = |_: usize, of: usize| {
                 assert_eq!(of, 64);
@@ -170,10 +170,10 @@ fn no_cell_counts_after_the_one_that_decides() {
         };
 
         // one thread drapes only the cells that count, and more threads find the same sample
-        let (one, done) = by(1);
+        let (one, done) = drawn(1);
         assert_eq!(done, one.cells.len());
         for threads in [2, 5] {
-            assert_eq!(one, by(threads).0);
+            assert_eq!(one, drawn(threads).0);
         }
 
         // by the shifts: which cells stay in the box, and after how many the verdict is clear
@@ -201,12 +201,12 @@ fn no_cell_counts_after_the_one_that_decides() {
 #[test]
 fn a_sample_does_not_depend_on_threads() {
     for scene in [lines(), sheet()] {
-        let by = |threads: usize| {
+        let drawn = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| of_grippers(5, 5e-4).judge(&scene, &NEVER)).unwrap()
         };
-        let one = by(1);
-        assert_eq!(one, by(3));
+        let one = drawn(1);
+        assert_eq!(one, drawn(3));
         let ratio = |n: usize| one.cells[n].ratio;
         assert!((1..5).any(|n| ratio(n) != ratio(0)), "{:?}", one.cells);
     }

@@ -80,7 +80,7 @@ pub struct SearchState<'a> {
 pub struct Proof {
     /// Cells.
     pub cells: usize,
-    /// Those that may break a limit.
+    /// Cells that may break a limit.
     pub spare: usize,
 }
 
@@ -336,7 +336,7 @@ impl<'a> SearchState<'a> {
         self.set_work(forecast, None);
     }
 
-    /// Says how long a sample of so many cells that begins will take.
+    /// Says how long a sample of a number of cells that begins will take.
     pub fn set_sample(&self, forecast: Option<Forecast>, cells: usize) {
         self.set_work(forecast, Some(cells));
     }

@@ -71,7 +71,7 @@ impl LaidPly<'_> {
         laid(&self.with(material), &self.scene.limits, self.stop)
     }
 
-    /// Its layup with an error of its material.
+    /// The layup of the scene with an error of its material.
     fn with(&self, material: MaterialError) -> Layup {
         let nominal = Errors::default().draw(0, self.layup.ply.grippers());
         Draw { material, ..nominal }.apply(&self.layup)
@@ -181,11 +181,11 @@ fn around(net: &Net, mold: &Mold, points: &[[f64; 2]]) -> Option<Net> {
     for n in 0..2 {
         let Placement { mesh, origin, nodes, .. } = net.placement;
         let last = (nodes[n].max(1) - 1) as f64 * mesh[n];
-        let at = || points.iter().map(|uv| uv[n] - origin[n]);
+        let places = || points.iter().map(|uv| uv[n] - origin[n]);
         // how many meshes the points are before the first node, and behind the last
         let meshes = |beyond: f64| (beyond / mesh[n] - ROUNDING).ceil().max(0.0) as usize;
-        let before = meshes(-at().fold(0.0, f64::min));
-        let behind = meshes(at().fold(last, f64::max) - last);
+        let before = meshes(-places().fold(0.0, f64::min));
+        let behind = meshes(places().fold(last, f64::max) - last);
         placement.origin[n] -= before as f64 * mesh[n];
         placement.seed[n] += before;
         placement.nodes[n] += before + behind;

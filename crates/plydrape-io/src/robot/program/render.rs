@@ -156,7 +156,7 @@ fn environment() -> Environment<'static> {
     environment
 }
 
-/// A number times a factor, or a list of them, with so many digits; no zero has a sign. Each number is a step.
+/// A number times a factor, or a list of them, with a number of digits; no zero has a sign. Each number is a step.
 fn each(state: &State, value: &Value, factor: f64, digits: usize) -> Result<Value, Error> {
     state.consume_fuel(1)?;
     if let Ok(number) = f64::try_from(value.clone()) {

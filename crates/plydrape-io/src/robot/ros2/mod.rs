@@ -217,7 +217,7 @@ mod tests {
     use super::*;
     use crate::sample;
 
-    /// The same bytes again from the same result.
+    /// A result gives the same bytes each time.
     #[test]
     fn the_same_result_gives_the_same_bytes() {
         let result = sample::draped(3, 2, 4);

@@ -40,7 +40,7 @@ fn assert_two_points(text: &str, found: Result<Vec<Vec<f64>>, Error>) {
     }
 }
 
-/// The same two points, written by hand, by spreadsheets of two countries, and by testing machines.
+/// Two points, written by hand, by spreadsheets of two countries, and by testing machines.
 #[test]
 fn a_table_reads_the_same_whoever_wrote_it() {
     for text in [

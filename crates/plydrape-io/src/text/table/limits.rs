@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// From which share of a limit on it is close.
 const CLOSE: f64 = 0.9;
 
-/// The limits of a drape, those exceeded furthest and then those closest first, at most so many that hold; of a sample with a column of what its
+/// The limits of a drape, those exceeded furthest and then those closest first, at most as many that hold as are asked for; of a sample with a column of what its
 /// share of the cells keeps.
 pub(super) fn limits(
     limits: &[Verdict],

@@ -95,7 +95,7 @@ pub fn cell(axes: usize, samples: usize) -> Program {
     }
 }
 
-/// The same without a release while the arm moves.
+/// A program without a release while the arm moves.
 pub fn still(program: Program) -> Program {
     let mut events = program.events;
     events[3].time = events[2].time;

@@ -55,7 +55,7 @@ impl Pace {
         self.ends.windows(2).map(|pair| (pair[0], pair[1]))
     }
 
-    /// The same spline with other control values.
+    /// This spline with other control values.
     pub fn with(&self, values: Vec<f64>) -> Self {
         Pace { ends: self.ends.clone(), values }
     }

@@ -106,7 +106,7 @@ fn a_tilted_frame_tilts_pads_without_joints() {
     assert!(drape.last.pads.iter().any(|pad| tilted(pad) > 0.05), "{:?}", drape.last.pads);
 }
 
-/// The same motion elsewhere and in another direction leaves the same ply, within the tolerance of the time steps.
+/// A motion elsewhere and in another direction leaves the same ply, within the tolerance of the time steps.
 #[test]
 fn a_ply_in_pads_without_joints_does_not_know_where_it_is() {
     let [(here, before), (there, after)] = [0.0, 0.7].map(|yaw| draped(&turning(0.3, yaw, false)));

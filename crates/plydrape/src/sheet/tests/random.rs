@@ -184,7 +184,7 @@ fn a_mesh_is_refused_from_half_of_the_free_fabric_between_pads_on() {
     assert!((most_mm - 300.0 * pitch).abs() < 1e-9, "{most_mm}");
 }
 
-/// The same layup gives the same bytes, whatever else ran before or beside it.
+/// A layup gives the same bytes each time, whatever else ran before or beside it.
 #[test]
 fn the_same_layup_gives_the_same_bytes() {
     let run = || {

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 pub struct Racer<'a> {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
-    /// Its drape without errors, once it was needed.
+    /// The drape without errors, once it was needed.
     draped: Option<Draped<'a>>,
     /// The scores of its drapes, that without errors first.
     scores: Vec<f64>,
