@@ -239,8 +239,8 @@ pub struct Shares {
 impl Shares {
     /// The shares of grippers that are seen from a place in the fabric (m).
     fn new(ply: &Ply, grippers: impl Iterator<Item = usize>, [u, v]: [f64; 2]) -> Self {
-        let distance = |n: usize| (n, [ply.place(n)[0] - u, ply.place(n)[1] - v]);
-        let ways: Vec<(usize, [f64; 2])> = grippers.map(distance).collect();
+        let offset = |n: usize| (n, [ply.place(n)[0] - u, ply.place(n)[1] - v]);
+        let ways: Vec<(usize, [f64; 2])> = grippers.map(offset).collect();
         let moment = |a: usize, b: usize| ways.iter().map(|(_, way)| way[a] * way[b]).sum::<f64>();
         let (uu, uv, vv) = (moment(0, 0), moment(0, 1), moment(1, 1));
         let (square, determinant) = (uu + vv, uu * vv - uv * uv);

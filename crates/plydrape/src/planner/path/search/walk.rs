@@ -1,7 +1,7 @@
 //! A walk downhill from a good front, one of its numbers after the other: those of cells that land in another order first.
 //!
 //! A pattern search (Hooke and Jeeves 1961, "Direct search"): each number is made larger and smaller by a step, a gain is kept,
-//! and no gain makes the step shorter. Numbers stay in their ranges.
+//! and without one the step becomes shorter. Numbers stay in their ranges.
 
 use crate::planner::path::strategy::Strategy;
 use crate::planner::path::tuning::TUNING;
