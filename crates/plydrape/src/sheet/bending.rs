@@ -49,8 +49,8 @@ impl Bending {
     pub fn new(sheet: &Sheet, pads: &Pads, system: &System) -> Self {
         let (bends, curves) = (&sheet.fabric.bends, &sheet.moment);
         let mut lips = vec![0.0; bends.len()];
-        let holding = sheet.lips.iter().zip(pads.held()).filter(|(_, nodes)| !nodes.is_empty());
-        for (bend, rigidity) in holding.flat_map(|(lip, _)| lip) {
+        let holding = sheet.grippers.iter().zip(pads.held()).filter(|(_, nodes)| !nodes.is_empty());
+        for (bend, rigidity) in holding.flat_map(|(gripper, _)| &gripper.lip.bends) {
             lips[*bend] += rigidity;
         }
         let element = |(b, lip): (&Bend, f64)| {

@@ -121,5 +121,5 @@ impl<'a> Cloth<'a> {
 /// The linear system of a sheet that is held by pads.
 fn system(sheet: &Sheet, pads: &Pads) -> System {
     let (carriers, blocks) = carriers(sheet, pads.held());
-    System::new(carriers, blocks, pads.held().len(), &coupled_pairs(&sheet.fabric))
+    System::new(carriers, blocks, pads.held().len(), &coupled_pairs(sheet))
 }

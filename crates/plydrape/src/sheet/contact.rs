@@ -98,11 +98,10 @@ impl<'a> Contact<'a> {
         // under its own weight a node sinks in by a small share of the pitch; under a mount it must be stiff against the mount
         let pressure = penalty(sheet, tuning.contact_depth);
         let mut stiffness: Vec<f64> = sheet.fabric.areas.iter().map(|a| pressure * a).collect();
-        for (gripper, nodes) in sheet.grippers.iter().zip(pads.held()) {
+        for (n, gripper) in sheet.grippers.iter().enumerate() {
             let [_, _, axial] = gripper.mount.unwrap_or_default();
-            for (node, _) in nodes {
-                let share = tuning.mount_contact * axial / nodes.len() as f64;
-                stiffness[*node] = stiffness[*node].max(share);
+            for (node, share) in pads.shares(n) {
+                stiffness[node] = stiffness[node].max(tuning.mount_contact * axial * share);
             }
         }
         // a point begins far from the mold, without an anchor

@@ -348,6 +348,19 @@ impl Fabric {
         Some(BoundaryPoint { place, nodes, weights: bilinear(low, high, place) })
     }
 
+    /// A point (m) of a cell; `None` where there is no cell.
+    #[must_use]
+    pub fn point_at(&self, place: [f64; 2]) -> Option<BoundaryPoint> {
+        let covers = |axis: usize| {
+            let lines = &self.lines[axis];
+            let (low, high) = (lines[0], lines[lines.len() - 1]);
+            let rounding = 1e-9 * (high - low);
+            (low - rounding..=high + rounding).contains(&place[axis])
+        };
+        let is_within = !self.cells.is_empty() && covers(0) && covers(1);
+        is_within.then(|| self.boundary_point(place, place)).flatten()
+    }
+
     /// This fabric, larger by a factor along u and v alike: the lines keep their fabric coordinates, and lengths, widths, spacings and
     /// areas in the flat grow.
     #[must_use]

@@ -1,5 +1,6 @@
 //! A gripper of the sheet: the fabric point that it holds, its pad, its mount, and where it is.
 
+use super::lip::Under;
 use crate::geometry::rotation::quaternion;
 use crate::geometry::vector::{along, angle_between, cross, dot, norm, sub};
 use crate::sheet::matrix3::{
@@ -19,6 +20,8 @@ pub struct Gripper {
     pub slip_force: Option<f64>,
     /// Largest tilt of its pad (rad).
     pub max_tilt: f64,
+    /// The fabric under its lip, on which it acts as long as it holds the ply; nothing if it has none.
+    pub lip: Under,
 }
 
 /// What a mount does to the fabric that it holds.

@@ -2,7 +2,7 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
-use super::lip;
+use super::lip::Under;
 use crate::Error;
 use crate::layup::{Friction, Layup, PadSettings, Settings, SheetTime};
 use crate::material::{MomentCurve, Section, ShearCurve, ShearRate, TensionLaw};
@@ -25,8 +25,6 @@ pub struct Sheet {
     pub fabric: Fabric,
     /// Grippers.
     pub grippers: Vec<Gripper>,
-    /// For each gripper the bends under its lip, with what it adds to their rigidity as long as it holds the ply (N·m).
-    pub lips: Vec<Vec<(usize, f64)>>,
     /// The mold; `None` for a ply that only hangs.
     pub mold: Option<Mold>,
     /// Mass per area (kg/m²).
@@ -154,18 +152,21 @@ impl Sheet {
         let mount = mount_stiffness(&settings.pad, 1e3 * tension.tension(0.0)[2], pitch);
         let gripper = |n: usize| {
             let place = ply.place(n);
+            let mut lip = match &settings.pad.lip {
+                Some(lip) => Under::new(&fabric, lip, place),
+                None => Under::default(),
+            };
+            // a rigid gripper holds a point, and a disc all of its nodes
+            if mount.is_none() || radius > 0.0 {
+                lip.nodes.clear();
+            }
             let (slip_force, max_tilt) = (settings.pad.slip_force, settings.max_tilt);
-            Gripper { place, radius, mount, slip_force, max_tilt }
+            Gripper { place, radius, mount, slip_force, max_tilt, lip }
         };
-        let lip = |n: usize| match &settings.pad.lip {
-            Some(lip) => lip::under(&fabric, lip, ply.place(n)),
-            None => Vec::new(),
-        };
-        let lips = (0..ply.grippers()).map(lip).collect();
+        let grippers = (0..ply.grippers()).map(gripper).collect();
         let sheet = Sheet {
             fabric,
-            lips,
-            grippers: (0..ply.grippers()).map(gripper).collect(),
+            grippers,
             mold: layup.mold.clone(),
             areal_mass,
             rigidity,

@@ -5,20 +5,22 @@ use super::Sheet;
 use super::configuration::Configuration;
 use super::energy::{Energy, Stiffness};
 use super::gripper::{Gripper, Pad};
-use super::pads::Pads;
-use super::system::{System, add};
+use super::pads::{HeldNodes, Pads, mean};
+use super::system::{Pair, System, add};
 use super::tuning::SheetTuning;
 use super::unknowns::Carrier;
 use crate::geometry::vector::{cross, norm};
 use crate::sheet::matrix3::{IDENTITY, outer, scaled};
 
 /// What the mount of a gripper acts on.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 enum Grip {
-    /// A node on a mount that gives.
-    Pin {
-        /// The node.
-        node: usize,
+    /// The mean of free nodes on a mount that gives.
+    Fabric {
+        /// The nodes, each with its share.
+        nodes: Vec<(usize, f64)>,
+        /// Pairs of them, each with the product of their shares.
+        pairs: Vec<(Pair, f64)>,
     },
     /// A pad, by the blocks of its unknowns.
     Pad {
@@ -44,19 +46,25 @@ pub struct Mounts<'a> {
 impl<'a> Mounts<'a> {
     /// The mounts of the pads of a sheet, whose unknowns are those of `system`.
     pub fn new(sheet: &'a Sheet, tuning: &SheetTuning, pads: &Pads, system: &System) -> Self {
-        let grip = |nodes: &[(usize, [f64; 2])]| {
-            let (node, _) = *nodes.first()?;
+        let grip = |(n, held): (usize, &HeldNodes)| {
+            let (node, _) = *held.first()?;
             match system.carrier(node) {
-                Carrier::Free { .. } => Some(Grip::Pin { node }),
+                Carrier::Free { .. } => {
+                    let nodes = pads.bearing[n].clone();
+                    let each = nodes.iter().enumerate();
+                    let pairs = each.flat_map(|(n, a)| nodes[..n].iter().map(move |b| [*b, *a]));
+                    let pairs =
+                        pairs.map(|[(i, s), (j, t)]| (system.pair([i as u32, j as u32]), s * t));
+                    Some((n, Grip::Fabric { pairs: pairs.collect(), nodes }))
+                }
                 Carrier::Held { .. } => None,
-                Carrier::Pad { turn, shift, .. } => Some(Grip::Pad { turn, shift }),
+                Carrier::Pad { turn, shift, .. } => Some((n, Grip::Pad { turn, shift })),
             }
         };
         let weight = sheet.areal_mass * sheet.gravity * sheet.pitch.powi(3);
-        let grips = pads.held().iter().enumerate();
         Mounts {
             grippers: &sheet.grippers,
-            grips: grips.filter_map(|(n, nodes)| Some((n, grip(nodes)?))).collect(),
+            grips: pads.held().iter().enumerate().filter_map(grip).collect(),
             turn_stiffness: tuning.turn_stiffness * weight,
             tilt_stiffness: tuning.tilt_stiffness * weight,
         }
@@ -76,8 +84,8 @@ impl Energy for Mounts<'_> {
         let energy = |(n, grip): &(usize, Grip)| {
             let (gripper, pad) = (&self.grippers[*n], &now.pads[*n]);
             let spring = |x| gripper.hold(pad, x).map_or(0.0, |hold| hold.energy);
-            match *grip {
-                Grip::Pin { node } => spring(now.x[node]),
+            match grip {
+                Grip::Fabric { nodes, .. } => spring(mean(nodes, &now.x)),
                 Grip::Pad { turn, .. } => {
                     let tilt = turn.and_then(|_| Mounts::tilt_beyond(gripper, pad));
                     let tilt = tilt.map_or(0.0, |(beyond, _)| beyond * beyond);
@@ -93,19 +101,24 @@ impl Energy for Mounts<'_> {
     fn linearize(&self, now: &Configuration, _: Stiffness, system: &mut System) {
         for (n, grip) in &self.grips {
             let (gripper, pad) = (&self.grippers[*n], &now.pads[*n]);
-            match *grip {
-                // a pin on a spring is a free node
-                Grip::Pin { node } => {
-                    if let Some(hold) = gripper.hold(pad, now.x[node]) {
-                        add(&mut system.gradient[node], 1.0, hold.force);
-                        system.stiffen(node, &hold.stiffness);
+            match grip {
+                Grip::Fabric { nodes, pairs } => {
+                    let Some(hold) = gripper.hold(pad, mean(nodes, &now.x)) else { continue };
+                    for (node, share) in nodes {
+                        add(&mut system.gradient[*node], *share, hold.force);
+                        system.stiffen(*node, &scaled(share * share, &hold.stiffness));
+                    }
+                    if system.wants_matrix() {
+                        for (pair, product) in pairs {
+                            system.couple(*pair, &scaled(*product, &hold.stiffness));
+                        }
                     }
                 }
                 Grip::Pad { turn, shift } => {
-                    if let (Some(hold), Some(shift)) = (gripper.hold(pad, pad.position), shift) {
+                    if let (Some(hold), Some(shift)) = (gripper.hold(pad, pad.position), *shift) {
                         system.add_to_block(shift, hold.force, &hold.stiffness);
                     }
-                    let Some(turn) = turn else { continue };
+                    let Some(turn) = *turn else { continue };
                     let least = scaled(self.turn_stiffness, &IDENTITY);
                     system.add_to_block(turn, [0.0; 3], &least);
                     if let Some((beyond, axis)) = Mounts::tilt_beyond(gripper, pad) {

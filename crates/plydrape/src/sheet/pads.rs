@@ -17,6 +17,9 @@ pub struct Pads<'a> {
     sheet: &'a Sheet,
     /// The nodes of each gripper; empty if it has let go.
     held: Vec<HeldNodes>,
+    /// The nodes on which the mount of each gripper acts that holds a point and gives, each with its share: those under its lip, or the one
+    /// that it holds. Empty for other grippers.
+    pub bearing: Vec<Vec<(usize, f64)>>,
     /// Whether a gripper holds each node.
     pub gripped: Vec<bool>,
 }
@@ -29,7 +32,15 @@ impl<'a> Pads<'a> {
         for (node, _) in held.iter().flatten() {
             gripped[*node] = true;
         }
-        Pads { sheet, held, gripped }
+        let bearing = |(gripper, held): (&Gripper, &HeldNodes)| match held.as_slice() {
+            [(node, _)] if gripper.mount.is_some() => match gripper.lip.nodes.as_slice() {
+                [] => vec![(*node, 1.0)],
+                under => under.to_vec(),
+            },
+            _ => Vec::new(),
+        };
+        let bearing = sheet.grippers.iter().zip(&held).map(bearing).collect();
+        Pads { sheet, held, bearing, gripped }
     }
 
     /// The nodes that each gripper holds; one that holds none has let go.
@@ -37,16 +48,27 @@ impl<'a> Pads<'a> {
         &self.held
     }
 
+    /// The nodes that a gripper loads, each with its share of the load: those of a pad alike.
+    pub fn shares(&self, gripper: usize) -> Vec<(usize, f64)> {
+        let (held, bearing) = (&self.held[gripper], &self.bearing[gripper]);
+        match bearing.as_slice() {
+            [] => held.iter().map(|(node, _)| (*node, 1.0 / held.len() as f64)).collect(),
+            bearing => bearing.to_vec(),
+        }
+    }
+
     /// Grippers and the nodes that they hold.
     fn each(&self) -> impl Iterator<Item = (&Gripper, &HeldNodes)> {
         self.sheet.grippers.iter().zip(&self.held)
     }
 
-    /// Lets go of the ply with the pad of a gripper; returns the nodes that it held.
+    /// Lets go of the ply with the pad of a gripper; returns the nodes on which it acted.
     pub fn let_go(&mut self, gripper: usize, now: &mut Configuration) -> Vec<usize> {
         let pad = &mut now.pads[gripper];
         (pad.position, pad.slip) = (pad.target, [0.0; 3]);
-        let nodes: Vec<usize> = self.held[gripper].drain(..).map(|(node, _)| node).collect();
+        let held = self.held[gripper].drain(..).map(|(node, _)| node);
+        let bearing = self.bearing[gripper].drain(..).map(|(node, _)| node);
+        let nodes: Vec<usize> = held.chain(bearing).collect();
         for node in &nodes {
             self.gripped[*node] = false;
         }
@@ -84,13 +106,12 @@ impl<'a> Pads<'a> {
 
     /// Takes a share of the linear step: of the pads, which place the nodes that they hold, and of all other nodes.
     pub fn take(&self, share: f64, now: &mut Configuration, system: &System) {
-        // a pad is where its carrier puts it: on its free node, on its target, or where its mount gives
+        // a pad is where its carrier puts it: on its target, where its mount gives, or, below, on free nodes
         for (n, (pad, nodes)) in now.pads.iter_mut().zip(&self.held).enumerate() {
             let Some((node, _)) = nodes.first() else { continue };
             match system.carrier(*node) {
                 Carrier::Free { .. } => {
                     add(&mut now.x[*node], share, system.step[*node]);
-                    pad.position = now.x[*node];
                 }
                 Carrier::Held { .. } => {
                     now.x[*node] = pad.target;
@@ -118,17 +139,20 @@ impl<'a> Pads<'a> {
                 add(x, share, *step);
             }
         }
+        for (pad, nodes) in now.pads.iter_mut().zip(&self.bearing) {
+            if !nodes.is_empty() {
+                pad.position = mean(nodes, &now.x);
+            }
+        }
     }
 
     /// Lets fabric slide under pads that are loaded beyond their slip force.
     pub fn slide(&self, now: &mut Configuration) {
         for ((gripper, nodes), pad) in self.each().zip(&mut now.pads) {
-            let place = match nodes.as_slice() {
-                [] => continue,
-                [(node, _)] => now.x[*node],
-                _ => pad.position,
-            };
-            if let Some(hold) = gripper.hold(pad, place) {
+            if nodes.is_empty() {
+                continue;
+            }
+            if let Some(hold) = gripper.hold(pad, pad.position) {
                 add(&mut pad.slip, 1.0, hold.slides);
             }
         }
@@ -136,18 +160,25 @@ impl<'a> Pads<'a> {
 
     /// Force of the ply on each gripper (N) by the gradient of the ply's energy at the nodes (N); zero on one that has let go.
     pub fn forces(&self, now: &Configuration, gradient: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let force = |((gripper, nodes), pad): ((&Gripper, &HeldNodes), _)| match nodes.as_slice() {
-            // a pin on a spring is in balance with it
-            [(node, _)] if gripper.mount.is_some() => {
-                gripper.hold(pad, now.x[*node]).map_or([0.0; 3], |hold| hold.force)
+        let force = |(n, (gripper, nodes)): (usize, (&Gripper, &HeldNodes))| {
+            let bearing = &self.bearing[n];
+            let middle = (!bearing.is_empty()).then(|| mean(bearing, &now.x));
+            // fabric on a spring is in balance with it
+            match middle.and_then(|middle| gripper.hold(&now.pads[n], middle)) {
+                Some(hold) => hold.force,
+                None => nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, gradient[*node])),
             }
-            _ => nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, gradient[*node])),
         };
-        self.each().zip(&now.pads).map(force).collect()
+        self.each().enumerate().map(force).collect()
     }
 
     /// Whether each gripper's pad holds the ply.
     pub fn holds(&self) -> Vec<bool> {
         self.held.iter().map(|nodes| !nodes.is_empty()).collect()
     }
+}
+
+/// The mean of places (m) by the shares of nodes.
+pub fn mean(shares: &[(usize, f64)], x: &[[f64; 3]]) -> [f64; 3] {
+    shares.iter().fold([0.0; 3], |sum, (node, share)| along(sum, *share, x[*node]))
 }

@@ -47,7 +47,7 @@ impl Resting {
             movement: tuning.lying_movement * sheet.mesh,
             steps: tuning.lying_steps,
             force: sheet.gravity * tuning.lying_force,
-            pairs: coupled_pairs(fabric),
+            pairs: coupled_pairs(sheet),
             quiet: vec![0; nodes],
             lies: vec![false; nodes],
             still: vec![false; nodes],

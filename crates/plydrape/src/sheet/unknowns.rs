@@ -5,7 +5,6 @@
 //! joint has no turn of its own.
 
 use super::Sheet;
-use super::fabric::Fabric;
 use super::pads::HeldNodes;
 
 /// What carries a node.
@@ -78,12 +77,17 @@ pub fn carriers(sheet: &Sheet, held: &[HeldNodes]) -> (Vec<Carrier>, usize) {
 }
 
 /// The pairs of nodes that a term of the energy couples.
-pub fn coupled_pairs(fabric: &Fabric) -> Vec<[u32; 2]> {
+pub fn coupled_pairs(sheet: &Sheet) -> Vec<[u32; 2]> {
+    let fabric = &sheet.fabric;
     let segments = fabric.segments.iter().map(|s| s.nodes);
     let bends = fabric.bends.iter().map(|b| [b.nodes[0], b.nodes[2]]);
     let cells = fabric.cells.iter().flat_map(|c| {
         let [p, q, r, s] = c.nodes;
         [[p, q], [q, r], [r, s], [s, p], [p, r], [q, s]]
     });
-    segments.chain(bends).chain(cells).collect()
+    let lips = sheet.grippers.iter().flat_map(|gripper| {
+        let nodes = gripper.lip.nodes.iter().map(|(node, _)| *node as u32);
+        nodes.clone().flat_map(move |a| nodes.clone().filter(move |b| *b < a).map(move |b| [b, a]))
+    });
+    segments.chain(bends).chain(cells).chain(lips).collect()
 }

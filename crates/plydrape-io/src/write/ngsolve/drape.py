@@ -153,12 +153,26 @@ cups = []
 for cup in ply["grippers"]:
     arms = np.column_stack([place - cup["place"], np.zeros(nodes)])
     held = np.linalg.norm(arms, axis=1) <= cup["radius"] + 1e-6 * np.sqrt(areas.sum())
+    # A mount that yields acts on the mean of the nodes under a lip: each bears as much as its area,
+    # and none whose opposite is beyond the ply.
+    mean = bool(cup["lip"]) and cup["yields"] and cup["radius"] == 0.0
+    if mean:
+        inside = [mesh.Contains(*(2.0 * np.array(cup["place"]) - point)) for point in place]
+        held |= (np.linalg.norm(arms, axis=1) <= cup["lip"][0]) & inside
+    shares = areas[held] / areas[held].sum() if mean else np.full(held.sum(), 1.0 / held.sum())
+    if mean and held.sum() > 2:
+        # the mean of their places in the flat is the middle of the cup
+        middle = shares @ arms[held, :2]
+        off = arms[held, :2] - middle
+        spread = (off * shares[:, None]).T @ off
+        shares = shares * (1.0 - off @ np.linalg.pinv(spread) @ middle)
     path, turns = np.array(cup["positions"]), np.array(cup["quaternions"])
     path = np.vstack([origin + cup["place"] @ axes, path[:1], path])
     turns = Slerp(times, Rotation.from_quat(np.vstack([flat_turn, turns[:1], turns])))
     until = np.inf if cup["release"] is None else args.hang + pace * cup["release"]
-    spring = np.array(cup["stiffness"]) / held.sum()
-    cups.append((np.flatnonzero(held), arms[held], path, turns, until, spring))
+    spring = shares[:, None] * cup["stiffness"]
+    bears = shares if mean else None
+    cups.append((np.flatnonzero(held), arms[held], bears, path, turns, until, spring))
 
 # The mold. A cup presses far harder than the ply weighs, and contact under it is as much stiffer.
 mold, contact = ply["mold"], ply["contact"]
@@ -168,7 +182,7 @@ if mold:
     field = RegularGridInterpolator(grid, np.reshape(mold["distance"], mold["shape"]))
 press = mass * ply["gravity"] / contact["depth"]
 for held, *_, spring in cups:
-    press[held] += 50.0 * spring[2]
+    press[held] += 50.0 * spring[:, 2]
 
 
 def distance(x):
@@ -187,12 +201,15 @@ def springs(x, now):
     """Forces of cups and mold on nodes (n, 3), their stiffness, and the loads on the cups."""
     force, stiffness = np.zeros((nodes, 3)), np.zeros((nodes, 3, 3))
     loads = []
-    for held, arms, path, turn, until, spring in cups:
+    for held, arms, bears, path, turn, until, spring in cups:
         goal = [np.interp(now, times, along) for along in path.T]
-        goal = goal + turn(min(now, times[-1])).apply(arms)
+        # a pad turns what it holds; a lip leaves it free to turn and to bend
+        goal = goal + (
+            turn(min(now, times[-1])).apply(arms) if bears is None else x[held] - bears @ x[held]
+        )
         pull = (goal - x[held]) * spring * (now <= until)
         force[held] += pull
-        stiffness[held] += np.diag(spring) * (now <= until)
+        stiffness[held] += spring[:, :, None] * np.eye(3) * (now <= until)
         loads.append(-pull.sum(axis=0))
     if mold:
         n, depth, k = normals(x), np.maximum(-distance(x), 0.0)[:, None], press[:, None]

@@ -83,6 +83,8 @@ struct Cup {
     /// Radius (m) and flexural rigidity (N·m) of its soft lip; `None` without one.
     lip: Option<[f64; 2]>,
     stiffness: [f64; 3],
+    /// Whether its mount yields, and so acts on all of the fabric under the lip.
+    yields: bool,
     /// When it lets go (s); `None` if it holds to the end.
     release: Option<f64>,
     positions: Vec<[f64; 3]>,
@@ -149,6 +151,7 @@ pub(crate) fn files(
             radius: held.radius,
             lip: layup.settings.pad.lip.map(|lip| [lip.radius, lip.rigidity]),
             stiffness: held.mount.unwrap_or([RIGID * tension; 3]),
+            yields: held.mount.is_some(),
             release: (last + 1 < result.steps.len()).then(|| result.steps[last].time),
             positions: track().map(|gripper| gripper.commanded).collect(),
             quaternions: track().map(|gripper| gripper.quaternion).collect(),

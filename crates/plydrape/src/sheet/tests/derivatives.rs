@@ -6,7 +6,7 @@ use crate::layup::Lip;
 use crate::material::{MomentCurve, Relaxation, ShearCurve, ShearRate};
 use crate::sheet::configuration::Configuration;
 use crate::sheet::energy::{Phase, Stiffness};
-use crate::sheet::lip;
+use crate::sheet::lip::Under;
 use crate::sheet::matrix3::{rotation, times};
 use crate::sheet::system::Parts;
 
@@ -41,7 +41,7 @@ fn random(seed: &mut u64) -> f64 {
 /// A sheet with laws that are no straight lines, on an inclined mold with friction, held by a pin on a mount that slides with a lip around it, a rigid
 /// pin, and a pad on a mount whose tilt is limited.
 fn held(max_tilt: f64) -> Sheet {
-    let mut sheet = sheet(uneven(), &[[0.045, 0.033], [0.045, 0.0], [0.0, 0.012]]);
+    let mut sheet = sheet(uneven(), &[[0.03, 0.02], [0.045, 0.0], [0.0, 0.012]]);
     sheet.mold = Some(plane(0.3));
     sheet.friction = Friction::Coulomb(0.4);
     sheet.tension = TensionLaw::Table { strain: vec![0.0, 0.01, 0.1], force: vec![0.0, 10.0, 1e3] };
@@ -55,8 +55,8 @@ fn held(max_tilt: f64) -> Sheet {
     let [pin, pad] = [0, 2];
     sheet.grippers[pin].mount = Some([2e3, 2e3, 5e3]);
     sheet.grippers[pin].slip_force = Some(0.5);
-    let lip = Lip { radius: 0.02, rigidity: 1e-3 };
-    sheet.lips[pin] = lip::under(&sheet.fabric, &lip, sheet.grippers[pin].place);
+    let lip = Lip { radius: 0.005, rigidity: 1e-3 };
+    sheet.grippers[pin].lip = Under::new(&sheet.fabric, &lip, sheet.grippers[pin].place);
     sheet.grippers[pad] = Gripper {
         radius: 0.013,
         mount: Some([1e3, 1e3, 3e3]),

@@ -34,12 +34,12 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
         mount: None,
         slip_force: None,
         max_tilt: 40_f64.to_radians(),
+        lip: Default::default(),
     };
     let pitch = 0.1;
     Sheet {
         fabric: Fabric::rectangle(lines, pitch),
         grippers: held.iter().map(gripper).collect(),
-        lips: vec![Vec::new(); held.len()],
         mold: None,
         areal_mass: 3.143,
         rigidity: [9e-5; 2],

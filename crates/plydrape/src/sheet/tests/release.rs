@@ -248,6 +248,7 @@ fn the_mold_bears_the_weight_of_a_ply_without_pads() {
                 mount: (radius > 0.0).then_some([2e3; 3]),
                 slip_force: None,
                 max_tilt: 0.7,
+                lip: Default::default(),
             })
             .collect();
         sheet.mesh = 0.02;
