@@ -219,6 +219,15 @@ impl Search<'_, '_> {
         }
     }
 
+    /// A race of as many families as it takes, however few wait: a sample may have refused one of the first few.
+    fn race_families(&mut self) {
+        if !self.later.is_empty() && !self.can_race() {
+            self.shared.state.begin("draping more candidates");
+            self.drape_families();
+        }
+        self.race();
+    }
+
     /// Drapes families, and decides on promising ones, until those that wait are enough for a race.
     fn drape_families(&mut self) {
         while !(self.later.is_empty() || self.left == 0 || self.is_done() || self.can_race()) {
@@ -253,7 +262,7 @@ impl Search<'_, '_> {
             }
             let first = lock(&self.shared.ranking).clone();
             match first.mesh {
-                Mesh::Coarse => self.race(),
+                Mesh::Coarse => self.race_families(),
                 Mesh::Own => self.decide_on_waiting(),
             }
             self.walk();
@@ -261,9 +270,7 @@ impl Search<'_, '_> {
             while !self.later.is_empty() && self.spare > 0 && !self.is_done() {
                 self.rank_with(Ranking { mesh: Mesh::Coarse, ..first.clone() });
                 self.candidates.clear();
-                self.shared.state.begin("draping more candidates");
-                self.drape_families();
-                self.race();
+                self.race_families();
                 self.walk();
             }
             return;
