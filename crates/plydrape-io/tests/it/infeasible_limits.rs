@@ -284,6 +284,21 @@ fn a_ply_slides_on_a_slope_steeper_than_its_friction() {
     assert!(verdict.at.ends_with(said), "{verdict:?}");
 }
 
+/// On a plane a ply that slides never stops, and is found all the same: where tan θ > μ, and not where it is less.
+#[test]
+fn a_ply_slides_down_a_plane_without_end() {
+    let found = |tilt: f64| {
+        let plane = format!("kind = \"plane\"\ntilt = \"{tilt} deg\"");
+        with_spring_back(&slippery(&plane, "\"prepreg_warm\""), false, &|| false)
+    };
+    // atan 0.3 = 16.7°
+    assert_eq!(found(15.5), []);
+    let slid = found(18.0);
+    let [verdict] = slid.as_slice() else { panic!("{slid:?}") };
+    assert_eq!(verdict.name, Name::Position);
+    assert!(verdict.at.contains("the ply slides, and would stay if it stuck"), "{verdict:?}");
+}
+
 /// What springs back is held by no cup: lips change nothing of it.
 #[test]
 fn a_ply_springs_back_whatever_cups_held_it() {

@@ -123,7 +123,9 @@ impl LaidPly<'_> {
             let shear = RelativeError::Share(share * material.shear.ratio() - 1.0);
             stays(&self.with(MaterialError { shear, ..material }))
         };
-        let limp = LIMPER.into_iter().find(limper);
+        // what slides is no less heavy
+        let springs = found.name == Name::Height;
+        let limp = springs.then(|| LIMPER.into_iter().find(limper)).flatten();
         let limp = limp.map(|share| format!("with {share} times its shear stiffness"));
         let slides = matches!(self.layup.settings.contact.friction, Friction::Coulomb(_));
         let mut sticking = self.with(material);
@@ -134,7 +136,7 @@ impl LaidPly<'_> {
             true => String::new(),
             false => format!(", and would stay {}", remedies.join(", or ")),
         };
-        let moves = if found.name == Name::Position { "slides" } else { "springs back" };
+        let moves = if springs { "springs back" } else { "slides" };
         let at = format!(
             "{}, laid without a motion and let go of: the ply {moves}{plies}{remedy}",
             found.at
@@ -144,7 +146,8 @@ impl LaidPly<'_> {
 }
 
 /// The verdict on the height of the ply of a layup that was laid on its ideal drape, after its cups have let go of it, or on its position if it
-/// lies flat and has slid; `None` where that is not known: without a mold or an ideal drape of all of the ply, or if it does not come to rest soon.
+/// lies flat and has slid, or is still sliding; `None` where that is not known: without a mold or an ideal drape of all of the ply, or if it does not
+/// come to rest soon where it was laid.
 fn laid(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Verdict> {
     let (mold, target) = (layup.mold.as_ref()?, layup.target.as_ref()?);
     let drape = target.drape.as_ref()?;
@@ -163,16 +166,20 @@ fn laid(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Verdi
         ControlFlow::Continue(())
     };
     let steps = Cell::new(0);
-    let stop = || stop() || steps.replace(steps.get() + 1) >= MOST_STEPS;
+    let enough = || stop() || steps.replace(steps.get() + 1) >= MOST_STEPS;
     let beginning = Beginning::Laid(&places);
-    let ended = drape_from(&layup, SheetTuning::default(), beginning, &stop, see).ok()?;
-    if ended.status != Status::Converged {
-        return None;
-    }
+    let ended = drape_from(&layup, SheetTuning::default(), beginning, &enough, see).ok()?;
+    let rests = match ended.status {
+        Status::Converged => true,
+        Status::NotAtRest | Status::Interrupted if !stop() => false,
+        _ => return None,
+    };
     let verdict = |name| judge.verdicts().into_iter().find(|verdict| verdict.name == name);
     let (height, position) = (verdict(Name::Height)?, verdict(Name::Position));
-    let slid = position.filter(|slid| slid.ratio() > CERTAIN && height.ratio() <= CERTAIN);
-    Some(slid.unwrap_or(height))
+    // one that still slides comes no nearer to its place, and may be folded for a while
+    let flat = !rests || height.ratio() <= CERTAIN;
+    let slid = position.filter(|slid| slid.ratio() > CERTAIN && flat);
+    slid.or(rests.then_some(height))
 }
 
 /// An ideal drape that goes on beyond its net as far as these fabric points (m), as under an overhang.
