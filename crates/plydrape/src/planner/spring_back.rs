@@ -123,7 +123,7 @@ impl LaidPly<'_> {
             let shear = RelativeError::Share(share * material.shear.ratio() - 1.0);
             stays(&self.with(MaterialError { shear, ..material }))
         };
-        // what slides is no less heavy
+        // a limper ply slides as well
         let springs = found.name == Name::Height;
         let limp = springs.then(|| LIMPER.into_iter().find(limper)).flatten();
         let limp = limp.map(|share| format!("with {share} times its shear stiffness"));
