@@ -297,6 +297,23 @@ fn a_ply_slides_down_a_plane_without_end() {
     let [verdict] = slid.as_slice() else { panic!("{slid:?}") };
     assert_eq!(verdict.name, Name::Position);
     assert!(verdict.at.contains("the ply slides, and would stay if it stuck"), "{verdict:?}");
+    // no farther than the ply is long
+    assert!(verdict.value <= 200.0 * f64::sqrt(2.0) + 1e-6, "{verdict:?}");
+}
+
+/// Where a ply lies exactly on its mold, rounding does not decide which of its nodes stick: at any place it would stay where it stuck.
+#[test]
+fn a_ply_that_sticks_to_a_plane_stays_wherever_the_plane_is() {
+    for away in [0.0, 0.213_399, 0.721_305] {
+        let plane = format!(
+            "kind = \"plane\"\npoint = [{away}, 0.609629, -0.0686538]\ntilt = \"20.651 deg\"\ntilt_direction = \"-158.1 deg\""
+        );
+        let scene = parse(&format!(
+            "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [3, 3]\ncell = [\"115 mm\", \"117 mm\"]\noverhang = \"45 mm\"\nmaterial = \"prepreg_warm\"\n[mold]\n{plane}\n[target]\nseed = [\"0 mm\", \"175.5 mm\"]\norigin = [{}, 0.721641]\ndirection = \"-73.422 deg\"\nshear = \"14.823 deg\"\n[grippers]\nspacing = [\"111.576 mm\", \"115.268 mm\"]\nheight = \"66.0772 mm\"\norigin = \"centered\"\n",
+            away + 0.02566
+        ));
+        assert_eq!(with_spring_back(&scene, false, &|| false), [], "{away}");
+    }
 }
 
 /// What springs back is held by no cup: lips change nothing of it.

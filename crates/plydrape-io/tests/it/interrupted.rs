@@ -154,8 +154,9 @@ fn off_by(deviation: &str) -> Scene {
 fn a_search_goes_on_behind_a_sample_that_refuses() {
     let mut scene = off_by("0.64 mm");
     scene.errors.as_mut().unwrap().seed = 11;
-    let mut behind = None;
+    let (mut behind, mut stages) = (None, Vec::new());
     let watcher = &mut |progress: &Progress| {
+        stages.push(progress.stage);
         if progress.sample.is_none()
             && progress.stage == "racing the best with the mesh of the scene"
         {
@@ -165,6 +166,11 @@ fn a_search_goes_on_behind_a_sample_that_refuses() {
     };
     let planned = planner::plan(&scene, None, watcher).unwrap();
     assert!(planned.record.refused.is_some_and(|refused| refused > 0), "it shows nothing");
+    // the few families that were draped before are not all that race
+    let begins = |stage: &str| stages.iter().position(|seen| *seen == stage);
+    let [more, race] =
+        ["draping more candidates", "racing the best with the mesh of the scene"].map(begins);
+    assert!(more.is_some() && more < race, "{more:?} {race:?}");
     let sample = planned.outcome.drape.summary.sample.as_ref().unwrap();
     assert!(planned.accepted() && sample.ok, "{} of {}", sample.accepted(), sample.cells.len());
 

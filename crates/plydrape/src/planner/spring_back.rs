@@ -6,6 +6,7 @@
 
 use super::evaluation::{Mesh, as_ranked};
 use crate::errors::{Draw, Errors, MaterialError, RelativeError};
+use crate::geometry::vector::distance;
 use crate::layup::{Friction, Layup, Model};
 use crate::measure::{Judge, Limits, Name, Verdict};
 use crate::mold::Mold;
@@ -147,7 +148,7 @@ impl LaidPly<'_> {
 
 /// The verdict on the height of the ply of a layup that was laid on its ideal drape, after its cups have let go of it, or on its position if it
 /// lies flat and has slid, or is still sliding; `None` where that is not known: without a mold or an ideal drape of all of the ply, or if it does not
-/// come to rest soon where it was laid.
+/// come to rest soon where it was laid. One that still slides is said to be no farther off than the ply is long.
 fn laid(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Verdict> {
     let (mold, target) = (layup.mold.as_ref()?, layup.target.as_ref()?);
     let drape = target.drape.as_ref()?;
@@ -176,10 +177,14 @@ fn laid(layup: &Layup, limits: &Limits, stop: &dyn Fn() -> bool) -> Option<Verdi
     };
     let verdict = |name| judge.verdicts().into_iter().find(|verdict| verdict.name == name);
     let (height, position) = (verdict(Name::Height)?, verdict(Name::Position));
-    // one that still slides comes no nearer to its place, and may be folded for a while
-    let flat = !rests || height.ratio() <= CERTAIN;
-    let slid = position.filter(|slid| slid.ratio() > CERTAIN && flat);
-    slid.or(rests.then_some(height))
+    if rests {
+        let slid = position.filter(|slid| slid.ratio() > CERTAIN && height.ratio() <= CERTAIN);
+        return Some(slid.unwrap_or(height));
+    }
+    // one that still slides comes no nearer to its place, and may be folded for a while; how far it goes says nothing
+    let size = places.iter().map(|place| distance(*place, places[0])).fold(0.0, f64::max);
+    let most = |slid: Verdict| Verdict { value: slid.value.min(1e3 * size), place: None, ..slid };
+    position.filter(|slid| slid.ratio() > CERTAIN).map(most)
 }
 
 /// An ideal drape that goes on beyond its net as far as these fabric points (m), as under an overhang.

@@ -70,6 +70,16 @@ impl Point {
         let press = || Press { distance, normal: mold.distance_gradient(x, &closest) };
         (distance < 0.0 && !lasts).then(press)
     }
+
+    /// Anchors it where it lies, at a place `x` (m) that is nearer to the mold than the distance at which an anchor is lost (m).
+    fn lie(&mut self, mold: Rim, friction: &FrictionLaw, release: f64, x: [f64; 3]) {
+        let closest = mold.closest_point(x);
+        if self.rubs && closest.distance <= release {
+            let pressure = self.pressure(-closest.distance);
+            self.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
+            self.bound = friction.bound(pressure, self.area);
+        }
+    }
 }
 
 /// Contact of all nodes that grippers do not hold.
@@ -144,12 +154,14 @@ impl<'a> Contact<'a> {
                 *point = old;
                 continue;
             }
-            let closest = self.mold.closest_point(x[point.node]);
-            if point.rubs && closest.distance <= self.release {
-                let pressure = point.pressure(-closest.distance);
-                point.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
-                point.bound = self.friction.bound(pressure, point.area);
-            }
+            point.lie(self.mold, &self.friction, self.release, x[point.node]);
+        }
+    }
+
+    /// Begins with a ply that lies with its nodes at `x` (m): those that are not clear of the mold are anchored where they are.
+    pub fn begin_lying(&mut self, x: &[[f64; 3]]) {
+        for point in &mut self.points {
+            point.lie(self.mold, &self.friction, self.release, x[point.node]);
         }
     }
 

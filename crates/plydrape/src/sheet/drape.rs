@@ -94,6 +94,10 @@ pub fn drape_from(
     if !matches!(beginning, Beginning::Flat) {
         cloth.energies.table = None;
     }
+    if let (Beginning::Laid(places), Some(contact)) = (beginning, &mut cloth.energies.contact) {
+        // what lies exactly on the mold touches it, whatever rounding says
+        contact.begin_lying(places);
+    }
     let releases = Releases::new(layup, &sheet);
     let mut run = Run {
         layup,
