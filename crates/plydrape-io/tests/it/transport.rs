@@ -1,12 +1,13 @@
 //! The way from the pick-up to the first formation: rigid, clear of mold and table, and formed near the mold.
 
-use crate::common::{Point, RING, distance, drape, example, motion, parse, straight};
+use crate::common::{Point, RING, distance, drape, drape_sheet, example, motion, parse, straight};
 use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::motion::TimedMotion;
 use plydrape::planner::path::tuning::TUNING;
 use plydrape::planner::path::{Formation, LowStart, MoldHeights, trajectory, transport};
 use plydrape::scene::Scene;
+use plydrape::sheet::Status;
 
 /// A scene with a mold and a start, of 4 × 3 grippers with cells of 100 mm.
 fn on(mold: &str, start: &str) -> Scene {
@@ -17,6 +18,29 @@ fn on(mold: &str, start: &str) -> Scene {
 }
 
 const DOME: &str = "kind = \"sphere\"\nradius = 0.6\nposition = [0, 0, -0.6]";
+
+/// Edges that hang lower than the mold at the start lie on it, as they do where the ply comes down on it from higher, whether the mold is
+/// level or curved up beside the cups, where it is above a flat ply: none sinks in, and none is thrown off.
+#[test]
+fn edges_that_hang_lower_than_the_mold_at_the_start_lie_on_it() {
+    let hollow = "kind = \"cylinder\"\nradius = 0.2\nside = \"inside\"\nposition = [0, 0, 0.2]";
+    for mold in ["kind = \"plane\"", hollow] {
+        let scene = parse(&format!(
+            "[ply]\ngrippers = [3, 3]\ncell = [0.06, 0.06]\noverhang = 0.05\nmaterial = \"dry_carbon\"\n[contact]\nfriction = 0.3\n\
+             [mold]\n{mold}\n[grippers]\nspacing = [0.06, 0.06]\nheight = 0.015\norigin = [-0.06, -0.06]\n[motion]\nkind = \"hold\"\n"
+        ));
+        let outcome = drape_sheet(&scene);
+        let drape = &outcome.sheet.as_ref().unwrap().drape;
+        assert_eq!(drape.status, Status::Converged, "{mold}");
+        let last = &drape.last;
+        let lowest = last.heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = last.heights.iter().copied().fold(0.0, f64::max);
+        assert!(lowest > -1e-5 && highest < 0.017, "{mold}: from {lowest} to {highest}");
+        let shear = last.shear.iter().map(|shear| shear.abs()).fold(0.0, f64::max);
+        assert!(shear.to_degrees() < 2.0, "{mold}: {}", shear.to_degrees());
+        assert!(last.kinetic_energy < 1e-6, "{mold}: {} J", last.kinetic_energy);
+    }
+}
 
 /// A ply that touches at the start is as much higher as it hangs into a level mold, and a tenth of a cell; over a dome it is carried clear of it from the
 /// first step on. Where it hangs clear, and where catenaries decide, the start stays.

@@ -78,7 +78,7 @@ impl<'a> Cloth<'a> {
 
     /// Energy without inertia (J).
     pub fn energy(&self) -> f64 {
-        self.energies.potential(self.phase).map(|term| term.value(&self.now)).sum()
+        self.energies.potential().map(|term| term.value(&self.now)).sum()
     }
 
     /// Kinetic energy (J).
@@ -111,7 +111,7 @@ impl<'a> Cloth<'a> {
     /// [`SheetTuning::contact_way`] allows, if they go on as in the last one.
     pub fn longest_step(&mut self, enough: f64) -> f64 {
         let most = self.tuning.contact_way * self.sheet.pitch;
-        match self.energies.acting_contact_mut(self.phase) {
+        match &mut self.energies.contact {
             Some(contact) => contact.longest_time(&self.now.x, &self.now.v, most, enough),
             None => enough,
         }

@@ -9,6 +9,7 @@ use super::matrix3::{IDENTITY, orthonormal};
 use super::model::Sheet;
 use super::release::Releases;
 use super::report::{Report, SheetDrape};
+use super::rim::Rim;
 use super::shear::angle;
 use super::state::ClothState;
 use super::tuning::SheetTuning;
@@ -18,6 +19,9 @@ use crate::layup::Layup;
 use crate::ply::flat_axes;
 use crate::stopwatch::Stopwatch;
 use std::ops::ControlFlow;
+
+/// Times that a flat ply is raised by as much as it is in the mold.
+const RAISES: usize = 10;
 
 /// How a drape of the sheet ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -304,8 +308,23 @@ fn flat(sheet: &Sheet, at: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<Pad>) {
     let place = |[a, b]: [f64; 2]| {
         [0, 1, 2].map(|n| middle[n] + (a - origin[0]) * u[n] + (b - origin[1]) * v[n])
     };
+    let mut nodes: Vec<[f64; 3]> = sheet.fabric.places.iter().map(|uv| place(*uv)).collect();
+    let raise = sheet.mold.as_ref().map_or(0.0, |mold| raise(Rim::new(mold, sheet.mesh), &nodes));
+    nodes.iter_mut().for_each(|x| x[2] += raise);
     let turn = [0, 1, 2].map(|n| [u[n], v[n], normal[n]]);
-    let pad = |gripper: &super::Gripper| Pad { turn, ..Pad::new(place(gripper.place)) };
-    let nodes = sheet.fabric.places.iter().map(|uv| place(*uv)).collect();
+    let pad = |gripper: &super::Gripper| {
+        let [x, y, z] = place(gripper.place);
+        Pad { turn, ..Pad::new([x, y, z + raise]) }
+    };
     (nodes, sheet.grippers.iter().map(pad).collect())
+}
+
+/// How much higher nodes at `x` (m) must be to be clear of a mold (m).
+fn raise(mold: Rim, x: &[[f64; 3]]) -> f64 {
+    let mut raise = 0.0;
+    for _ in 0..RAISES {
+        let distances = x.iter().map(|[x, y, z]| mold.closest_point([*x, *y, z + raise]).distance);
+        raise -= distances.fold(0.0, f64::min);
+    }
+    raise
 }

@@ -62,7 +62,7 @@ pub trait Energy {
 /// What a motion of the ply does, which decides which terms act and which nodes are unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// The ply is hung in the air: there is no contact.
+    /// The ply is hung at its start: nothing rubs.
     Hang,
     /// The grippers move: nodes that lie among others are left out of the linear systems.
     Follow,
@@ -111,27 +111,17 @@ impl<'a> Energies<'a> {
         }
     }
 
-    /// The terms of the ply's energy that act in a phase, eq. (19): all but inertia.
-    pub fn potential(&self, phase: Phase) -> impl Iterator<Item = &dyn Energy> {
+    /// The terms of the ply's energy, eq. (19): all but inertia.
+    pub fn potential(&self) -> impl Iterator<Item = &dyn Energy> {
         let Energies { weight, stretch, shear, bending, mounts, .. } = self;
         let elastic: [&dyn Energy; 4] = [weight, stretch, shear, bending];
-        let contact = self.acting_contact(phase).map(|contact| contact as &dyn Energy);
+        let contact = self.contact.as_ref().map(|contact| contact as &dyn Energy);
         let table = self.table.as_ref().map(|table| table as &dyn Energy);
         elastic.into_iter().chain(contact).chain([mounts as &dyn Energy]).chain(table)
     }
 
-    /// The terms of the incremental potential that act in a phase, eq. (19g).
-    pub fn incremental(&self, phase: Phase) -> impl Iterator<Item = &dyn Energy> {
-        [&self.inertia as &dyn Energy].into_iter().chain(self.potential(phase))
-    }
-
-    /// The contact with the mold, if it acts in a phase.
-    pub fn acting_contact(&self, phase: Phase) -> Option<&Contact<'a>> {
-        self.contact.as_ref().filter(|_| phase != Phase::Hang)
-    }
-
-    /// The contact with the mold, if it acts in a phase, to change.
-    pub fn acting_contact_mut(&mut self, phase: Phase) -> Option<&mut Contact<'a>> {
-        self.contact.as_mut().filter(|_| phase != Phase::Hang)
+    /// The terms of the incremental potential, eq. (19g).
+    pub fn incremental(&self) -> impl Iterator<Item = &dyn Energy> {
+        [&self.inertia as &dyn Energy].into_iter().chain(self.potential())
     }
 }

@@ -86,7 +86,8 @@ impl<'a> March<'a> {
         (self.stop)()
     }
 
-    /// Hangs the flat ply in the air, without a mold: moves the grippers from where they are placed to their starts (m).
+    /// Hangs the flat ply at its start: moves the grippers from where they are placed to their starts (m). What comes to the mold there
+    /// lies on it, and does not rub.
     ///
     /// # Errors
     /// If a time step is not solved, or the caller stops.

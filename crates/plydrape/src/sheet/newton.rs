@@ -6,7 +6,7 @@
 //! taken. The numbers of the stages are those of the table on that page.
 
 use super::cloth::Cloth;
-use super::energy::{Phase, Stiffness};
+use super::energy::{Energies, Phase, Stiffness};
 use super::system::Parts;
 use crate::geometry::vector::{norm, sub};
 
@@ -64,7 +64,9 @@ impl Cloth<'_> {
         self.pads.slide(&mut self.now);
 
         // 13. anchors follow nodes that touch
-        if let Some(contact) = self.energies.acting_contact_mut(self.phase) {
+        if let Some(contact) = &mut self.energies.contact
+            && self.phase != Phase::Hang
+        {
             contact.anchor(&self.now.x);
         }
 
@@ -163,8 +165,8 @@ impl Cloth<'_> {
 
     /// Finds where the mold presses nodes, and which of them slip.
     fn find_contacts(&mut self) {
-        let Cloth { energies, system, now, phase, .. } = self;
-        if let Some(contact) = energies.acting_contact_mut(*phase) {
+        let Cloth { energies, system, now, .. } = self;
+        if let Some(contact) = &mut energies.contact {
             contact.find(&now.x, |node| system.skips(&[node]));
         }
         if let Some(table) = &mut energies.table {
@@ -175,7 +177,7 @@ impl Cloth<'_> {
     /// Assembles gradient and stiffness of the incremental potential (19g) with the contacts that were found last, or the gradient alone.
     fn assemble(&mut self, stiffness: Stiffness, parts: Parts) {
         self.system.begin(&self.now, parts);
-        for term in self.energies.incremental(self.phase) {
+        for term in self.energies.incremental() {
             term.linearize(&self.now, stiffness, &mut self.system);
         }
         self.system.end(stiffness);
@@ -185,15 +187,14 @@ impl Cloth<'_> {
     pub(super) fn linearize_potential(&mut self) {
         self.find_contacts();
         self.system.begin(&self.now, Parts::All);
-        for term in self.energies.potential(self.phase) {
+        for term in self.energies.potential() {
             term.linearize(&self.now, Stiffness::WHOLE, &mut self.system);
         }
     }
 
     /// Leaves nodes that lie among others out of the linear systems of this time step, while the grippers move.
     fn leave_out(&mut self) {
-        let contact = self.energies.acting_contact(self.phase);
-        let contact = contact.filter(|_| self.phase == Phase::Follow);
+        let contact = self.energies.contact.as_ref().filter(|_| self.phase == Phase::Follow);
         self.resting.leave_out(&self.now, contact, &self.energies.weight, &mut self.system);
     }
 
@@ -227,9 +228,9 @@ impl Cloth<'_> {
 
     /// Whether other nodes touch or slip than in the iteration before.
     fn has_switched(&self) -> bool {
-        let of_mold =
-            self.energies.acting_contact(self.phase).is_some_and(|contact| contact.switched);
-        of_mold || self.energies.table.as_ref().is_some_and(|table| table.switched)
+        let Energies { contact, table, .. } = &self.energies;
+        let of_mold = contact.as_ref().is_some_and(|contact| contact.switched);
+        of_mold || table.as_ref().is_some_and(|table| table.switched)
     }
 
     /// Takes a share of the linear step; returns the largest movement of a node in a whole one (m).
@@ -266,7 +267,7 @@ impl Cloth<'_> {
         let most = 2.0 * self.tuning.contact_way * self.sheet.pitch;
         let mut pads = self.now.pads.iter().zip(&self.before.pads);
         let far = pads.any(|(a, b)| norm(sub(a.target, b.target)) > most);
-        let contact = self.energies.acting_contact(self.phase).filter(|_| far);
+        let contact = self.energies.contact.as_ref().filter(|_| far);
         let way = contact.map(|contact| contact.landing_way(&self.before.x, &self.now.x));
         if way.is_some_and(|way| way > most) { Err(Failure::Landing) } else { Ok(()) }
     }

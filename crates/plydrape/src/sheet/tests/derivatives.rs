@@ -5,7 +5,7 @@ use crate::geometry::vector::{cross, norm};
 use crate::layup::Lip;
 use crate::material::{MomentCurve, Relaxation, ShearCurve, ShearRate};
 use crate::sheet::configuration::Configuration;
-use crate::sheet::energy::{Phase, Stiffness};
+use crate::sheet::energy::Stiffness;
 use crate::sheet::lip::Under;
 use crate::sheet::matrix3::{rotation, times};
 use crate::sheet::system::Parts;
@@ -117,7 +117,7 @@ fn linearize(cloth: &mut Cloth, n: usize, now: &Configuration, stiffness: Stiffn
         contact.find(&now.x, |_| false);
     }
     system.begin(now, Parts::All);
-    let term = energies.incremental(Phase::Rest).nth(n).expect("a term");
+    let term = energies.incremental().nth(n).expect("a term");
     term.linearize(now, stiffness, system);
     system.end(stiffness);
 }
@@ -161,7 +161,7 @@ fn the_gradient_of_each_term_is_the_derivative_of_its_value() {
         for direction in directions(gradient.len()) {
             let mut value = |share: f64| {
                 let now = moved(&mut cloth, &direction, share);
-                cloth.energies.incremental(Phase::Rest).nth(n).expect("a term").value(&now)
+                cloth.energies.incremental().nth(n).expect("a term").value(&now)
             };
             let central = (value(h) - value(-h)) / (2.0 * h);
             let off = (central - product(&gradient, &direction)).abs();
