@@ -7,7 +7,9 @@ use plydrape::motion::TimedMotion;
 use plydrape::planner::path::tuning::TUNING;
 use plydrape::planner::path::{Formation, LowStart, MoldHeights, trajectory, transport};
 use plydrape::scene::Scene;
-use plydrape::sheet::Status;
+use plydrape::sheet::{self, SheetTuning, Status};
+use std::cell::Cell;
+use std::ops::ControlFlow;
 
 /// A scene with a mold and a start, of 4 × 3 grippers with cells of 100 mm.
 fn on(mold: &str, start: &str) -> Scene {
@@ -40,6 +42,25 @@ fn edges_that_hang_lower_than_the_mold_at_the_start_lie_on_it() {
         assert!(shear.to_degrees() < 2.0, "{mold}: {}", shear.to_degrees());
         assert!(last.kinetic_energy < 1e-6, "{mold}: {} J", last.kinetic_energy);
     }
+}
+
+/// A ply that is hung shakes out its slack in the first time steps, which are then shorter than any share of a step of a motion: they are tried
+/// before it is given up.
+#[test]
+fn a_slack_ply_is_hung_in_as_short_steps_as_it_takes() {
+    let mut scene = parse(
+        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [5, 7]\ncell = [0.054, 0.054]\nsize = [0.22, 0.328]\nwarp = \"-45 deg\"\n\
+         array = { margin = 0.002, partly = \"leave-off\" }\n\
+         [ply.material]\nname = \"a prepreg\"\nsource = \"drawn\"\ntension = 1e6\nmass = 0.3866\nbending_rigidity_warp = 1.252e-5\n\
+         bending_rigidity_weft = 1.192e-5\nshear_curve = 33.18\n[mold]\nkind = \"plane\"\n\
+         [grippers]\nspacing = [0.053, 0.053]\nheight = 0.1\norigin = [0, 0]\n[motion]\nkind = \"hold\"\n",
+    );
+    scene.layup.release = None;
+    let tries = Cell::new(0);
+    let stop = || tries.replace(tries.get() + 1) >= 30;
+    let go_on = |_: &sheet::Sheet, _: &sheet::ClothState, _| ControlFlow::Continue(());
+    let ended = sheet::drape(&scene.layup, SheetTuning::default(), &stop, go_on).unwrap();
+    assert_eq!(ended.status, Status::Interrupted);
 }
 
 /// A ply that touches at the start is as much higher as it hangs into a level mold, and a tenth of a cell; over a dome it is carried clear of it from the

@@ -162,7 +162,7 @@ impl<'a> March<'a> {
                         _ => 0.5,
                     };
                     self.share = shorter * share;
-                    if self.share < self.tuning.smallest_step && due.is_none() {
+                    if share <= self.tuning.smallest_step && due.is_none() {
                         return Err(Ended::NotSolved);
                     }
                 }

@@ -60,7 +60,7 @@ pub struct SheetTuning {
     /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
     /// what is faster.
     pub real_step: f64,
-    /// Smallest share of a motion's step before the drape is given up as not converged.
+    /// Share of a motion's step from which on a time step that is not solved is not shortened any more: the drape is given up.
     pub smallest_step: f64,
     /// Most time steps that are tried in a step of the motion.
     pub tries: usize,
