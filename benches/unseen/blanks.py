@@ -45,6 +45,8 @@ class Blank:
     """Its kind."""
     keys: dict[str, str]
     """Keys of the table `[ply]` without the material."""
+    edge: float
+    """Fabric beyond the outermost cups (m)."""
     first: tuple[float, float] | None = None
     """Where the first cup holds the drawing (m); none of a rectangle that is given by its cups."""
     warp_deg: float = 0.0
@@ -60,8 +62,9 @@ def blank(rng: random.Random, ply: Array, overhang: float) -> Blank:
     }
     if name == "rectangle":
         if rng.random() < EDGED:
-            keys["overhang"] = length(round(rng.uniform(0.0, overhang), 3))
-        return Blank(name, keys)
+            edge = round(rng.uniform(0.0, overhang), 3)
+            return Blank(name, {**keys, "overhang": length(edge)}, edge)
+        return Blank(name, keys, 0.0)
 
     margin = round(rng.uniform(MARGIN * overhang, overhang), 3)
     size = [extent + 2.0 * margin for extent in ply.extent]
@@ -104,7 +107,7 @@ def blank(rng: random.Random, ply: Array, overhang: float) -> Blank:
         warp_deg = rng.choice(BIAS_DEG) if rng.random() < 0.5 else rng.uniform(-90.0, 90.0)
         keys["warp"] = angle(warp_deg)
     keys["array"] = "{ " + ", ".join(f"{key} = {value}" for key, value in array.items()) + " }"
-    return Blank(name, keys, (margin, margin), warp_deg)
+    return Blank(name, keys, margin, (margin, margin), warp_deg)
 
 
 def polygon(points: list[tuple[float, float]]) -> str:

@@ -108,9 +108,9 @@ class Pose:
 
 
 class Draw:
-    """Random numbers for the mold of one array."""
+    """Random numbers for the mold of one array with an edge of fabric beyond its cups."""
 
-    def __init__(self, rng: random.Random, array: Array) -> None:
+    def __init__(self, rng: random.Random, array: Array, edge: float) -> None:
         """Draws what every family needs."""
         self.rng = rng
         self.array = array
@@ -123,7 +123,8 @@ class Draw:
         """Curvature of a round mold that has this slope there (1/m)."""
         self.middle = (self.near(MIDDLE_OFF * self.reach), self.near(MIDDLE_OFF * self.reach))
         """The ply's middle in the mold's own plan (m)."""
-        self.half = 1.3 * self.reach + math.hypot(*self.middle)
+        corner = self.reach + math.sqrt(2.0) * edge
+        self.half = max(1.3 * self.reach, corner) + math.hypot(*self.middle)
         """Half of the side of a square that holds the ply however it is turned (m)."""
 
     def near(self, size: float) -> float:

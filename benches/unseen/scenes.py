@@ -72,7 +72,7 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
     worlds = cells(rng)
     world = worlds[task.world]
     fabric = blank(rng, ply, world.overhang)
-    mold = FAMILIES[family](Draw(rng, ply))
+    mold = FAMILIES[family](Draw(rng, ply, fabric.edge))
     heading, aim = target(rng, ply, fabric, mold.middle, mold.shear_deg)
     tables = {
         "ply": fabric.keys,

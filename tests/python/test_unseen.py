@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import random
 import sys
 from collections import Counter
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 from cells import BENDING, GRAVITY
 from families import FAMILIES
 from ideal import MAX_SHEAR_DEG, MAX_TILT_DEG, Plydrape
+from molds import Draw
 from pickup import MAX_HANG_DEG, PickUp
 from plies import SIZES, Array
 from program import binary, run
@@ -108,6 +110,19 @@ def test_every_family_has_its_turn(scenes: list[Scene]) -> None:
     names = [made.row["family"] for made in scenes]
     assert sorted(names[: len(FAMILIES)]) == sorted(FAMILIES)
     assert len(set(names[len(FAMILIES) :])) == COUNT - len(FAMILIES)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_mold_is_below_all_of_its_ply(family: str) -> None:
+    """However the ply is turned: its corners, and those of the edge beyond its cups."""
+    for seed in range(20):
+        array, edge = Array((2, 2), (0.109, 0.088)), 0.046
+        mold = FAMILIES[family](Draw(random.Random(seed), array, edge))
+        corner = math.hypot(*(0.5 * side + edge for side in array.extent))
+        for turn in range(0, 360, 5):
+            cos, sin = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+            x, y = mold.middle[0] + corner * cos, mold.middle[1] + corner * sin
+            assert math.isfinite(mold.height(x, y)), (seed, turn)
 
 
 def test_the_ideal_drape_lies_on_the_mold_that_was_drawn(
