@@ -44,8 +44,7 @@ fn edges_that_hang_lower_than_the_mold_at_the_start_lie_on_it() {
     }
 }
 
-/// A ply that is hung shakes out its slack in the first time steps, which are then shorter than any share of a step of a motion: they are tried
-/// before it is given up.
+/// A ply that is hung shakes out its slack in the first time steps. The shortest time step is tried before it is given up.
 #[test]
 fn a_slack_ply_is_hung_in_as_short_steps_as_it_takes() {
     let mut scene = parse(

@@ -20,7 +20,7 @@ use crate::ply::flat_axes;
 use crate::stopwatch::Stopwatch;
 use std::ops::ControlFlow;
 
-/// Times that a flat ply is raised by as much as it is in the mold.
+/// Most times that a flat ply is raised by as much as it is still in the mold.
 const RAISES: usize = 10;
 
 /// How a drape of the sheet ended.
@@ -324,7 +324,11 @@ fn raise(mold: Rim, x: &[[f64; 3]]) -> f64 {
     let mut raise = 0.0;
     for _ in 0..RAISES {
         let distances = x.iter().map(|[x, y, z]| mold.closest_point([*x, *y, z + raise]).distance);
-        raise -= distances.fold(0.0, f64::min);
+        let depth = -distances.fold(0.0, f64::min);
+        if depth == 0.0 {
+            break;
+        }
+        raise += depth;
     }
     raise
 }
