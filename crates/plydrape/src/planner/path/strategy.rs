@@ -146,23 +146,30 @@ impl Strategy {
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
             let rounder = |base: &Strategy| Strategy { curvature: 0.5 * base.curvature, ..*base };
             let sharper = |base: &Strategy| Strategy { curvature: 2.2 * base.curvature, ..*base };
+            // between the many cups of a large array nearly all of the ply comes down together, the middles of its cells first
+            let low = TUNING.front.low_slopes.map(|share| share * shapes[0].slope);
+            let low = low.map(|slope| Strategy { slope, ..shapes[0] });
+            let rhombic = low.map(|base| Strategy { squareness: TUNING.front.rhombic, ..base });
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
             let round: Vec<Strategy> = flat.iter().map(rounder).collect();
-            let flattest: Vec<Strategy> = flat.iter().map(flatter).collect();
+            let flattest: Vec<Strategy> = flat[1..].iter().map(flatter).collect();
             let loose: Vec<Strategy> = flat.iter().map(looser).collect();
             let soft: Vec<Strategy> = flat.iter().map(softer).collect();
             let hard: Vec<Strategy> = flat.iter().map(harder).collect();
             let aligned: Vec<Strategy> = aligned.iter().map(flatter).collect();
             // of each kind all shapes: those along the lines of cups and the circle of every kind first
-            let kinds = [flat, round, hard, shapes, loose, soft, flattest];
+            let kinds = [flat, round, hard, shapes, loose, soft];
             let circles = kinds.iter().filter_map(|kind| kind.first());
             let blunt: Vec<Strategy> = circles.clone().take(1).chain(&aligned).copied().collect();
             let sharp: Vec<Strategy> = blunt.iter().map(sharper).collect();
             let steep = sharp.iter().chain(&blunt).map(steeper);
             let rounded = blunt[1..].iter().map(rounder);
-            let first = sharp.iter().chain(&blunt).chain(circles.skip(1)).copied();
+            let first = sharp.iter().take(TUNING.search.batch).copied().chain(rhombic).chain(low);
+            let next = sharp.iter().skip(TUNING.search.batch).chain(&blunt);
+            let first = first.chain(next.chain(circles.skip(1)).copied());
             let first = first.chain(steep).chain(rounded);
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
+            let others = others.chain(flattest);
             return first.chain(others).collect();
         }
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();

@@ -103,6 +103,10 @@ pub struct FrontTuning {
     pub steepest: f64,
     /// Steepest slope that is tried first for grippers on mounts.
     pub steepest_on_mounts: f64,
+    /// Slopes of fronts on mounts with which nearly all of the ply comes down together, as shares of the steepest one.
+    pub low_slopes: [f64; 2],
+    /// Squareness of the rhombic fronts among the first candidates.
+    pub rhombic: f64,
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
     pub tilt_share: f64,
@@ -208,7 +212,7 @@ impl RaceTuning {
 pub struct WalkTuning {
     /// First step of the logarithm of the ratio of axes.
     pub ratio: f64,
-    /// First step of the squareness.
+    /// First step of the logarithm of what a front lacks of a square, 1 less its squareness.
     pub squareness: f64,
     /// How square a front may be, from a rhombus to nearly a rectangle.
     pub square: [f64; 2],
@@ -270,6 +274,8 @@ pub const TUNING: PathTuning = PathTuning {
         umbilic: 0.1,
         steepest: 0.6,
         steepest_on_mounts: 0.85,
+        low_slopes: [0.25, 0.14],
+        rhombic: -2.0,
         tilt_share: 0.95,
         slope_rounds: 6,
         ranges: [
@@ -313,7 +319,7 @@ pub const TUNING: PathTuning = PathTuning {
     walk: WalkTuning {
         ratio: 0.25,
         squareness: 0.5,
-        square: [-1.0, 0.9],
+        square: [-4.0, 0.9],
         curvature: 0.35,
         slope: 0.25,
         load: 0.2,

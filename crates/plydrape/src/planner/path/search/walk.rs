@@ -17,7 +17,7 @@ const MOVES: [Move; 10] = [
         ratio => Strategy { ratio: ratio.recip(), angle: turned(front.angle, FRAC_PI_2), ..front },
     },
     |front, step| Strategy {
-        squareness: (front.squareness + TUNING.walk.squareness * step)
+        squareness: (1.0 - (1.0 - front.squareness) * (-TUNING.walk.squareness * step).exp())
             .clamp(TUNING.walk.square[0], TUNING.walk.square[1]),
         ..front
     },
