@@ -1,14 +1,14 @@
 //! Grippers on mounts are commanded beyond their places: the pull that holds the ply taut, the press as it lands, and what a
 //! plan tolerates with them.
 
-use crate::common::{distance, example, parse};
+use crate::common::{distance, drape_sheet, example, motion, parse};
 use plydrape::errors::{Errors, Term};
 use plydrape::layup::Stepping;
 use plydrape::measure::Name;
 use plydrape::outcome::{Tolerance, Watch};
 use plydrape::planner;
-use plydrape::planner::path::Strategy;
 use plydrape::planner::path::preload::{Preload, ends};
+use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
 
@@ -171,6 +171,30 @@ fn the_first_members_pull_against_the_errors_of_the_scene() {
     let middle = pull(Some(4e-4));
     assert!((middle - 3.0 * 2e3 * 4e-4 / 2.0_f64.sqrt() / 2.5).abs() < 1e-12, "{middle}");
     assert_eq!(pull(Some(1e-3)), 1.0);
+}
+
+/// A ring comes to the ends of a long array along whole lines of cups, and ridges higher than 0.5 mm stay beside them. A low rhombic
+/// front crosses these lines obliquely, and leaves none.
+#[test]
+fn a_low_rhombic_front_leaves_no_ridges_at_the_ends_of_a_long_array() {
+    let mut scene = parse(
+        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [6, 4]\ncell = [\"100 mm\", \"100 mm\"]\noverhang = \"10 mm\"\n\
+         material = \"prepreg_warm\"\n[mold]\nkind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"-0.8 m\"]\n\
+         [grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"200 mm\"\norigin = \"centered\"\n\
+         [target]\nseed = \"middle\"\n[contact]\nfriction = \"stick\"\n",
+    );
+    scene.errors = None;
+    let heights = MoldHeights::new(&scene).expect("a mold");
+    let families = Strategy::families(&scene, |shape| shape.slope);
+    let rhombic = families.iter().filter(|front| front.squareness < -1.0);
+    let rhombic = rhombic.max_by(|a, b| a.slope.total_cmp(&b.slope)).expect("a rhombic front");
+    let [ring, rhombic] = [&families[0], rhombic].map(|front| {
+        let positions = trajectory(&scene, &heights, *front).expect("a target");
+        let mut scene = scene.clone();
+        scene.layup.motion = motion(positions);
+        drape_sheet(&scene).summary.last.value(Name::Height).expect("a mold")
+    });
+    assert!(ring > 0.5 && rhombic < 0.5, "ring {ring} mm, rhombic {rhombic} mm");
 }
 
 /// The paper's example, planned for mounts of 2 N/mm, tolerates errors ten times as large as a plan for rigid grippers.
