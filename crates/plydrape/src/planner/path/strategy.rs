@@ -146,7 +146,7 @@ impl Strategy {
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
             let rounder = |base: &Strategy| Strategy { curvature: 0.5 * base.curvature, ..*base };
             let sharper = |base: &Strategy| Strategy { curvature: 2.2 * base.curvature, ..*base };
-            // between the many cups of a large array nearly all of the ply comes down together, the middles of its cells first
+            // at the ends of a long array a ring runs along whole lines of cups, and ridges stay beside them; a rhombic front crosses them
             let low = TUNING.front.low_slopes.map(|share| share * shapes[0].slope);
             let low = low.map(|slope| Strategy { slope, ..shapes[0] });
             let rhombic = low.map(|base| Strategy { squareness: TUNING.front.rhombic, ..base });
@@ -164,9 +164,9 @@ impl Strategy {
             let sharp: Vec<Strategy> = blunt.iter().map(sharper).collect();
             let steep = sharp.iter().chain(&blunt).map(steeper);
             let rounded = blunt[1..].iter().map(rounder);
-            let first = sharp.iter().take(TUNING.search.batch).copied().chain(rhombic).chain(low);
-            let next = sharp.iter().skip(TUNING.search.batch).chain(&blunt);
-            let first = first.chain(next.chain(circles.skip(1)).copied());
+            let (at_once, later) = sharp.split_at(TUNING.search.batch.min(sharp.len()));
+            let first = [at_once, &rhombic, &low, later, &blunt].concat();
+            let first = first.into_iter().chain(circles.skip(1).copied());
             let first = first.chain(steep).chain(rounded);
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
             let others = others.chain(flattest);

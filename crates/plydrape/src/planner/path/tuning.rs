@@ -103,9 +103,9 @@ pub struct FrontTuning {
     pub steepest: f64,
     /// Steepest slope that is tried first for grippers on mounts.
     pub steepest_on_mounts: f64,
-    /// Slopes of fronts on mounts with which nearly all of the ply comes down together, as shares of the steepest one.
+    /// Slopes of the low fronts among the first candidates on mounts, as shares of the steepest one.
     pub low_slopes: [f64; 2],
-    /// Squareness of the rhombic fronts among the first candidates.
+    /// Squareness of the rhombic fronts among the first candidates on mounts.
     pub rhombic: f64,
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
