@@ -47,8 +47,10 @@ pub struct Preload<'a> {
     kept: f64,
     /// How slack a line over a hollow is left, by the pull that would make it taut again (N).
     slack: f64,
-    /// Load with which a gripper presses (N).
+    /// Load with which a gripper presses when it lands (N).
     press: f64,
+    /// The same at its place.
+    seat: f64,
     /// How far above the mold grippers stay over a hollow (m), into which their ply falls.
     fall: f64,
 }
@@ -84,7 +86,7 @@ impl<'a> Preload<'a> {
         let pull = strategy.pull * TUNING.preload.pull * lateral_load;
         // a corner bears two lines of the border, and what its error adds to them
         let [needed, _] = against_errors(scene);
-        let spare = lateral_load / SQRT_2 - needed;
+        let spare = TUNING.preload.corner * (lateral_load / SQRT_2 - needed);
         let border =
             if pull > 0.0 { (spare / pull).clamp(1.0, TUNING.preload.border) } else { 1.0 };
         let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
@@ -102,6 +104,7 @@ impl<'a> Preload<'a> {
             kept,
             slack: if falls && sticks { TUNING.preload.slack * needed } else { 0.0 },
             press: strategy.press * TUNING.preload.press * axial_load,
+            seat: strategy.press.max(TUNING.preload.seat[0]) * TUNING.preload.press * axial_load,
             fall: if falls { strategy.press * TUNING.preload.fall * cell } else { 0.0 },
         })
     }
@@ -117,9 +120,13 @@ impl<'a> Preload<'a> {
             let (lines, over_hollow) = self.pull_of_lines(places, n, free);
             let pull = lines.map(|c| c * grown);
             // a pad that is pressed down early sticks before its lines have the length that a hollow needs
-            let [press, rise] =
-                if over_hollow { [0.0, grown * self.fall] } else { [self.press, 0.0] };
-            let pressed = press * (1.0 - smooth(away / TUNING.preload.press_reach));
+            let near = |reach: f64| 1.0 - smooth(away / reach);
+            let [pressed, rise] = if over_hollow {
+                [0.0, grown * self.fall]
+            } else {
+                let seated = (self.seat - self.press) * near(TUNING.preload.seat[1]);
+                [self.press * near(TUNING.preload.press_reach) + seated, 0.0]
+            };
             let mold = self.scene.layup.mold.as_ref();
             let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
             let load = |c: usize| pull[c] + pressed * normal[c];

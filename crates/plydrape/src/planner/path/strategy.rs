@@ -31,7 +31,8 @@ pub struct Strategy {
     /// Load with which grippers on mounts press when they land, as a share of the largest; without meaning for rigid ones.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
     pub press: f64,
-    /// Pull with which grippers on mounts hold the free ply taut, as a share of the largest; without meaning for rigid ones.
+    /// Pull with which grippers on mounts hold the free ply taut, 0 to 2; without meaning for rigid ones. At 1 a line inside the ply is pulled by a
+    /// quarter of the load that a gripper may carry.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
     pub pull: f64,
 }
@@ -150,6 +151,12 @@ impl Strategy {
             let low = TUNING.front.low_slopes.map(|share| share * shapes[0].slope);
             let low = low.map(|slope| Strategy { slope, ..shapes[0] });
             let rhombic = low.map(|base| Strategy { squareness: TUNING.front.rhombic, ..base });
+            // a ply that is sheared in the air stays flat if it is taut, and shears least ahead of a front that starts where it is not sheared
+            let [pull, press] = TUNING.front.pulled;
+            let taut = |base: &Strategy| Strategy { pull, press, ..*base };
+            let taut_low = [taut(&low[0]), taut(&rhombic[0])];
+            let from_seed =
+                seed(scene).map(|start| taut_low.map(|base| Strategy { start, ..base }));
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
             let round: Vec<Strategy> = flat.iter().map(rounder).collect();
             let flattest: Vec<Strategy> = flat[1..].iter().map(flatter).collect();
@@ -165,7 +172,10 @@ impl Strategy {
             let steep = sharp.iter().chain(&blunt).map(steeper);
             let rounded = blunt[1..].iter().map(rounder);
             let (at_once, later) = sharp.split_at(TUNING.search.batch.min(sharp.len()));
-            let first = [at_once, &rhombic, &low, later, &blunt].concat();
+            let from_seed = from_seed.as_slice().as_flattened();
+            let steep_taut: Vec<Strategy> = at_once.iter().map(taut).collect();
+            let first = [from_seed, &taut_low, at_once, &rhombic, &low, &steep_taut, later, &blunt]
+                .concat();
             let first = first.into_iter().chain(circles.skip(1).copied());
             let first = first.chain(steep).chain(rounded);
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
@@ -253,6 +263,20 @@ impl Strategy {
             pull: 0.0,
         }
     }
+}
+
+/// Where the ideal drape begins, as shares of the fabric, if that is nearer another gripper or cell than the middle is.
+fn seed(scene: &Scene) -> Option<[f64; 2]> {
+    let placement = scene.layup.target.as_ref()?.drape.as_ref()?.placement;
+    let [low, high] = scene.layup.ply.held_bounds();
+    let share = |n: usize| {
+        let place = placement.origin[n] + placement.seed[n] as f64 * placement.mesh[n];
+        ((place - low[n]) / (high[n] - low[n])).clamp(0.0, 1.0)
+    };
+    let start = [0, 1].map(share);
+    let beside = |n: usize| (start[n] - 0.5).abs() * (high[n] - low[n]);
+    let is_beside = (0..2).any(|n| beside(n) > 0.5 * scene.layup.ply.cell[n]);
+    is_beside.then_some(start)
 }
 
 /// The middle of the cell that is nearest the middle of this many cells, as a share of the fabric.

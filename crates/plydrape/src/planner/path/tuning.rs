@@ -107,6 +107,8 @@ pub struct FrontTuning {
     pub low_slopes: [f64; 2],
     /// Squareness of the rhombic fronts among the first candidates on mounts.
     pub rhombic: f64,
+    /// Pull and press of the taut ones among the first candidates on mounts.
+    pub pulled: [f64; 2],
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
     pub tilt_share: f64,
@@ -120,10 +122,14 @@ pub struct FrontTuning {
 /// Constants of the preload of grippers on mounts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PreloadTuning {
-    /// Largest pull of a line inside the ply, as a share of the load that a gripper may carry.
+    /// Pull of a line inside the ply, as a share of the load that a gripper may carry, where the pull of a front is 1.
     pub pull: f64,
+    /// Largest pull of a front.
+    pub most_pull: f64,
     /// Pull of a line along the border of the ply, as a multiple of that of a line inside: it alone keeps the border straight.
     pub border: f64,
+    /// Share of the load of a corner that its two lines of the border may take; the shear of the ply and the grippers' errors add to it.
+    pub corner: f64,
     /// Distance of a gripper to its place from which on its pull is given up (cells).
     pub release: f64,
     /// Share of the pull that is left at its place of a line over no hollow, because an error of the gripper makes its lines slack there first.
@@ -134,6 +140,9 @@ pub struct PreloadTuning {
     pub press: f64,
     /// Distance of a gripper to its place from which on it presses (cells).
     pub press_reach: f64,
+    /// Least load with which a gripper presses at its place, as a share of the largest, because a ply that hangs above the mold when its pad lets
+    /// go draws back; and the distance from which on it does (cells).
+    pub seat: [f64; 2],
     /// How slack a line over a hollow is left, as a multiple of what errors of its grippers could make it shorter: a line that is taut is lifted off, and
     /// what is slack lies down beyond the gripper.
     pub slack: f64,
@@ -276,6 +285,7 @@ pub const TUNING: PathTuning = PathTuning {
         steepest_on_mounts: 0.85,
         low_slopes: [0.25, 0.14],
         rhombic: -2.0,
+        pulled: [1.5, 0.2],
         tilt_share: 0.95,
         slope_rounds: 6,
         ranges: [
@@ -290,12 +300,15 @@ pub const TUNING: PathTuning = PathTuning {
     },
     preload: PreloadTuning {
         pull: 0.25,
+        most_pull: 2.0,
         border: 2.5,
+        corner: 0.8,
         release: 0.4,
         kept: 0.7,
         growing: 0.1,
         press: 0.5,
         press_reach: 0.3,
+        seat: [0.4, 0.015],
         slack: 2.0,
         fall: 0.1,
         deviations: 3.0,

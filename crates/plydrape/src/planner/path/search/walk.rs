@@ -31,7 +31,7 @@ const MOVES: [Move; 10] = [
         ..front
     },
     |front, step| Strategy {
-        pull: (front.pull + TUNING.walk.load * step).clamp(0.0, 1.0),
+        pull: (front.pull + TUNING.walk.load * step).clamp(0.0, TUNING.preload.most_pull),
         ..front
     },
     |front, step| Strategy {
