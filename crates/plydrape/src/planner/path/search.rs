@@ -101,6 +101,8 @@ struct Search<'a, 'b> {
     best: Option<Choice>,
     /// Families that are draped when those before have led to no plan.
     later: Vec<Strategy>,
+    /// On mounts those that came to the end of the race of the first fronts, and race again with others.
+    raced: Vec<Candidate>,
     /// On mounts the front that won the race, or has come farthest in the walk.
     leader: Option<Racer<'a>>,
     /// Lowest score of a ranking by the coarse mesh that was decided on.
@@ -144,6 +146,7 @@ pub fn search(
         candidates: Vec::new(),
         best: None,
         later: Vec::new(),
+        raced: Vec::new(),
         leader: None,
         tried: f64::INFINITY,
         fault: None,
@@ -204,6 +207,9 @@ impl Search<'_, '_> {
                     true => fronts.steepest(shape),
                     false => shape.slope,
                 };
+                if self.on_mounts() && scene.layup.settings.model == Model::Sheet {
+                    self.race_first(&Strategy::taut_and_low(scene, steepest));
+                }
                 let families = Strategy::families(scene, steepest);
                 // what grippers alone cannot do comes last
                 let excess = |strategy: &Strategy| match goes_on() {
@@ -226,6 +232,9 @@ impl Search<'_, '_> {
             self.drape_families();
         }
         self.race();
+        if self.best.is_none() {
+            self.decide_on_best(f64::INFINITY);
+        }
     }
 
     /// Drapes families, and decides on promising ones, until those that wait are enough for a race.

@@ -147,16 +147,8 @@ impl Strategy {
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
             let rounder = |base: &Strategy| Strategy { curvature: 0.5 * base.curvature, ..*base };
             let sharper = |base: &Strategy| Strategy { curvature: 2.2 * base.curvature, ..*base };
-            // at the ends of a long array a ring runs along whole lines of cups, and ridges stay beside them; a rhombic front crosses them
-            let low = TUNING.front.low_slopes.map(|share| share * shapes[0].slope);
-            let low = low.map(|slope| Strategy { slope, ..shapes[0] });
-            let rhombic = low.map(|base| Strategy { squareness: TUNING.front.rhombic, ..base });
-            // a ply that is sheared in the air stays flat if it is taut, and shears least ahead of a front that starts where it is not sheared
-            let [pull, press] = TUNING.front.pulled;
-            let taut = |base: &Strategy| Strategy { pull, press, ..*base };
-            let taut_low = [taut(&low[0]), taut(&rhombic[0])];
-            let from_seed =
-                seed(scene).map(|start| taut_low.map(|base| Strategy { start, ..base }));
+            let low = shapes[0].low();
+            let rhombic = low.map(Strategy::rhombic);
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
             let round: Vec<Strategy> = flat.iter().map(rounder).collect();
             let flattest: Vec<Strategy> = flat[1..].iter().map(flatter).collect();
@@ -172,10 +164,8 @@ impl Strategy {
             let steep = sharp.iter().chain(&blunt).map(steeper);
             let rounded = blunt[1..].iter().map(rounder);
             let (at_once, later) = sharp.split_at(TUNING.search.batch.min(sharp.len()));
-            let from_seed = from_seed.as_slice().as_flattened();
-            let steep_taut: Vec<Strategy> = at_once.iter().map(taut).collect();
-            let first = [from_seed, &taut_low, at_once, &rhombic, &low, &steep_taut, later, &blunt]
-                .concat();
+            let taut: Vec<Strategy> = at_once.iter().map(Strategy::taut).collect();
+            let first = [at_once, &rhombic, &low, &taut, later, &blunt].concat();
             let first = first.into_iter().chain(circles.skip(1).copied());
             let first = first.chain(steep).chain(rounded);
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
@@ -191,9 +181,7 @@ impl Strategy {
         let tauter = |base: Strategy| Strategy { pretension: 2.0 * base.pretension, ..base };
         let softer = |base: Strategy| Strategy { pretension: 0.5 * base.pretension, ..base };
         // where a cell is in the middle, both starts are one
-        let [low, high] = scene.layup.ply.held_bounds();
-        let cells = |n: usize| ((high[n] - low[n]) / scene.layup.ply.cell[n]).round();
-        let cell = [0, 1].map(|n| middle_of_cell(cells(n) as usize));
+        let cell = middle_of_cell(scene);
         let beside: &[Strategy] = match cell == ring.start {
             true => &[],
             false => &[Strategy { start: cell, ..softer(ring) }, Strategy { start: cell, ..ring }],
@@ -221,6 +209,35 @@ impl Strategy {
             loose(first_line),
         ];
         [&rings_and_ellipses, beside, &others].concat()
+    }
+
+    /// Low fronts for grippers on mounts, which race before others are draped: rings and rhombic ones, held taut and as loosely as others, from
+    /// where the drape begins, from the middle, and from the middle of a cell, so that no line of cups lands at once.
+    #[must_use]
+    pub fn taut_and_low(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
+        let ring = Strategy::ring().preloaded(scene);
+        let [low, _] = Strategy { slope: steepest(ring), ..ring }.low();
+        let beside = Some(middle_of_cell(scene)).filter(|start| *start != low.start);
+        let starts = [seed(scene), Some(low.start), beside].into_iter().flatten();
+        let shapes = [low, low.rhombic()];
+        let taut = starts.flat_map(|start| shapes.map(|base| Strategy { start, ..base.taut() }));
+        taut.chain(shapes).collect()
+    }
+
+    /// This one with low slopes, which errors of the grippers matter less to.
+    fn low(self) -> [Strategy; 2] {
+        TUNING.front.low_slopes.map(|share| Strategy { slope: share * self.slope, ..self })
+    }
+
+    /// This one across the lines of cups: a ring runs along whole lines at the ends of a long array, and ridges stay beside them.
+    fn rhombic(self) -> Strategy {
+        Strategy { squareness: TUNING.front.rhombic, ..self }
+    }
+
+    /// This one with more pull, so that a ply that is sheared in the air stays flat, and less press.
+    fn taut(&self) -> Strategy {
+        let [pull, press] = TUNING.front.pulled;
+        Strategy { pull, press, ..*self }
     }
 
     /// This strategy for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far; and pulled and
@@ -279,10 +296,13 @@ fn seed(scene: &Scene) -> Option<[f64; 2]> {
     is_beside.then_some(start)
 }
 
-/// The middle of the cell that is nearest the middle of this many cells, as a share of the fabric.
-fn middle_of_cell(cells: usize) -> f64 {
-    let cells = cells.max(1);
-    ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64
+/// The middle of the cell that is nearest the middle of the ply, as shares of the fabric.
+fn middle_of_cell(scene: &Scene) -> [f64; 2] {
+    let [low, high] = scene.layup.ply.held_bounds();
+    [0, 1].map(|n| {
+        let cells = ((high[n] - low[n]) / scene.layup.ply.cell[n]).round().max(1.0) as usize;
+        ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64
+    })
 }
 
 /// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape; those of the lines of grippers

@@ -56,16 +56,33 @@ impl Racer<'_> {
 }
 
 impl<'a> Search<'a, '_> {
+    /// Races fronts that no coarse sheet has ranked, because it misjudges taut ones.
+    pub(super) fn race_first(&mut self, fronts: &[Strategy]) {
+        let shared = self.shared;
+        let coarse = lock(&shared.ranking).clone();
+        let candidate = |front: &Strategy| {
+            Some(Candidate::new(*front, shared.fronts.positions(*front)?, f64::INFINITY))
+        };
+        self.candidates = fronts.par_iter().filter_map(candidate).collect();
+        self.raced = self.race();
+        if !self.is_done() {
+            self.candidates.clear();
+            self.rank_with(coarse);
+        }
+    }
+
     /// Races the best of those that wait with the mesh of the scene, by which candidates are ranked from now on, and decides on the best.
-    pub(super) fn race(&mut self) {
+    /// Gives those that came to the end.
+    pub(super) fn race(&mut self) -> Vec<Candidate> {
         if self.is_done() {
-            return;
+            return Vec::new();
         }
         let shared = self.shared;
         self.rank_with(Ranking { mesh: Mesh::Own, bias: Bias::default() });
         shared.state.begin("racing the best with the mesh of the scene");
         let mut waiting = std::mem::take(&mut self.candidates);
         waiting.truncate(TUNING.race.fronts.min(self.left));
+        waiting.append(&mut self.raced);
         let racer = |candidate: Candidate| shared.racer(candidate.strategy, candidate.positions);
         let mut racers: Vec<Racer> = waiting.into_iter().filter_map(racer).collect();
         let cells = shared.state.race_cells();
@@ -98,12 +115,11 @@ impl<'a> Search<'a, '_> {
         };
         let promising = racers.iter().enumerate().filter_map(promising);
         self.candidates.extend(promising.filter(|next| Some(next.strategy) != decided));
+        let finalists = racers.iter().map(Racer::candidate).collect();
         self.leader = racers.into_iter().next();
         self.rank();
         self.decide_on_waiting();
-        if self.best.is_none() {
-            self.decide_on_best(f64::INFINITY);
-        }
+        finalists
     }
 
     /// Whether as many wait as race, all of them promising: on mounts they race before others are draped.
