@@ -173,6 +173,15 @@ fn the_first_members_pull_against_the_errors_of_the_scene() {
     assert_eq!(pull(Some(1e-3)), 1.0);
 }
 
+/// Height over the mold at the end (mm) of a drape without errors along a front, its steps without times.
+fn height_along(scene: &Scene, front: Strategy) -> f64 {
+    let heights = MoldHeights::new(scene).expect("a mold");
+    let positions = trajectory(scene, &heights, front).expect("a target");
+    let mut scene = scene.clone();
+    scene.layup.motion = motion(positions);
+    drape_sheet(&scene).summary.last.value(Name::Height).expect("a mold")
+}
+
 /// A ring comes to the ends of a long array along whole lines of cups, and ridges higher than 0.5 mm stay beside them. A low rhombic
 /// front crosses these lines obliquely, and leaves none.
 #[test]
@@ -184,17 +193,63 @@ fn a_low_rhombic_front_leaves_no_ridges_at_the_ends_of_a_long_array() {
          [target]\nseed = \"middle\"\n[contact]\nfriction = \"stick\"\n",
     );
     scene.errors = None;
-    let heights = MoldHeights::new(&scene).expect("a mold");
-    let families = Strategy::families(&scene, |shape| shape.slope);
-    let rhombic = families.iter().filter(|front| front.squareness < -1.0);
-    let rhombic = rhombic.max_by(|a, b| a.slope.total_cmp(&b.slope)).expect("a rhombic front");
-    let [ring, rhombic] = [&families[0], rhombic].map(|front| {
-        let positions = trajectory(&scene, &heights, *front).expect("a target");
-        let mut scene = scene.clone();
-        scene.layup.motion = motion(positions);
-        drape_sheet(&scene).summary.last.value(Name::Height).expect("a mold")
-    });
+    let ring = Strategy::families(&scene, |shape| shape.slope)[0];
+    let low = Strategy::taut_and_low(&scene, |shape| shape.slope);
+    let rhombic = *low.iter().rfind(|front| front.squareness < -1.0).expect("a rhombic front");
+    assert_eq!([ring.pull, ring.press], [rhombic.pull, rhombic.press]);
+    let [ring, rhombic] = [ring, rhombic].map(|front| height_along(&scene, front));
     assert!(ring > 0.5 && rhombic < 0.5, "ring {ring} mm, rhombic {rhombic} mm");
+}
+
+/// A dome whose drape begins at a corner shears its ply by 10 degrees. In the air it buckles across the cells, and ridges stay, unless its grippers
+/// pull it taut and the front starts where it is not sheared.
+#[test]
+fn a_taut_front_from_the_seed_keeps_a_sheared_ply_flat() {
+    let mut scene = parse(
+        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [5, 3]\ncell = [\"110 mm\", \"100 mm\"]\nmaterial = \"dry_carbon\"\n\
+         [mold]\nkind = \"sphere\"\nradius = \"0.6 m\"\nposition = [0, 0, \"-0.6 m\"]\n\
+         [grippers]\nspacing = [\"108 mm\", \"98 mm\"]\nheight = \"200 mm\"\norigin = \"centered\"\n\
+         [target]\nseed = [\"385 mm\", \"25 mm\"]\norigin = [\"165 mm\", \"-75 mm\"]\ngenerators = \"least-shear\"\n\
+         [contact]\nfriction = \"stick\"\n",
+    );
+    scene.errors = None;
+    let fronts = Strategy::taut_and_low(&scene, |shape| shape.slope);
+    let taut = fronts[0];
+    assert_eq!(taut.start, [0.875, 0.125]);
+    let loose = *fronts.iter().rfind(|front| front.squareness == 0.0).expect("a ring");
+    let [taut, loose] = [taut, loose].map(|front| height_along(&scene, front));
+    assert!(taut < 0.5 * loose && loose > 1.0, "taut {taut} mm, loose {loose} mm");
+}
+
+/// However hard its lines are pulled, a corner bears 0.8 of its load: the ply's shear and the errors of the grippers add to it.
+#[test]
+fn a_corner_bears_four_fifths_of_its_load() {
+    let scene = on_mounts("kind = \"plane\"");
+    let most = scene.limits.most(Name::GripperLoad);
+    for pull in [1.5, 2.0] {
+        let preload = Preload::new(&scene, &strategy(0.0, pull)).expect("mounts");
+        let raised: Vec<[f64; 3]> =
+            targets(&scene).iter().map(|[x, y, z]| [*x, *y, z + 0.2]).collect();
+        let load = 2e3 * distance(preload.commanded(&raised, 1.0)[0], raised[0]);
+        assert!((load / (0.8 * most) - 1.0).abs() < 1e-6, "{load} N of {most} N");
+    }
+}
+
+/// However little a front presses when its cups land, a pad that lets go presses with 0.4 of the largest press, half of the load: else the ply
+/// beside it may hang, and draws back. Farther away than a hundredth of a cell or two it presses as the front says.
+#[test]
+fn a_pad_presses_before_it_lets_go() {
+    let scene = on_mounts("kind = \"plane\"");
+    let depth = |press: f64, up: f64| {
+        let preload = Preload::new(&scene, &strategy(press, 0.0)).expect("mounts");
+        let places: Vec<[f64; 3]> =
+            targets(&scene).iter().map(|[x, y, z]| [*x, *y, z + up]).collect();
+        5e3 * (places[0][2] - preload.commanded(&places, 1.0)[0][2])
+    };
+    let most = 0.5 * scene.limits.most(Name::GripperLoad);
+    assert!((depth(0.0, 0.0) - 0.4 * most).abs() < 1e-9, "{}", depth(0.0, 0.0));
+    assert!((depth(0.7, 0.0) - 0.7 * most).abs() < 1e-9, "{}", depth(0.7, 0.0));
+    assert_eq!(depth(0.0, 2e-3), 0.0);
 }
 
 /// The paper's example, planned for mounts of 2 N/mm, tolerates errors ten times as large as a plan for rigid grippers.

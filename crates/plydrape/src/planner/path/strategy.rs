@@ -147,8 +147,7 @@ impl Strategy {
             // a ply that is stiff in shear folds less ahead of a front that is not so sharp
             let rounder = |base: &Strategy| Strategy { curvature: 0.5 * base.curvature, ..*base };
             let sharper = |base: &Strategy| Strategy { curvature: 2.2 * base.curvature, ..*base };
-            let low = shapes[0].low();
-            let rhombic = low.map(Strategy::rhombic);
+            let [_, low] = shapes[0].low();
             let flat: Vec<Strategy> = shapes.iter().map(flatter).collect();
             let round: Vec<Strategy> = flat.iter().map(rounder).collect();
             let flattest: Vec<Strategy> = flat[1..].iter().map(flatter).collect();
@@ -165,7 +164,7 @@ impl Strategy {
             let rounded = blunt[1..].iter().map(rounder);
             let (at_once, later) = sharp.split_at(TUNING.search.batch.min(sharp.len()));
             let taut: Vec<Strategy> = at_once.iter().map(Strategy::taut).collect();
-            let first = [at_once, &rhombic, &low, &taut, later, &blunt].concat();
+            let first = [at_once, &[low.rhombic(), low], &taut, later, &blunt].concat();
             let first = first.into_iter().chain(circles.skip(1).copied());
             let first = first.chain(steep).chain(rounded);
             let others = kinds.iter().flat_map(|kind| kind.iter().skip(1).copied());
