@@ -41,7 +41,7 @@ pub(super) fn plan(
         // a search on mounts that give has a number of drapes of its own
         evaluations: match &table.evaluations {
             Some(most) => count(most, [1, MOST_EVALUATIONS], "drapes", document)?,
-            None if gives => PlanSettings::EVALUATIONS_ON_MOUNTS,
+            None if gives => PlanSettings::evaluations_on_mounts(grippers),
             None => default.evaluations,
         },
         improve: table.improve.unwrap_or(default.improve),

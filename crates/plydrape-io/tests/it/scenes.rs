@@ -218,7 +218,7 @@ fn a_plan_and_its_limits_are_read_in_si() {
     assert_eq!(scene.plan, plydrape::scene::PlanSettings::default());
     let usual =
         parse(&format!("[cell]\npreset = \"usual\"\n{}", text.replace("catenaries", "sheet")));
-    assert_eq!(usual.unwrap_or_else(|e| panic!("{e}")).plan.evaluations, 300);
+    assert_eq!(usual.unwrap_or_else(|e| panic!("{e}")).plan.evaluations, 1200);
     assert_eq!((scene.limits.most(Name::GripperDistance), scene.limits.workspace), (0.05, None));
 }
 
