@@ -164,7 +164,7 @@ def test_the_template_has_keys_of_the_schema_and_their_defaults() -> None:
                     others[entry[2]] = value
     assert count > 120
     # a scene in the usual cell has mounts that give, and more drapes
-    assert others == {"evaluations": 300}
+    assert others == {"evaluations": 400}
 
 
 @pytest.mark.skipif(shutil.which("cargo") is None, reason="there is no cargo")
