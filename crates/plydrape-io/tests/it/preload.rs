@@ -221,6 +221,19 @@ fn a_taut_front_from_the_seed_keeps_a_sheared_ply_flat() {
     assert!(taut < 0.5 * loose && loose > 1.0, "taut {taut} mm, loose {loose} mm");
 }
 
+/// The first fronts of a strip, which has no width between its grippers, begin in its seed and are numbers.
+#[test]
+fn the_first_fronts_of_a_strip_begin_in_its_seed() {
+    let scene = parse(
+        "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [4, 1]\ncell = [\"100 mm\", \"100 mm\"]\noverhang = \"10 mm\"\nmaterial = \"prepreg_warm\"\n\
+         [mold]\nkind = \"plane\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"50 mm\"\norigin = \"centered\"\n\
+         [target]\nseed = [\"0 mm\", \"0 mm\"]\n",
+    );
+    let fronts = Strategy::taut_and_low(&scene, |shape| shape.slope);
+    assert_eq!(fronts[0].start, [0.0, 0.5]);
+    assert!(fronts.iter().all(Strategy::is_sound), "{fronts:?}");
+}
+
 /// However hard its lines are pulled, a corner bears 0.8 of its load: the ply's shear and the errors of the grippers add to it.
 #[test]
 fn a_corner_bears_four_fifths_of_its_load() {

@@ -287,7 +287,8 @@ fn seed(scene: &Scene) -> Option<[f64; 2]> {
     let [low, high] = scene.layup.ply.held_bounds();
     let share = |n: usize| {
         let place = placement.origin[n] + placement.seed[n] as f64 * placement.mesh[n];
-        ((place - low[n]) / (high[n] - low[n])).clamp(0.0, 1.0)
+        // a strip has no width between its grippers
+        if high[n] > low[n] { ((place - low[n]) / (high[n] - low[n])).clamp(0.0, 1.0) } else { 0.5 }
     };
     let start = [0, 1].map(share);
     let beside = |n: usize| (start[n] - 0.5).abs() * (high[n] - low[n]);
