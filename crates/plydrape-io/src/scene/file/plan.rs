@@ -25,8 +25,8 @@ pub(in crate::scene) struct PlanTable {
     /// Seed of the search. The same seed gives the same plan.
     #[schemars(extend("default" = PlanSettings::default().seed))]
     pub seed: Option<Located<Seed>>,
-    /// Most candidates that the search may drape. Those on which it decides are draped once more. Of grippers on mounts that give it is
-    /// 4800 by their number unless given, 300 at least and 1200 at most, and as many may be draped by a coarse sheet before, which costs a tenth.
+    /// Most candidates that the search may drape. Those on which it decides are draped once more. Of grippers on mounts that give it is 4800
+    /// divided by their number unless given, 300 at least and 1200 at most, and as many may be draped by a coarse sheet before, which costs a tenth.
     #[schemars(extend("default" = PlanSettings::default().evaluations))]
     pub evaluations: Option<Located<Count>>,
     /// Whether the search goes on improving a plan that keeps every limit with a margin. The planner

@@ -163,7 +163,7 @@ impl Strategy {
             let steep = sharp.iter().chain(&blunt).map(steeper);
             let rounded = blunt[1..].iter().map(rounder);
             let (at_once, later) = sharp.split_at(TUNING.search.batch.min(sharp.len()));
-            let taut: Vec<Strategy> = at_once.iter().map(Strategy::taut).collect();
+            let taut: Vec<Strategy> = at_once.iter().copied().map(Strategy::taut).collect();
             let first = [at_once, &[low.rhombic(), low], &taut, later, &blunt].concat();
             let first = first.into_iter().chain(circles.skip(1).copied());
             let first = first.chain(steep).chain(rounded);
@@ -234,9 +234,9 @@ impl Strategy {
     }
 
     /// This one with more pull, so that a ply that is sheared in the air stays flat, and less press.
-    fn taut(&self) -> Strategy {
+    fn taut(self) -> Strategy {
         let [pull, press] = TUNING.front.pulled;
-        Strategy { pull, press, ..*self }
+        Strategy { pull, press, ..self }
     }
 
     /// This strategy for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far; and pulled and
@@ -281,7 +281,7 @@ impl Strategy {
     }
 }
 
-/// Where the ideal drape begins, as shares of the fabric, if that is nearer another gripper or cell than the middle is.
+/// Where the ideal drape begins, as shares of the fabric, if that is more than half a cell from the middle.
 fn seed(scene: &Scene) -> Option<[f64; 2]> {
     let placement = scene.layup.target.as_ref()?.drape.as_ref()?.placement;
     let [low, high] = scene.layup.ply.held_bounds();

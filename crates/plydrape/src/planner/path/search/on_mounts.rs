@@ -68,6 +68,7 @@ impl<'a> Search<'a, '_> {
         if !self.is_done() {
             self.candidates.clear();
             self.rank_with(coarse);
+            shared.state.begin("draping the first candidates");
         }
     }
 
