@@ -210,17 +210,37 @@ impl Strategy {
         [&rings_and_ellipses, beside, &others].concat()
     }
 
-    /// Low fronts for grippers on mounts, which race before others are draped: rings and rhombic ones, held taut and as loosely as others, from
-    /// where the drape begins, from the middle, and from the middle of a cell, so that no line of cups lands at once.
+    /// Fronts for grippers on mounts which race before others are draped: low rings and rhombic ones, held taut, from where the drape begins, from the
+    /// middle, and from the middle of a cell, so that no line of cups lands at once. On a mold that curves alike in all directions also low ones that
+    /// are held as loosely as others; on other molds ellipses along the direction in which it curves least.
     #[must_use]
     pub fn taut_and_low(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
+        let steep = |shape: Strategy| Strategy { slope: steepest(shape), ..shape };
         let ring = Strategy::ring().preloaded(scene);
-        let [low, _] = Strategy { slope: steepest(ring), ..ring }.low();
+        let [low, _] = steep(ring).low();
         let beside = Some(middle_of_cell(scene)).filter(|start| *start != low.start);
         let starts = [seed(scene), Some(low.start), beside].into_iter().flatten();
         let shapes = [low, low.rhombic()];
         let taut = starts.flat_map(|start| shapes.map(|base| Strategy { start, ..base.taut() }));
-        taut.chain(shapes).collect()
+        match directions_of_curvature(scene) {
+            Some([_, least]) => {
+                taut.chain(steep(ring.elongated(least)).elongated_and_low()).collect()
+            }
+            None => taut.chain(shapes).collect(),
+        }
+    }
+
+    /// This one as an ellipse along a direction (rad), less sharp: a long front meets a mold that curves one way along its whole length.
+    fn elongated(self, angle: f64) -> Self {
+        let [ratio, curvature] = TUNING.front.elongated;
+        Strategy { ratio, angle, curvature, ..self }
+    }
+
+    /// This one with slopes between the low and the steepest ones: the steeper it is, the less it is pulled.
+    fn elongated_and_low(self) -> [Strategy; 3] {
+        let [flat, steep] = TUNING.front.elongated_slopes.map(|share| share * self.slope);
+        let low = Strategy { slope: flat, ..self };
+        [low.taut(), Strategy { slope: steep, pull: 1.0, ..low.taut() }, low]
     }
 
     /// This one with low slopes, which errors of the grippers matter less to.
@@ -305,23 +325,23 @@ fn middle_of_cell(scene: &Scene) -> [f64; 2] {
     })
 }
 
-/// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape; those of the lines of grippers
-/// where it curves alike in all directions.
+/// [`directions_of_curvature`]; the directions of the lines of grippers where the mold curves alike in all directions.
 fn principal_directions(scene: &Scene) -> [f64; 2] {
-    let lines = line_directions(scene);
-    let (Some(mold), Some(target)) = (scene.layup.mold.as_ref(), scene.layup.target.as_ref())
-    else {
-        return lines;
-    };
+    directions_of_curvature(scene).unwrap_or_else(|| line_directions(scene))
+}
+
+/// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape; `None` where it curves alike in all directions.
+fn directions_of_curvature(scene: &Scene) -> Option<[f64; 2]> {
+    let (mold, target) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?);
     let count = target.grippers.len() as f64;
     let sum = |n: usize| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count;
     let curvatures = mold.curvatures([sum(0), sum(1), sum(2)]);
     let [a, b] = curvatures.principal;
     if (a - b).abs() <= TUNING.front.umbilic * a.abs().max(b.abs()) {
-        return lines;
+        return None;
     }
     let angles = curvatures.directions.map(|d| folded(d[1].atan2(d[0])));
-    if a.abs() >= b.abs() { angles } else { [angles[1], angles[0]] }
+    Some(if a.abs() >= b.abs() { angles } else { [angles[1], angles[0]] })
 }
 
 /// Directions in plan (rad) of the lines of grippers on the mold, along the first of them and across it.

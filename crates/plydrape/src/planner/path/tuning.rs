@@ -109,6 +109,10 @@ pub struct FrontTuning {
     pub rhombic: f64,
     /// Pull and press of the taut ones among the first candidates on mounts.
     pub pulled: [f64; 2],
+    /// Ratio of axes and curvature of the ellipses that race first on a mold that curves one way more than the other.
+    pub elongated: [f64; 2],
+    /// Their slopes, as shares of the steepest one.
+    pub elongated_slopes: [f64; 2],
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
     pub tilt_share: f64,
@@ -286,6 +290,8 @@ pub const TUNING: PathTuning = PathTuning {
         low_slopes: [0.25, 0.14],
         rhombic: -2.0,
         pulled: [1.5, 0.2],
+        elongated: [1.9, 4.0],
+        elongated_slopes: [0.4, 0.6],
         tilt_share: 0.95,
         slope_rounds: 6,
         ranges: [
