@@ -330,18 +330,23 @@ fn principal_directions(scene: &Scene) -> [f64; 2] {
     directions_of_curvature(scene).unwrap_or_else(|| line_directions(scene))
 }
 
-/// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape; `None` where it curves alike in all directions.
+/// Directions in plan (rad) in which the mold curves most and least below the grippers, whether down or up; `None` where it curves alike in all
+/// directions. They are those of the sum of the squares of its curvature tensors, in plan.
 fn directions_of_curvature(scene: &Scene) -> Option<[f64; 2]> {
     let (mold, target) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?);
-    let count = target.grippers.len() as f64;
-    let sum = |n: usize| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count;
-    let curvatures = mold.curvatures([sum(0), sum(1), sum(2)]);
-    let [a, b] = curvatures.principal;
-    if (a - b).abs() <= TUNING.front.umbilic * a.abs().max(b.abs()) {
-        return None;
+    let [mut mean, mut cos, mut sin] = [0.0; 3];
+    for gripper in &target.grippers {
+        let curvatures = mold.curvatures(*gripper);
+        for (curvature, way) in curvatures.principal.into_iter().zip(curvatures.directions) {
+            let (square, angle) = (0.5 * curvature * curvature, 2.0 * way[1].atan2(way[0]));
+            (mean, cos, sin) =
+                (mean + square, cos + square * angle.cos(), sin + square * angle.sin());
+        }
     }
-    let angles = curvatures.directions.map(|d| folded(d[1].atan2(d[0])));
-    Some(if a.abs() >= b.abs() { angles } else { [angles[1], angles[0]] })
+    let [most, least] =
+        [mean + cos.hypot(sin), mean - cos.hypot(sin)].map(|sum| sum.max(0.0).sqrt());
+    let angle = folded(0.5 * sin.atan2(cos));
+    (most - least > TUNING.front.umbilic * most).then(|| [angle, folded(angle + FRAC_PI_2)])
 }
 
 /// Directions in plan (rad) of the lines of grippers on the mold, along the first of them and across it.
