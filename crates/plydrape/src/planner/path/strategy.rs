@@ -236,11 +236,13 @@ impl Strategy {
         Strategy { ratio, angle, curvature, ..self }
     }
 
-    /// This one with slopes between the low and the steepest ones: the steeper it is, the less it is pulled.
+    /// This one with slopes between the low and the steepest ones: taut, less taut, and as loose as others, for molds with hollows.
     fn elongated_and_low(self) -> [Strategy; 3] {
-        let [flat, steep] = TUNING.front.elongated_slopes.map(|share| share * self.slope);
-        let low = Strategy { slope: flat, ..self };
-        [low.taut(), Strategy { slope: steep, pull: 1.0, ..low.taut() }, low]
+        let [flat, steep] = TUNING
+            .front
+            .elongated_slopes
+            .map(|share| Strategy { slope: share * self.slope, ..self });
+        [flat.taut(), Strategy { pull: 1.0, ..steep.taut() }, steep]
     }
 
     /// This one with low slopes, which errors of the grippers matter less to.
