@@ -36,7 +36,11 @@ SCENES: dict[str, tuple[str, str, dict[str, str]]] = {
         "Flat mold, sheared by 20 deg, warm prepreg",
         {"krogh2018": "prepreg_warm"},
     ),
-    "cylinder_warm": ("18_prepreg", "Cylinder, warm prepreg, 24 cups", {}),
+    "cylinder_warm": (
+        "18_prepreg",
+        "Cylinder, warm prepreg, 24 cups",
+        {USUAL_PRESET: 'preset = "ideal"'},
+    ),
     "cylinder_dry_usual": (
         "05_cylinder",
         "Cylinder, dry carbon, usual cell",

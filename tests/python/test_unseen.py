@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import plydrape
 import pytest
+import tomllib
 from cells import BENDING, GRAVITY
 from families import FAMILIES
 from ideal import MAX_SHEAR_DEG, MAX_TILT_DEG, Plydrape
@@ -20,6 +21,8 @@ from molds import Draw
 from pickup import MAX_HANG_DEG, PickUp
 from plies import SIZES, Array
 from program import binary, run
+from reach import MATERIALS, MOLDS
+from reach import scene as usual
 from run import Run, row_of
 from run import run as timed
 from scenes import Scene, Task, scene, write
@@ -245,6 +248,18 @@ def test_a_plan_that_only_errors_refuse_is_listed_with_the_limit_that_they_break
     assert (row["limit"], row["value"], row["cells"]) == ("height", "1.300", "1 of 3")
     assert row["height (mm)"] == "0.400"
     assert "| 000 | dome | 3 × 2 | above | not accepted | 0.400 | 1 of 3 | height" in tables([row])
+
+
+def test_examples_are_planned_with_real_plies_in_the_usual_cell(tmp_path: Path) -> None:
+    """Each scene of the table has its material and the preset of the cell, and finds its mold."""
+    for example, count in MOLDS.items():
+        for material in MATERIALS[:count]:
+            keys = tomllib.loads(usual(example, material))
+            assert keys["cell"]["preset"] == "usual", example
+            assert keys["ply"]["material"] == material, example
+    file = tmp_path / "mesh.toml"
+    file.write_text(usual("08_stl_mold", "prepreg_warm"))
+    run("check", str(file))
 
 
 def test_time_and_memory_are_those_of_the_program() -> None:

@@ -1,6 +1,6 @@
 """Plans the molds of the examples with real plies in the usual cell, and prints a table of them.
 
-    python benches/unseen/examples.py [--only NAME...] [--timeout SECONDS] [--plydrape PLYDRAPE]
+    python benches/unseen/reach.py [--only NAME...] [--timeout SECONDS] [--plydrape PLYDRAPE]
 
 Each scene is that of an example with another material and the preset of the cell; all else stays.
 One row a plan: its verdict, how many of its cells with errors keep all limits, how high 95 % of
@@ -88,8 +88,9 @@ def row(program: Path, example: str, material: str, timeout: float) -> list[str]
     sample, tolerance = (printed.get(name) or {} for name in ("sample", "tolerance"))
     slip = limit(printed, "slip")
     verdict = "**accepted**" if printed.get("accepted") and done.exit == 0 else "refused"
-    # what no motion can keep is said before any search
-    verdict = verdict if printed else f"not planned: {done.error.strip().splitlines()[1].strip()}"
+    for limit_of in printed.get("infeasible_limits") or []:
+        value = f"{limit_of['value']:.3g} {limit_of['unit']}"
+        verdict = f"no motion keeps {limit_of['name']}: {value}"
     return [
         example,
         f"`{material}`",
@@ -99,7 +100,7 @@ def row(program: Path, example: str, material: str, timeout: float) -> list[str]
         number(tolerance.get("gripper_mm")),
         between(tolerance.get("shear")),
         between(tolerance.get("mass")),
-        f"{number(slip.get('value'), 1)} of {number(slip.get('limit'), 1)}",
+        f"{number(slip.get('value'), 1)} of {number(slip.get('limit'), 1)}" if slip else "–",
         number(done.seconds, 0),
     ]
 
