@@ -327,9 +327,20 @@ fn middle_of_cell(scene: &Scene) -> [f64; 2] {
     })
 }
 
-/// [`directions_of_curvature`]; the directions of the lines of grippers where the mold curves alike in all directions.
+/// [`directions_of_curvature`]; where there are none, those of a saddle in the middle of the drape, or else of the lines of grippers.
 fn principal_directions(scene: &Scene) -> [f64; 2] {
-    directions_of_curvature(scene).unwrap_or_else(|| line_directions(scene))
+    let directions = directions_of_curvature(scene).or_else(|| directions_of_saddle(scene));
+    directions.unwrap_or_else(|| line_directions(scene))
+}
+
+/// Directions in plan (rad) in which a mold that curves as much up as down does so in the middle of the drape.
+fn directions_of_saddle(scene: &Scene) -> Option<[f64; 2]> {
+    let (mold, target) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?);
+    let count = target.grippers.len() as f64;
+    let middle = [0, 1, 2].map(|n| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count);
+    let curvatures = mold.curvatures(middle);
+    let is_saddle = curvatures.principal[0] * curvatures.principal[1] < 0.0;
+    is_saddle.then(|| curvatures.directions.map(|d| folded(d[1].atan2(d[0]))))
 }
 
 /// Directions in plan (rad) in which the mold curves most and least below the grippers, whether down or up; `None` where it curves alike in all
