@@ -88,6 +88,8 @@ def row(program: Path, example: str, material: str, timeout: float) -> list[str]
     sample, tolerance = (printed.get(name) or {} for name in ("sample", "tolerance"))
     slip = limit(printed, "slip")
     verdict = "**accepted**" if printed.get("accepted") and done.exit == 0 else "refused"
+    if done.late or not printed or done.exit not in (0, 1):
+        verdict = "out of time" if done.late else f"failed: exit {done.exit}"
     for limit_of in printed.get("infeasible_limits") or []:
         value = f"{limit_of['value']:.3g} {limit_of['unit']}"
         verdict = f"no motion keeps {limit_of['name']}: {value}"

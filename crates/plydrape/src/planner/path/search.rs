@@ -208,7 +208,7 @@ impl Search<'_, '_> {
                     false => shape.slope,
                 };
                 if self.on_mounts() && scene.layup.settings.model == Model::Sheet {
-                    self.race_first(&Strategy::taut_and_low(scene, steepest));
+                    self.race_first(&Strategy::racing_first(scene, steepest));
                 }
                 let families = Strategy::families(scene, steepest);
                 // what grippers alone cannot do comes last

@@ -214,7 +214,7 @@ impl Strategy {
     /// middle, and from the middle of a cell, so that no line of cups lands at once. On a mold that curves alike in all directions also low ones that
     /// are held as loosely as others; on other molds ellipses along the direction in which it curves least.
     #[must_use]
-    pub fn taut_and_low(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
+    pub fn racing_first(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
         let steep = |shape: Strategy| Strategy { slope: steepest(shape), ..shape };
         let ring = Strategy::ring().preloaded(scene);
         let [low, _] = steep(ring).low();
@@ -224,20 +224,20 @@ impl Strategy {
         let taut = starts.flat_map(|start| shapes.map(|base| Strategy { start, ..base.taut() }));
         match directions_of_curvature(scene) {
             Some([_, least]) => {
-                taut.chain(steep(ring.elongated(least)).elongated_and_low()).collect()
+                taut.chain(steep(ring.elongated(least)).at_middle_slopes()).collect()
             }
             None => taut.chain(shapes).collect(),
         }
     }
 
-    /// This one as an ellipse along a direction (rad), less sharp: a long front meets a mold that curves one way along its whole length.
+    /// This one as an ellipse along a direction (rad), less sharp.
     fn elongated(self, angle: f64) -> Self {
         let [ratio, curvature] = TUNING.front.elongated;
         Strategy { ratio, angle, curvature, ..self }
     }
 
     /// This one with slopes between the low and the steepest ones: taut, less taut, and as loose as others, for molds with hollows.
-    fn elongated_and_low(self) -> [Strategy; 3] {
+    fn at_middle_slopes(self) -> [Strategy; 3] {
         let [flat, steep] = TUNING
             .front
             .elongated_slopes
@@ -333,7 +333,7 @@ fn principal_directions(scene: &Scene) -> [f64; 2] {
     directions.unwrap_or_else(|| line_directions(scene))
 }
 
-/// Directions in plan (rad) in which a mold that curves as much up as down does so in the middle of the drape.
+/// Directions in plan (rad) in which a saddle curves up and down, in the middle of the drape; `None` where the mold curves one way alone.
 fn directions_of_saddle(scene: &Scene) -> Option<[f64; 2]> {
     let (mold, target) = (scene.layup.mold.as_ref()?, scene.layup.target.as_ref()?);
     let count = target.grippers.len() as f64;
