@@ -386,6 +386,13 @@ impl Plan {
         self.record.refused.unwrap_or(0)
     }
 
+    /// Of a plan that is not accepted, the changes of its scene that were tried, what helps most first: dicts with change, near (limit, kept and
+    /// cells) and helps, as in result.json.
+    #[getter]
+    fn tried(&self) -> PyResult<Vec<Json>> {
+        self.record.tried.iter().map(Json::new).collect()
+    }
+
     /// Whether the search ended because its time was over.
     #[getter]
     fn time_over(&self) -> bool {

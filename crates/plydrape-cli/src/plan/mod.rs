@@ -18,7 +18,7 @@ use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use found::{Found, Motion};
 use plydrape::planner::infeasible_limits::with_spring_back;
-use plydrape::planner::{Checkpoint, Progress};
+use plydrape::planner::{Checkpoint, Progress, Tried};
 use plydrape::scene::{PlanMethod, Scene};
 use plydrape_io::rerun::is_better;
 use plydrape_io::result::SceneEcho;
@@ -43,6 +43,9 @@ struct Printed<'a> {
     decisions: usize,
     /// Plans that the sample refused in the search.
     refused: usize,
+    /// Changes of the scene that were tried where no plan was found, what helps most first.
+    #[serde(skip_serializing_if = "<[Tried]>::is_empty")]
+    tried: &'a [Tried],
     motion: &'a Motion,
     /// Samples a second that the scene asks for and that motion.csv has (Hz).
     #[serde(skip)]
@@ -117,6 +120,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         evaluations: plan.map_or(0, |plan| plan.evaluations),
         decisions: *decisions,
         refused: plan.and_then(|plan| plan.refused).unwrap_or(0),
+        tried: plan.map_or(&[], |plan| &plan.tried),
         motion,
         rates: [scene.plan.rate, plan.map_or(scene.plan.rate, |plan| plan.rate)],
     };

@@ -38,7 +38,7 @@ use crate::result::ResultFile;
 use crate::result::sheet::ended;
 use crate::scene::SceneFile;
 use crate::store::format::VERSION;
-use crate::text::table::tolerances;
+use crate::text::table::{tolerances, tried};
 use block::Block;
 use catenaries::Detail;
 use cell::{Cell, VacuumEvent, cell, events};
@@ -235,7 +235,7 @@ fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, Error> {
         cell: cell(scene),
         events: events(result),
         sample,
-        tolerance: tolerances(result),
+        tolerance: [tolerances(result), tried(result)].concat(),
         look: None,
         peer: None,
     })

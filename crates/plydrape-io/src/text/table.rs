@@ -17,7 +17,7 @@ mod steps;
 mod tool;
 
 pub use comparison::comparison;
-pub(crate) use errors::{sample_in_words, share, tolerances};
+pub(crate) use errors::{sample_in_words, share, tolerances, tried};
 pub use ink::Ink;
 pub use limited_by::limited_by;
 pub(crate) use limits::closest_first;

@@ -42,4 +42,5 @@ mod solve_status;
 mod stepwise;
 mod tool;
 mod transport;
+mod tried;
 mod verdict;

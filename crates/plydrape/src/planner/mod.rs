@@ -13,7 +13,8 @@
 //! 9. `quickest`: the time-optimal law of a plan under the limits of grippers, joints and tool;
 //! 10. `cycle`: what the grippers do before the drape and after it;
 //! 11. [`comparison`]: the strategies that have a name, side by side;
-//! 12. [`replan`]: a plan for a ply that lies elsewhere than planned.
+//! 12. [`replan`]: a plan for a ply that lies elsewhere than planned;
+//! 13. `tried`: changes of a scene without a plan, each of them tried.
 
 mod checkpoint;
 pub mod comparison;
@@ -37,6 +38,7 @@ mod search_state;
 pub mod sensitivity;
 mod spring_back;
 pub mod stepwise;
+mod tried;
 pub mod tuning;
 
 pub use checkpoint::Checkpoint;
@@ -44,3 +46,4 @@ pub use cycle::{Cycle, RecordedMotion};
 pub use plan::{Planned, along, plan, plan_without_errors};
 pub use record::{LimitedBy, PickedUp, PlanRecord};
 pub use search_state::{Progress, Watcher};
+pub use tried::{Change, Near, Tried};

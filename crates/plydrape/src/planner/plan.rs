@@ -8,6 +8,7 @@ use super::path::{self, LowStart};
 use super::record::PlanRecord;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Stepwise, StepwiseEnd, stepwise};
+use super::tried::tried;
 use crate::Error;
 use crate::layup::Model;
 use crate::measure::{Name, Verdict, Worst};
@@ -115,6 +116,14 @@ fn searched(
     if sampled {
         decision.sample(scene, &state)?;
     }
+    let is_refused = !decision.decided.drape.summary.accepted() && !state.is_interrupted();
+    let tried = match scene.plan.method {
+        PlanMethod::Path if is_refused => {
+            state.begin("trying changes of the scene");
+            tried(scene, decision.strategy, &state)
+        }
+        PlanMethod::Path | PlanMethod::Stepwise => Vec::new(),
+    };
     let whole = decision.whole_motion()?;
     let Decision { strategy, mut positions, motion, cycle, decided, limited_by, slowed, .. } =
         decision;
@@ -130,6 +139,7 @@ fn searched(
         refused: Some(state.refusals()).filter(|refused| *refused > 0),
         slowed: Some(slowed).filter(|slowed| *slowed != 1.0),
         cycle,
+        tried,
         ..PlanRecord::new(method, evaluations, rate, positions.clone(), &motion, limited_by)
     };
     // a search begins where the ply hangs

@@ -1,6 +1,7 @@
 //! What a result keeps of a plan: the motion is made from it again.
 
 use super::cycle::Cycle;
+use super::tried::Tried;
 use crate::LayupError;
 use crate::measure::Name;
 use crate::motion::TimedMotion;
@@ -39,6 +40,9 @@ pub struct PlanRecord {
     /// Where the ply was picked up, if the plan was corrected for that.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub picked_up: Option<PickedUp>,
+    /// Of a plan that is not accepted, the changes of its scene that were tried, what helps most first.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub tried: Vec<Tried>,
 }
 
 /// For how long a limit is what the speed of a motion is limited by.
@@ -93,6 +97,7 @@ impl PlanRecord {
             law,
             cycle,
             picked_up,
+            tried: Vec::new(),
         }
     }
 

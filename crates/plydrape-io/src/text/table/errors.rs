@@ -1,10 +1,11 @@
 //! What drapes with errors say beside a verdict: the sample, its highest place, what a motion tolerates.
 
-use super::{WIDTH, limiting, significant, verdict_text};
+use super::{WIDTH, limiting, measure_text, significant, verdict_text};
 use crate::result::ResultFile;
 use crate::store::shown;
 use plydrape::measure::Name;
 use plydrape::outcome::{RateTolerance, SampleVerdict, Tolerance};
+use plydrape::planner::{Near, Tried};
 use plydrape::sheet::pitch;
 
 /// The lines below a verdict; empty where nothing was draped with errors and nothing was to be.
@@ -20,6 +21,7 @@ pub(super) fn errors(result: &ResultFile) -> String {
         (None, _) => {}
     }
     lines.extend(tolerances(result));
+    lines.extend(tried(result));
     lines.iter().map(|line| shown::excerpt(line, WIDTH) + "\n").collect()
 }
 
@@ -70,6 +72,43 @@ pub(crate) fn tolerances(result: &ResultFile) -> Vec<String> {
     let own = summary.tolerance.as_ref().map(|tolerance| tolerance_in_words(result, tolerance));
     let rate = summary.rate_tolerance.map(|tolerance| rate_in_words(result, tolerance));
     own.into_iter().flatten().chain(rate).collect()
+}
+
+/// Which changes of the scene help, of those that were tried where no plan was found, in lines; none where none were tried.
+#[must_use]
+pub(crate) fn tried(result: &ResultFile) -> Vec<String> {
+    result.plan.as_ref().map_or_else(Vec::new, |plan| tried_in_words(&plan.tried))
+}
+
+/// The changes that help, what helps most first; where none does, the one that comes nearest.
+fn tried_in_words(tried: &[Tried]) -> Vec<String> {
+    let count = tried.len();
+    let helping: Vec<&Tried> = tried.iter().filter(|tried| tried.helps).collect();
+    let in_words = |n: usize, helping: &Tried| {
+        let Tried { change, near, .. } = helping;
+        let near = near_in_words(near);
+        match n {
+            0 => format!("of {count} changes tried, {change} helps most: {near}"),
+            _ => format!("  {change} helps too: {near}"),
+        }
+    };
+    if let ([], Some(Tried { change, near, .. })) = (helping.as_slice(), tried.first()) {
+        let near = near_in_words(near);
+        return vec![format!(
+            "none of {count} changes tried helps; {change} comes nearest: {near}"
+        )];
+    }
+    helping.into_iter().enumerate().map(|(n, helping)| in_words(n, helping)).collect()
+}
+
+/// How near a scene comes to a plan.
+fn near_in_words(near: &Near) -> String {
+    let Near { limit, kept, cells, .. } = near;
+    match (limit.ok, cells) {
+        (true, 0) => "every limit is kept without errors".into(),
+        (true, _) => format!("{kept} of {cells} cells keep every limit"),
+        (false, _) => measure_text(limit),
+    }
 }
 
 /// The errors of its grippers that a motion tolerates, and multiples of the shear stiffness and the mass of its ply.
@@ -136,8 +175,9 @@ mod tests {
     use super::super::{Ink, screen, verdict};
     use super::*;
     use crate::sample;
-    use plydrape::measure::Verdict;
+    use plydrape::measure::{Verdict, Worst};
     use plydrape::outcome::Status;
+    use plydrape::planner::Change;
 
     /// What was found at an end of what was tried is said to be no more than that; catenaries know no shear stiffness.
     #[test]
@@ -170,6 +210,27 @@ mod tests {
         assert_eq!(said(&least)[0], format!("tolerates errors of less than 0.0016 mm {law}"));
         let nothing = ["tolerates no errors: it is not accepted without any"];
         assert_eq!(said(&Tolerance::NOTHING), nothing);
+    }
+
+    /// What helps is said with how near it comes: by its cells with errors, or by the limit that is exceeded without any.
+    #[test]
+    fn of_changes_that_were_tried_those_that_help_are_said() {
+        let near = |value: f64, kept, cells| {
+            let worst = Worst { value, at: String::new(), place: None };
+            Near { limit: Verdict::new(Name::Height, worst, 0.5, None), kept, cells }
+        };
+        let limper = |near| Tried { change: Change::ShearStiffness(0.5), near, helps: true };
+        let other = Tried { change: Change::Grippers([4, 3]), near: near(0.4, 3, 4), helps: true };
+        let both = [other.clone(), limper(near(0.61, 0, 0))];
+        let wanted = [
+            "of 2 changes tried, 4 × 3 grippers helps most: 3 of 4 cells keep every limit",
+            "  0.5 times the shear stiffness helps too: height 0.61 mm against 0.5 mm",
+        ];
+        assert_eq!(tried_in_words(&both), wanted);
+        let none = both.map(|tried| Tried { helps: false, near: near(0.61, 0, 0), ..tried });
+        let wanted = "none of 2 changes tried helps; 4 × 3 grippers comes nearest: height 0.61 mm against 0.5 mm";
+        assert_eq!(tried_in_words(&none), [wanted]);
+        assert_eq!(tried_in_words(&[]), [""; 0]);
     }
 
     /// A plan that is accepted only without errors is not accepted, and the table has a column of what the share keeps.
