@@ -100,6 +100,20 @@ def cells(printed: dict[str, Any]) -> str:
     return f"{sum(cell['accepted'] for cell in draped)} of {len(draped)}" if draped else ""
 
 
+def helps(printed: dict[str, Any]) -> str:
+    """The change of the scene that helps most, of those that were tried."""
+    helping = [tried for tried in printed.get("tried", []) if tried["helps"]]
+    if not helping:
+        return ""
+    change, near = helping[0]["change"], helping[0]["near"]
+    if isinstance(change, dict):
+        change = " ".join(f"{name} {value}" for name, value in change.items())
+    limit = near["limit"]
+    if limit["ok"]:
+        return f"{change}: {near['kept']} of {near['cells']} cells"
+    return f"{change}: {limit['name']} {limit['value']:.3g} {limit['unit']}"
+
+
 def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
     """The row of a scene that was planned."""
     printed: dict[str, Any] = {}
@@ -135,6 +149,7 @@ def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
         "allowed": number(limit.get("limit"), 3),
         "unit": limit.get("unit", ""),
         "where": limit.get("where", ""),
+        "helps": helps(printed),
         "memory (MB)": number(done.memory_mb, 0),
         "exit": str(done.exit),
         "message": message,

@@ -74,7 +74,7 @@ def tables(rows: list[Row]) -> str:
     text += markdown(
         [
             *("scene", "family", "grippers", "start", "result", "height (mm)", "cells"),
-            *("limit", "value", "allowed", "time (s)"),
+            *("limit", "value", "allowed", "helps", "time (s)"),
         ],
         [
             [
@@ -84,6 +84,7 @@ def tables(rows: list[Row]) -> str:
                 f"{row['limit']}, {row['where']}" if row["where"] else row["limit"],
                 f"{row['value']} {row['unit']}".strip(),
                 f"{row['allowed']} {row['unit']}".strip(),
+                row.get("helps", ""),
                 row["time (s)"],
             ]
             for row in refused

@@ -1021,6 +1021,12 @@ class Plan:
         """
         Time of each planned step (s), shape (steps,).
         """
+    @property
+    def tried(self, /) -> list[dict[str, Any]]:
+        """
+        Of a plan that is not accepted, the changes of its scene that were tried, what helps most first: dicts with change, near (limit, kept and
+        cells) and helps, as in result.json.
+        """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
         Writes result.json, steps.csv, trajectory.csv, motion.csv, report.html, plan.json, and of a sheet sheet.npz, into a

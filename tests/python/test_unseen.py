@@ -250,6 +250,22 @@ def test_a_plan_that_only_errors_refuse_is_listed_with_the_limit_that_they_break
     assert "| 000 | dome | 3 × 2 | above | not accepted | 0.400 | 1 of 3 | height" in tables([row])
 
 
+def test_a_refused_plan_is_listed_with_the_change_that_helps_most() -> None:
+    """By the cells that then keep every limit, or by what is exceeded without errors; with nothing where no change helps."""
+    printed = json.loads(plan(False, 0.9))
+    limit = printed["limits"][0]
+
+    def listed(change: object, height: float, *, helps: bool = True) -> str:
+        near = {"limit": {**limit, "value": height, "ok": height <= 0.5}, "kept": 7, "cells": 8}
+        tried = [{"change": change, "near": near, "helps": helps}]
+        out = json.dumps({**printed, "tried": tried})
+        return row_of(SCENE, Run(1, False, 1.5, 20.0, out, ""))["helps"]
+
+    assert listed({"friction": 0.3}, 0.4) == "friction 0.3: 7 of 8 cells"
+    assert listed("stick", 0.8) == "stick: height 0.8 mm"
+    assert listed({"grippers": [4, 3]}, 0.8, helps=False) == ""
+
+
 def test_examples_are_planned_with_real_plies_in_the_usual_cell(tmp_path: Path) -> None:
     """Each scene of the table has its material and the preset of the cell, and finds its mold."""
     for example, count in MOLDS.items():

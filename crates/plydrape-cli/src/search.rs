@@ -3,8 +3,8 @@
 use crate::outcome::warn;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
-use plydrape::planner::Progress;
 use plydrape::planner::path::most_candidates;
+use plydrape::planner::{Progress, TRYING};
 use plydrape::scene::{PlanMethod, Scene};
 use plydrape_io::result::SceneEcho;
 use plydrape_io::text::{forecast, table};
@@ -130,10 +130,10 @@ impl<'a> Search<'a> {
         }
         let ended = if progress.finishing {
             let late = self.interrupt.is_late().then_some(Ended::TimeOver);
-            // a drape is finished after the first signal, a sample is not
-            let signaled = match progress.sample {
-                Some(_) => self.interrupt.is_signaled(),
-                None => self.interrupt.is_signaled_again(),
+            // a drape is finished after the first signal, a sample is not, and no change is tried
+            let signaled = match progress.sample.is_some() || progress.stage == TRYING {
+                true => self.interrupt.is_signaled(),
+                false => self.interrupt.is_signaled_again(),
             };
             if signaled { Some(Ended::Interrupted) } else { late }
         } else if self.interrupt.is_signaled() {

@@ -46,4 +46,4 @@ pub use cycle::{Cycle, RecordedMotion};
 pub use plan::{Planned, along, plan, plan_without_errors};
 pub use record::{LimitedBy, PickedUp, PlanRecord};
 pub use search_state::{Progress, Watcher};
-pub use tried::{Change, Near, Tried};
+pub use tried::{Change, Near, TRYING, Tried};

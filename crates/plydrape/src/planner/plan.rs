@@ -8,7 +8,7 @@ use super::path::{self, LowStart};
 use super::record::PlanRecord;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Stepwise, StepwiseEnd, stepwise};
-use super::tried::tried;
+use super::tried::{TRYING, tried};
 use crate::Error;
 use crate::layup::Model;
 use crate::measure::{Name, Verdict, Worst};
@@ -116,10 +116,10 @@ fn searched(
     if sampled {
         decision.sample(scene, &state)?;
     }
-    let is_refused = !decision.decided.drape.summary.accepted() && !state.is_interrupted();
+    let interrupted = state.is_interrupted();
     let tried = match scene.plan.method {
-        PlanMethod::Path if is_refused => {
-            state.begin("trying changes of the scene");
+        PlanMethod::Path if !decision.decided.drape.summary.accepted() => {
+            state.begin(TRYING);
             tried(scene, decision.strategy, &state)
         }
         PlanMethod::Path | PlanMethod::Stepwise => Vec::new(),
@@ -132,7 +132,7 @@ fn searched(
         PlanMethod::Path => state.candidates() + state.decisions(),
         PlanMethod::Stepwise => state.candidates(),
     };
-    let (interrupted, decisions) = (state.is_interrupted(), state.decisions());
+    let decisions = state.decisions();
     let (method, rate) = (scene.plan.method, whole.fitting_rate(scene.plan.rate));
     let limited_by = limited_by.unwrap_or_default();
     let record = PlanRecord {

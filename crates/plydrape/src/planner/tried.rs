@@ -14,6 +14,9 @@ use crate::scene::{Scene, start_above};
 use rayon::prelude::*;
 use std::fmt;
 
+/// The stage of a search in which changes are tried: nobody waits for it who has asked for the end.
+pub const TRYING: &str = "trying changes of the scene";
+
 /// Shares of its shear stiffness with which a ply is tried.
 const LIMPER: [f64; 2] = [0.5, 0.25];
 /// Friction that is tried in place of a mold that the ply sticks to: that of a ply without tack.
@@ -23,7 +26,7 @@ const MORE_EXACT: f64 = 0.3;
 /// How much farther grippers may tilt (rad), and how far at most.
 const TILT: [f64; 2] = [0.25, 1.2];
 /// Cells with errors in which the best front of a change is draped.
-const CELLS: [usize; 4] = [0, 1, 2, 3];
+const CELLS: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 /// Ratio of scores from which on a change helps.
 const GAIN: f64 = 0.8;
 

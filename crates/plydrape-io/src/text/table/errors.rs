@@ -93,10 +93,12 @@ fn tried_in_words(tried: &[Tried]) -> Vec<String> {
         }
     };
     if let ([], Some(Tried { change, near, .. })) = (helping.as_slice(), tried.first()) {
-        let near = near_in_words(near);
-        return vec![format!(
-            "none of {count} changes tried helps; {change} comes nearest: {near}"
-        )];
+        let nearest = match near.limit.ok {
+            // the scene as it is comes about as near, and is refused in other cells
+            true => String::new(),
+            false => format!("; {change} comes nearest: {}", near_in_words(near)),
+        };
+        return vec![format!("none of {count} changes tried helps{nearest}")];
     }
     helping.into_iter().enumerate().map(|(n, helping)| in_words(n, helping)).collect()
 }
@@ -230,6 +232,8 @@ mod tests {
         let none = both.map(|tried| Tried { helps: false, near: near(0.61, 0, 0), ..tried });
         let wanted = "none of 2 changes tried helps; 4 × 3 grippers comes nearest: height 0.61 mm against 0.5 mm";
         assert_eq!(tried_in_words(&none), [wanted]);
+        let as_near = none.map(|tried| Tried { near: near(0.4, 8, 8), ..tried });
+        assert_eq!(tried_in_words(&as_near), ["none of 2 changes tried helps"]);
         assert_eq!(tried_in_words(&[]), [""; 0]);
     }
 
