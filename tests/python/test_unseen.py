@@ -251,7 +251,7 @@ def test_a_plan_that_only_errors_refuse_is_listed_with_the_limit_that_they_break
 
 
 def test_a_refused_plan_is_listed_with_the_change_that_helps_most() -> None:
-    """By the cells that then keep every limit, or by what is exceeded without errors; with nothing where no change helps."""
+    """By the cells that then keep every limit, or by what is exceeded without errors."""
     printed = json.loads(plan(False, 0.9))
     limit = printed["limits"][0]
 
