@@ -1,7 +1,7 @@
 //! Changes of a scene that are tried where no plan is found.
 
 use crate::common::parse;
-use plydrape::planner::{Change, Planned, Progress, plan};
+use plydrape::planner::{Change, Planned, Progress, TRYING, plan, plan_without_errors};
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
 
@@ -32,4 +32,32 @@ fn what_is_said_to_help_most_leads_to_a_plan() {
     let accepted = planned(&limper);
     assert!(accepted.accepted(), "{:?}", accepted.record.tried);
     assert_eq!(accepted.record.tried, []);
+}
+
+/// The bowl with a radius of 0.3 m, in which no plan is found without errors either.
+fn tighter() -> Scene {
+    parse(&BOWL.replace("0.35 m", "0.3 m"))
+}
+
+/// A plan that was asked for without errors says nothing of cells with errors.
+#[test]
+fn without_errors_changes_are_tried_in_no_cell() {
+    let go_on = &mut |_: &Progress| ControlFlow::Continue(());
+    let refused = plan_without_errors(&tighter(), None, go_on).expect("a plan");
+    assert!(!refused.accepted());
+    let tried = &refused.record.tried;
+    assert!(tried.iter().any(|tried| tried.helps && tried.near.limit.ok), "{tried:?}");
+    assert!(tried.iter().all(|tried| tried.near.cells == 0), "{tried:?}");
+}
+
+/// Who asks for the end while changes are tried gets the plan without them, and that plan was not cut off.
+#[test]
+fn nobody_waits_for_changes_who_asks_for_the_end() {
+    let end = &mut |progress: &Progress| match progress.stage {
+        TRYING => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let refused = plan_without_errors(&tighter(), None, end).expect("a plan");
+    assert!(!refused.accepted() && !refused.interrupted);
+    assert_eq!(refused.record.tried, []);
 }

@@ -120,7 +120,7 @@ fn searched(
     let tried = match scene.plan.method {
         PlanMethod::Path if !decision.decided.drape.summary.accepted() => {
             state.begin(TRYING);
-            tried(scene, decision.strategy, &state)
+            tried(scene, decision.strategy, sampled, &state)
         }
         PlanMethod::Path | PlanMethod::Stepwise => Vec::new(),
     };

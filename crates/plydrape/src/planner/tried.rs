@@ -1,16 +1,16 @@
 //! What would help where a search has found no plan: a few changes of the scene, each of them tried.
 //!
 //! A changed scene is draped along the fronts that race first and along the best one of the search, with the mesh of the scene, and the best of
-//! these in a few cells with errors too. That is far less than a search, so a change may do more than is seen here, and hardly less.
+//! these in a few cells with errors too. That is far less than a search: a change may do more than is seen here, and few cells may keep what others break.
 
 use super::evaluation::{Bias, Drapes, Mesh};
-use super::path::{Fronts, Strategy};
+use super::path::{Fronts, Strategy, bilinear};
 use super::search_state::SearchState;
 use crate::layup::{Friction, Layup, Model, Target};
 use crate::measure::{Name, Verdict};
 use crate::motion::Motion;
 use crate::ply::{Grid, Ply};
-use crate::scene::{Scene, start_above};
+use crate::scene::Scene;
 use rayon::prelude::*;
 use std::fmt;
 
@@ -88,24 +88,40 @@ pub struct Tried {
     pub helps: bool,
 }
 
-/// The changes of a scene that were tried, what helps most first. They take no more drapes than the search did that found no plan.
-pub(super) fn tried(scene: &Scene, best: Option<Strategy>, state: &SearchState) -> Vec<Tried> {
+/// The changes of a scene that were tried, what helps most first; in a few cells with errors too if the plan is `sampled`. They take no more
+/// drapes than the search did that found no plan.
+pub(super) fn tried(
+    scene: &Scene,
+    best: Option<Strategy>,
+    sampled: bool,
+    state: &SearchState,
+) -> Vec<Tried> {
     // tools and tables are planned for in another way, and catenaries have no cells
     let Layup { settings, tool, pick_up, .. } = &scene.layup;
     if settings.model != Model::Sheet || tool.is_some() || pick_up.is_some() {
         return Vec::new();
     }
+    let cells: &[usize] = if sampled { &CELLS } else { &[] };
     let mut left = state.candidates();
-    let Some((before, score)) = near(scene, best, &mut left, state) else { return Vec::new() };
+    let mut near = |scene: &Scene| near(scene, best, cells, &mut left, state);
     // less is nearer, and what keeps its limits without errors is nearer than all that does not
-    let mut ranked = Vec::new();
-    for (change, changed) in changes(scene, before.cells > 0) {
-        let Some((near, other)) = near(&changed, best, &mut left, state) else { continue };
-        let helps = (!near.limit.ok, other) < (!before.limit.ok, GAIN * score);
-        ranked.push((other, Tried { change, near, helps }));
+    let rank = |(near, score): &(Near, f64)| (!near.limit.ok, *score);
+    let before = near(scene);
+    let errors_refuse = before.as_ref().is_some_and(|(near, _)| near.cells > 0);
+    let (refused, score) = before.as_ref().map_or((true, f64::INFINITY), rank);
+    let mut found: Vec<(Change, (Near, f64))> = Vec::new();
+    for (change, changed) in changes(scene, errors_refuse) {
+        found.extend(near(&changed).map(|near| (change, near)));
     }
-    ranked.sort_by(|a, b| (!a.1.near.limit.ok).cmp(&!b.1.near.limit.ok).then(a.0.total_cmp(&b.0)));
-    ranked.into_iter().map(|(_, tried)| tried).collect()
+    found.sort_by(|a, b| {
+        let [a, b] = [&a.1, &b.1].map(rank);
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    let tried = |(change, near): (Change, (Near, f64))| {
+        let helps = rank(&near) < (refused, GAIN * score);
+        Tried { change, near: near.0, helps }
+    };
+    found.into_iter().map(tried).collect()
 }
 
 /// The changed scenes; grippers are more exact where errors are what refuses a plan.
@@ -144,7 +160,7 @@ fn changes(scene: &Scene, errors_refuse: bool) -> Vec<(Change, Scene)> {
     changes
 }
 
-/// The scene with a gripper more along u and v over the same fabric, which start above the drape; `None` of a ply that is cut, whose cups are no
+/// The scene with a gripper more along u and v over the same fabric, which starts as it did; `None` of a ply that is cut, whose cups are no
 /// whole array, or that has no ideal drape.
 fn with_more_grippers(scene: &Scene) -> Option<Scene> {
     let Layup { ply, mold, target, .. } = &scene.layup;
@@ -153,54 +169,64 @@ fn with_more_grippers(scene: &Scene) -> Option<Scene> {
     if ply.cut.is_some() || ply.grid == Grid::NONE {
         return None;
     }
+    // a strip has one line of them
     let grid = Grid { nu: nu + 1, nv: if nv > 1 { nv + 1 } else { 1 } };
-    let cell = [
-        ply.cell[0] * (nu - 1) as f64 / nu as f64,
-        if nv > 1 { ply.cell[1] * (nv - 1) as f64 / nv as f64 } else { ply.cell[1] },
-    ];
-    let more = Ply { grid, cell, ..Ply::of_array(grid, cell, ply.material.clone()) };
-    let ply = Ply { warp: ply.warp, ..more };
+    let share =
+        [(nu - 1) as f64 / nu as f64, if nv > 1 { (nv - 1) as f64 / nv as f64 } else { 1.0 }];
+    let cell = [0, 1].map(|n| ply.cell[n] * share[n]);
+    let ply = Ply { warp: ply.warp, ..Ply::of_array(grid, cell, ply.material.clone()) };
+    let grippers = || 0..ply.grippers();
+    let start = scene.layup.start();
+    let starts = grippers().map(|n| {
+        let id = grid.id(n);
+        bilinear(scene.layup.ply.grid, start, [0, 1].map(|n| id[n] as f64 * share[n]))
+    });
+    let motion = Motion { times: vec![0.0], positions: vec![starts.collect()] };
     let grippers: Option<Vec<_>> =
-        (0..ply.grippers()).map(|n| net.place_or_node(mold, ply.place(n))).collect();
-    let start = start_above(&ply, net);
-    let motion = Motion { times: vec![0.0], positions: vec![start] };
+        grippers().map(|n| net.place_or_node(mold, ply.place(n))).collect();
     let target = Some(Target { grippers: grippers?, drape: Some(net.clone()) });
     let mut more = scene.clone();
     more.layup = Layup { ply, motion, target, ..more.layup };
     Some(more)
 }
 
-/// How near a scene comes to a plan, and the mean score of what was draped; `None` where no front can be draped, or fewer drapes are `left` than that takes.
+/// How near a scene comes to a plan, and the mean score of what was draped; `None` where no front is draped to its end, fewer drapes are `left`
+/// than that takes, or somebody asked for the end.
 fn near(
     scene: &Scene,
     best: Option<Strategy>,
+    cells: &[usize],
     left: &mut usize,
     state: &SearchState,
 ) -> Option<(Near, f64)> {
+    if state.report().is_break() {
+        return None;
+    }
     let fronts = Fronts::new(scene)?;
     let first = Strategy::racing_first(scene, |shape| fronts.steepest(shape));
     let all: Vec<Strategy> = first.into_iter().chain(best).collect();
-    *left = left.checked_sub(all.len() + CELLS.len())?;
+    *left = left.checked_sub(all.len() + cells.len())?;
 
     // the nearest front without errors, and that in cells
     let draped = |front: &Strategy| {
         let positions = fronts.positions(*front)?;
         let is_possible = fronts.too_far(&positions).is_none();
         let draped = is_possible.then(|| fronts.draped(&positions, Mesh::Own, state))?.ok()?;
-        Some((draped.in_cells(&[], 0, state), draped))
+        let drapes = draped.in_cells(&[], 0, state);
+        drapes.worst.complete.then_some((drapes, draped))
     };
     let draped: Vec<_> = all.par_iter().filter_map(draped).collect();
     let score = |drapes: &Drapes| drapes.score(&Bias::default());
     let nearest = draped.into_iter().min_by(|a, b| score(&a.0).total_cmp(&score(&b.0)));
     let (mut drapes, nearest) = nearest?;
     if drapes.worst.accepted() {
-        drapes = nearest.in_cells(&CELLS, CELLS.len(), state);
+        drapes = nearest.in_cells(cells, cells.len(), state);
     }
 
-    let (without, cells) = drapes.each.split_first()?;
+    let (without, with_errors) = drapes.each.split_first()?;
     let limit = without.limits.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()))?.clone();
-    let kept = cells.iter().filter(|judged| judged.accepted()).count();
-    let near = Near { limit, kept, cells: cells.len() };
+    let kept = with_errors.iter().filter(|judged| judged.accepted()).count();
+    let near = Near { limit, kept, cells: with_errors.len() };
     (!state.is_stopped()).then(|| (near, score(&drapes)))
 }
 
@@ -241,8 +267,12 @@ mod tests {
         for n in 0..12 {
             let [x, y, z] = place(after, n);
             assert!((distance([x, y, z], [0.0, 0.0, -0.5]) - 0.5).abs() < 1e-9);
-            assert!(more.layup.motion.positions[0][n][2] > z);
         }
+        // a level rectangle is one, between the same corners
+        let [old, new] = [before, after].map(Layup::start);
+        assert!(distance(old[0], new[0]) < 1e-12 && distance(old[5], new[11]) < 1e-12);
+        let third = [0, 1, 2].map(|c| old[0][c] + (old[2][c] - old[0][c]) / 3.0);
+        assert!(distance(third, new[1]) < 1e-12, "{new:?}");
     }
 
     /// Grippers are more exact only where errors refuse a plan; on a mold that slides a sticky one is tried, and no tilt beyond what any joint does.

@@ -20,4 +20,5 @@ pub(super) use search::search;
 pub use start::LowStart;
 pub use strategy::Strategy;
 pub use trajectory::trajectory;
+pub(super) use transport::bilinear;
 pub use transport::transport;

@@ -304,7 +304,7 @@ fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
 }
 
 /// The place (m) at a share of cells between the grippers of an array; beyond them its outermost cells go on.
-fn bilinear(grid: Grid, places: &[Point], [u, v]: [f64; 2]) -> Point {
+pub fn bilinear(grid: Grid, places: &[Point], [u, v]: [f64; 2]) -> Point {
     let cell = |x: f64, count: usize| (x.max(0.0) as usize).min(count.saturating_sub(2));
     let (i, j) = (cell(u, grid.nu), cell(v, grid.nv));
     let place = |i: usize, j: usize| places[grid.index([i.min(grid.nu - 1), j.min(grid.nv - 1)])];

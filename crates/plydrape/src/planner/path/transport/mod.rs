@@ -21,6 +21,7 @@ use crate::mold::Mold;
 use crate::scene::Scene;
 use carriage::Carriage;
 use clearance::Clearance;
+pub use clearance::bilinear;
 use forming::formed;
 use turn::center;
 
