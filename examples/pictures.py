@@ -40,9 +40,10 @@ SOLVED = (
     "06_saddle",
     "08_stl_mold",
     "10_shallow",
+    "ideal_dome",
 )
 
-COMPARED = ("01_flat_sheared_mold", "04_dome", "06_saddle")
+COMPARED = ("01_flat_sheared_mold", "06_saddle", "ideal_dome")
 
 # the mold of the moving picture; its pictures a second, how long the last one stays (s), the width
 # of each half and the height of the lines of text above and below, in pixels

@@ -76,7 +76,7 @@ title = "second"
 # Commands that only print what is in the program, and those that are tried under another name.
 WITHOUT_INPUT = ("schema", "limits", "man", "completions bash", "completions zsh", "new mine")
 # Scenes of the examples that are also planned.
-PLANNED = ("01_flat_sheared_mold", "04_dome", "12_real_cell", "17_robot")
+PLANNED = ("01_flat_sheared_mold", "ideal_dome", "04_dome", "17_robot")
 FORMATS = (
     "csv",
     "inp",

@@ -64,12 +64,12 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 
 def drape(name: str) -> Result:
-    """The example of a name, along its motion, with the catenaries alone."""
+    """The example of a name in an ideal cell, along its motion, with the catenaries alone."""
     # it loads NumPy, which shall see the setting above
     import plydrape
 
     scene = plydrape.Scene.read(EXAMPLES / name / "scene.toml")
-    return plydrape.simulate(scene, model="catenaries")
+    return plydrape.simulate(scene.replace(cell={"preset": "ideal"}), model="catenaries")
 
 
 @pytest.fixture(scope="session")
@@ -83,7 +83,7 @@ def sheet() -> Result:
     """A sheet over the dome with few nodes, three of its six states kept."""
     import plydrape
 
-    path = EXAMPLES / "04_dome" / "scene.toml"
+    path = EXAMPLES / "ideal_dome" / "scene.toml"
     text = path.read_text().replace("steps = 30", "steps = 6")
     text += '[sheet]\nmesh = "50 mm"\nkeep = 3\n'
     return plydrape.simulate(plydrape.Scene.parse(text, base=path.parent))
@@ -92,7 +92,7 @@ def sheet() -> Result:
 @pytest.fixture(scope="session")
 def dome() -> Result:
     """A dome, draped straight."""
-    return drape("04_dome")
+    return drape("ideal_dome")
 
 
 @pytest.fixture(scope="session")

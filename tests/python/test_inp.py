@@ -93,7 +93,7 @@ def strip(tmp_path_factory: pytest.TempPathFactory) -> Drape:
 @pytest.fixture(scope="module")
 def dome(tmp_path_factory: pytest.TempPathFactory) -> Drape:
     """4 by 4 grippers lay a ply on a dome."""
-    return drape(ROOT / "examples" / "04_dome" / "scene.toml", tmp_path_factory.mktemp("dome"))
+    return drape(ROOT / "examples" / "ideal_dome" / "scene.toml", tmp_path_factory.mktemp("dome"))
 
 
 @pytest.fixture(scope="module")
@@ -258,7 +258,7 @@ def test_calculix_takes_a_deck_with_a_mold(tmp_path: Path) -> None:
 
     Four grippers on the dome: the mold is as finely divided as below sixteen.
     """
-    scene = (ROOT / "examples" / "04_dome" / "scene.toml").read_text()
+    scene = (ROOT / "examples" / "ideal_dome" / "scene.toml").read_text()
     (tmp_path / "scene.toml").write_text(scene.replace("grippers = [4, 4]", "grippers = [2, 2]"))
     text, share = drape(tmp_path / "scene.toml", tmp_path).deck.text, 1e-5
     assert text.count("*STEP") == 2 and "*CONTACT PAIR" in text

@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 /// Largest factor between forecast and time taken.
 const FACTOR: f64 = 1.5;
 /// Examples with molds, mounts and a cell of other kinds; all are laid.
-const EXAMPLES: [&str; 9] = [
+const EXAMPLES: [&str; 10] = [
     "01_flat_sheared_mold",
     "04_dome",
     "05_cylinder",
@@ -33,6 +33,7 @@ const EXAMPLES: [&str; 9] = [
     "12_real_cell",
     "13_cut_ply",
     "16_fixture",
+    "ideal_dome",
 ];
 /// Grippers along u and v, the radius (m) of the dome below them, and cells with errors.
 const DOMES: [([usize; 2], f64, usize); 4] =

@@ -81,7 +81,7 @@ fn shipped(name: &str) -> Scene {
 /// The dome of the examples, rolled on from its middle by a front of curvature `a` (1/m) and a steepest slope, its
 /// lines not made taut.
 fn front(a: f64, slope: f64) -> Scene {
-    let mut scene = shipped("04_dome");
+    let mut scene = shipped("ideal_dome");
     let curvature = a * scene.layup.ply.cell[0].min(scene.layup.ply.cell[1]);
     let strategy = Strategy {
         start: [0.5; 2],

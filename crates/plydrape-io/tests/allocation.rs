@@ -47,7 +47,7 @@ fn a_second_solve_allocates_nothing() {
 /// after a step of the motion is new.
 #[test]
 fn a_time_step_of_a_sheet_allocates_nothing() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/04_dome/scene.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/ideal_dome/scene.toml");
     let mut scene = plydrape_io::scene::read(Path::new(path)).expect("a shipped scene").scene;
     scene.layup.settings.sheet.mesh = Some(0.02);
     let allocator = &ALLOCATOR;

@@ -33,7 +33,7 @@ def result() -> plydrape.Result:
 def test_the_card_of_a_scene_says_what_is_laid_on_what() -> None:
     """With a picture of the array, which needs nothing from elsewhere."""
     card = card_of(plydrape.Scene.read(EXAMPLES / "04_dome" / "scene.toml"))
-    assert "Dome scene grippers 4 × 4 material krogh2018 mold sphere" in words(card)
+    assert "Dome scene grippers 4 × 4 material prepreg_warm mold sphere" in words(card)
     assert "<svg" in card and "http" not in card.replace("http://www.w3.org/", "")
 
 

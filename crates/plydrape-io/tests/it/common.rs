@@ -64,6 +64,15 @@ pub fn example(name: &str) -> Scene {
     plydrape_io::scene::read(&path).unwrap_or_else(|error| panic!("{error}")).scene
 }
 
+/// The scene of an example in an ideal cell, with the paper's ply where it has the warm prepreg: what catenaries can hold.
+pub fn ideal(name: &str) -> Scene {
+    let folder = examples().join(name);
+    let text = std::fs::read_to_string(folder.join("scene.toml")).expect("a shipped scene");
+    let text = text.replace("\"usual\"", "\"ideal\"").replace("\"prepreg_warm\"", "\"krogh2018\"");
+    let scene = plydrape_io::scene::parse(&text, &folder, name);
+    scene.unwrap_or_else(|error| panic!("{error}")).scene
+}
+
 /// The scene of a text that names no files.
 pub fn parse(text: &str) -> Scene {
     let scene = plydrape_io::scene::parse(text, Path::new(""), "scene.toml");

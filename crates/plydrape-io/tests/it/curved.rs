@@ -1,6 +1,6 @@
 //! Contact on curved molds: what rolls on lies where it belongs, troughs are bridged, and drapes converge.
 
-use crate::common::{contact, distance, drape, example, lines, meshed, motion, straight};
+use crate::common::{contact, distance, drape, example, ideal, lines, meshed, motion, straight};
 use plydrape::layup::{ContactEnd, ContactSettings, Stepping};
 use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
@@ -192,7 +192,7 @@ fn a_mesh_of_a_sphere_drapes_like_the_sphere() {
 /// longer depends on the number of steps, and tends to one drape.
 #[test]
 fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
-    let scene = example("04_dome");
+    let scene = ideal("04_dome");
     let (first, last) = (&scene.layup.motion.positions[0], &scene.layup.motion.positions[29]);
     // share of the edges in contact, and landing error of the edges (mm)
     let landed = |steps: usize, tolerance: f64| -> [f64; 2] {
@@ -271,7 +271,7 @@ fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
 /// geodesic curvature of a parallel of the sphere, tan(0.15/R)/R, so that their middles lie a²/8 of it aside.
 #[test]
 fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it() {
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     let target = scene.layup.target.clone().expect("a target");
     let layup = target.drape.as_ref().expect("an ideal drape").placement;
     let axis: Vec<f64> = (0..121).map(|n| -0.3 + 0.005 * f64::from(n)).collect();
@@ -367,7 +367,7 @@ fn a_cell_has_the_scale_of_its_bias_lines() {
 fn laying_within_the_tolerance_stretches_nothing() {
     use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
     for name in ["04_dome", "05_cylinder", "06_saddle"] {
-        let mut scene = example(name);
+        let mut scene = ideal(name);
         let heights = MoldHeights::new(&scene).expect("a mold");
         for steps in [60, 90] {
             scene.plan.steps = steps;

@@ -1,7 +1,7 @@
 //! The examples on curved molds: their targets and headline numbers against closed forms, symmetry and an
 //! earlier trial of the model.
 
-use crate::common::{distance, drape, drape_sheet, example, examples, lines};
+use crate::common::{distance, drape, drape_sheet, example, examples, ideal, lines};
 use plydrape::draping::record::Hold;
 use plydrape::errors::Errors;
 use plydrape::layup::Target;
@@ -70,7 +70,7 @@ fn straight_paths_leave_wrinkles(scene: &Scene, off: f64) -> ResultFile {
 /// quarter turn changes nothing.
 #[test]
 fn a_dome_by_straight_paths_leaves_a_millimeter_and_looks_the_same_from_four_sides() {
-    let scene = example("04_dome");
+    let scene = ideal("04_dome");
     let (target, net, _) = target(&scene);
     assert!(net.missing.is_empty());
     let grid = scene.layup.ply.grid;
@@ -89,7 +89,7 @@ fn a_dome_by_straight_paths_leaves_a_millimeter_and_looks_the_same_from_four_sid
 /// A cylinder unrolls: its net has no shear, and unrolled the targets are the flat grid, turned by 30°.
 #[test]
 fn on_a_cylinder_the_targets_are_the_flat_ply_rolled_up() {
-    let scene = example("05_cylinder");
+    let scene = ideal("05_cylinder");
     let (target, net, _) = target(&scene);
     assert!(net.report.largest_shear.expect("cells").0 < 1e-9);
     let (sin, cos) = 30_f64.to_radians().sin_cos();
@@ -149,7 +149,7 @@ fn the_net_on_the_cubic_lies_on_the_printed_polynomial() {
 /// mesh's own error, h²κ/8 with κ ≤ 1.9 1/m.
 #[test]
 fn the_stl_has_the_targets_of_its_formula() {
-    let scene = example("08_stl_mold");
+    let scene = ideal("08_stl_mold");
     let (target, net, _) = target(&scene);
     let z = plydrape_io::read::formula::read("-x^2/2 + 3*x^3/5 - 9*y^2/10 + 4*x*y/5")
         .expect("a formula");
@@ -188,7 +188,7 @@ fn the_blade_mold_takes_a_whole_ply() {
 /// A ply that was picked up 0.5 mm off its place lies off by as much on a dome, and as high over it as one that was not.
 #[test]
 fn a_ply_that_was_picked_up_aside_lies_aside() {
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     scene.layup.settings.sheet.mesh = Some(0.02);
     let mut draw = Errors::default().draw(0, scene.layup.ply.grippers());
     draw.pick_up.offset = [3e-4, -4e-4];

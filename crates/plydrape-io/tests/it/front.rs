@@ -1,6 +1,6 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and the trajectory that it gives.
 
-use crate::common::{RING, distance, example, parse};
+use crate::common::{RING, distance, example, ideal, parse};
 use plydrape::mold::{FrontSurface, HeightGrid, Rise};
 use plydrape::planner::path::{Formation, MoldHeights, Strategy, trajectory};
 use std::sync::Arc;
@@ -88,7 +88,7 @@ fn a_square_front_reaches_its_corners_earlier_than_a_circle() {
 #[test]
 fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
     for name in ["01_flat_sheared_mold", "04_dome", "05_cylinder", "06_saddle"] {
-        let scene = example(name);
+        let scene = ideal(name);
         let heights = MoldHeights::new(&scene).expect("a mold");
         let formation = Formation::new(&scene, &heights, RING).expect("a target");
         let (lines, targets) =
@@ -120,7 +120,7 @@ fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
 /// move limit no step is longer where the path allows it.
 #[test]
 fn a_trajectory_goes_from_start_to_target_in_its_steps() {
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     let heights = MoldHeights::new(&scene).expect("a mold");
     for steps in [30, 90] {
         scene.plan.steps = steps;

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 
 /// The dome with a coarse sheet, and a search that only somebody ends.
 fn dome() -> SceneFile {
-    let mut scene = scene::read(&examples().join("04_dome/scene.toml")).unwrap();
+    let mut scene = scene::read(&examples().join("ideal_dome/scene.toml")).unwrap();
     scene.layup.settings.model = Model::Sheet;
     scene.layup.settings.sheet.mesh = Some(0.05);
     scene.limits.set(Name::Height, Some(1e-6));
@@ -71,7 +71,7 @@ fn a_plan_that_is_finished_can_be_ended_too() {
 /// Evolution may find lower scores that miss a limit; they do not replace a plan that keeps all.
 #[test]
 fn an_accepted_plan_is_only_replaced_by_an_accepted_one() {
-    let mut scene = scene::read(&examples().join("04_dome/scene.toml")).unwrap();
+    let mut scene = scene::read(&examples().join("ideal_dome/scene.toml")).unwrap();
     scene.layup.settings.sheet.mesh = Some(0.02);
     scene.plan.evaluations = 40;
     scene.plan.improve = true;

@@ -12,7 +12,7 @@ use plydrape_io::scene;
 fn straight_paths_end_with_ridges_of_millimeters() {
     let expected = [
         ("01_flat_sheared_mold", [2.4, 8.0], 23, 26),
-        ("04_dome", [6.0, 10.0], 21, 24),
+        ("ideal_dome", [6.0, 10.0], 21, 24),
         ("06_saddle", [6.0, 10.0], 25, 28),
     ];
     for (name, ridge, contact, catenaries) in expected {

@@ -1,6 +1,6 @@
 //! How the sheet judges fronts on the dome and straight paths: figures of two independent cloth simulators.
 
-use crate::common::{RING, drape_sheet, example, motion};
+use crate::common::{RING, drape_sheet, example, ideal, motion};
 use plydrape::layup::Friction;
 use plydrape::measure::Name;
 use plydrape::outcome::Status;
@@ -10,7 +10,7 @@ use plydrape::scene::Scene;
 /// The dome of the examples with lines every 20 mm, rolled on from its middle by a front of curvature `a` (1/m), whose lines
 /// are not made taut: so are the fronts of the references.
 fn front(a: f64, slope: f64) -> Scene {
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     scene.layup.settings.sheet.mesh = Some(0.02);
     let curvature = a * scene.layup.ply.cell[0];
     let strategy = Strategy { curvature, slope, pretension: 0.0, ..RING };
@@ -47,7 +47,7 @@ fn with_little_friction_every_path_ends_flat() {
         let found = height(front(a, slope), friction);
         assert!(found < 0.12, "{a} {slope}: {found} mm");
     }
-    let mut straight = example("04_dome");
+    let mut straight = ideal("04_dome");
     straight.layup.settings.sheet.mesh = Some(0.02);
     let found = height(straight, friction);
     assert!(found < 0.15, "{found} mm");

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 /// The dome with nine cells of 50 mm between grippers by both models, and the states of its sheet in a folder that lives as long.
 fn dome() -> (ResultFile, tempfile::TempDir) {
-    let path = examples().join("04_dome");
+    let path = examples().join("ideal_dome");
     let text = std::fs::read_to_string(path.join("scene.toml")).unwrap();
     let text = text.replace("steps = 30", "steps = 6") + "[sheet]\nmesh = \"50 mm\"\nkeep = 4\n";
     let mut scene = scene::parse(&text, &path, "dome").unwrap().scene;

@@ -1,7 +1,7 @@
 //! The stepwise planner: its gradients against central differences of the model solved anew, and its plans
 //! judged by draping along them.
 
-use crate::common::{self, Point, RULES, cases, distance, example, lines, motion};
+use crate::common::{self, Point, RULES, cases, distance, example, ideal, lines, motion};
 use crate::scaled::scaled;
 use plydrape::draping::spans::Equilibrium;
 use plydrape::equilibrium::{Side, Solver, Status};
@@ -252,7 +252,7 @@ proptest! {
 
 /// A shipped scene, its contact followed at every place of the grippers.
 fn cut(name: &str) -> Scene {
-    let mut scene = example(name);
+    let mut scene = ideal(name);
     scene.layup.settings.contact.stepping = Stepping::Cut;
     scene
 }

@@ -1,6 +1,6 @@
 //! The way from the pick-up to the first formation: rigid, clear of mold and table, and formed near the mold.
 
-use crate::common::{Point, RING, distance, drape, drape_sheet, example, motion, parse, straight};
+use crate::common::{Point, RING, distance, drape, drape_sheet, ideal, motion, parse, straight};
 use plydrape::layup::Model;
 use plydrape::measure::Name;
 use plydrape::motion::TimedMotion;
@@ -447,7 +447,7 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
         };
         start.iter().map(place).collect()
     };
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     let start = beside(&scene);
     scene.layup.motion = motion(vec![start.clone()]);
     let (formation, positions) = to_ring(&scene, 90);

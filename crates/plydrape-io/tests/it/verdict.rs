@@ -1,7 +1,9 @@
 //! What the verdict of a drape says: depths, folds, landing shear, one rule for all molds, convergence, scale, and that nothing
 //! fails in silence.
 
-use crate::common::{Point, contact, drape, example, hung, lines, mesh, motion, parse, straight};
+use crate::common::{
+    Point, contact, drape, example, hung, ideal, lines, mesh, motion, parse, straight,
+};
 use plydrape::draping::ContactStatus;
 use plydrape::equilibrium::Status;
 use plydrape::layup::{ContactEnd, Stepping};
@@ -62,7 +64,7 @@ fn grippers_below_the_mold_are_named_by_their_depth() {
     assert!(found.at.starts_with("gripper"), "{found:?}");
 
     // straight from side to side of a ball: above it in both steps, through it between them
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     let places: Vec<Point> =
         (0..16).map(|n| [0.098 * f64::from(n % 4), 0.098 * f64::from(n / 4), 0.01]).collect();
     let aside = |x: f64| places.iter().map(|p| [p[0] + x, p[1] - 0.147, p[2] - 0.2]).collect();
@@ -190,7 +192,7 @@ fn a_cell_is_judged_by_the_shear_that_it_landed_with_in_both_senses() {
 #[test]
 fn verdicts_converge_in_steps_and_tolerance() {
     for name in ["01_flat_sheared_mold", "04_dome", "06_saddle"] {
-        let mut scene = example(name);
+        let mut scene = ideal(name);
         scene.layup.settings.contact.stepping = Stepping::Cut;
         let outcome = |steps: usize, tolerance: f64| {
             let mut scene = scene.clone();
@@ -284,7 +286,7 @@ fn the_loads_of_the_grippers_add_up_to_the_weight_of_the_ply() {
 /// A ply dragged over the dome from beside it is overstretched: the drape ends there and says where it first touched.
 #[test]
 fn a_drape_that_no_ply_survives_ends_with_advice() {
-    let mut scene = example("04_dome");
+    let mut scene = ideal("04_dome");
     for place in &mut scene.layup.motion.positions[0] {
         *place = [place[0] - 0.7, place[1], place[2] - 0.2];
     }
@@ -337,7 +339,7 @@ fn a_step_without_an_equilibrium_is_never_accepted() {
 /// paths.
 #[test]
 fn an_edge_that_jumps_onto_the_mold_has_penetrated_it() {
-    let result = drape(&example("04_dome"));
+    let result = drape(&ideal("04_dome"));
     let jumps =
         result.steps.iter().filter(|step| hung(step).solver.contact == ContactStatus::CutLimit);
     let depth = |step: &Step| step.measures.value(Name::Penetration).expect("a mold");
@@ -351,7 +353,7 @@ fn an_edge_that_jumps_onto_the_mold_has_penetrated_it() {
 #[test]
 fn contact_is_followed_until_nothing_changes() {
     for name in ["04_dome", "05_cylinder", "06_saddle", "10_shallow"] {
-        let result = drape(&example(name));
+        let result = drape(&ideal(name));
         for step in &result.steps {
             assert_ne!(
                 hung(step).solver.contact,

@@ -29,10 +29,13 @@ pub(super) fn errors(result: &ResultFile) -> String {
 fn sample_lines(sample: &SampleVerdict) -> Vec<String> {
     let share = share(sample);
     let mut lines = vec![sample_in_words(sample)];
-    if let Some(height) = sample.height_mm() {
+    let worst = limiting(&sample.limits).filter(|_| !sample.ok);
+    // the limit of the height says how high they end too
+    let other = worst.is_none_or(|worst| worst.name != Name::Height);
+    if let Some(height) = sample.height_mm().filter(|_| other) {
         lines.push(format!("  {share} of the cells end at most {} mm high", significant(height)));
     }
-    if let Some(worst) = limiting(&sample.limits).filter(|_| !sample.ok) {
+    if let Some(worst) = worst {
         lines.push(format!("  {share} of the cells: {}", verdict_text(worst)));
     }
     if let Some(highest) = &sample.highest {
@@ -69,7 +72,10 @@ pub(crate) fn share(sample: &SampleVerdict) -> String {
 #[must_use]
 pub(crate) fn tolerances(result: &ResultFile) -> Vec<String> {
     let summary = &result.summary;
-    let own = summary.tolerance.as_ref().map(|tolerance| tolerance_in_words(result, tolerance));
+    // where cells were draped, they say what is not tolerated
+    let refused = summary.sample.as_ref().is_some_and(|sample| !sample.ok);
+    let found = summary.tolerance.as_ref().filter(|tolerance| tolerance.tried > 0 || !refused);
+    let own = found.map(|tolerance| tolerance_in_words(result, tolerance));
     let rate = summary.rate_tolerance.map(|tolerance| rate_in_words(result, tolerance));
     own.into_iter().flatten().chain(rate).collect()
 }
