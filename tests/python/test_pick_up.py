@@ -220,3 +220,23 @@ def test_a_replanned_cycle_comes_to_the_ply_where_it_lies(plan: Path, tmp_path: 
     grip = times(moved)["grip"]
     standing = again.places[(again.times >= grip) & (again.times <= grip + 0.49)]
     assert np.abs(standing - standing[0]).max() < 1e-6
+
+
+def test_a_plan_with_a_pick_up_can_be_followed(plan: Path) -> None:
+    """Its steps begin after the way to the ply, and a followed motion with the first of them."""
+    from plydrape.study import Study
+    from plydrape.study.run import run as study
+
+    made = Study.of(
+        {
+            "scene": str(ROOT / "examples" / "17_robot" / "scene.toml"),
+            "command": "follow",
+            "plan": str(plan / "result.json"),
+            "samples": 1,
+            "vary": {"limits.height": {"values": ["1 mm"]}},
+        }
+    )
+    [row] = study(made, workers=1).table().to_pylist()
+    result = json.loads((plan / "result.json").read_text())
+    assert result["steps"][0]["time"] > 0.5
+    assert row["error"] is None and row["steps"] == result["summary"]["steps"]

@@ -427,7 +427,9 @@ def _motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None
         )
     path = base / plan
     result = plydrape.Result.read(str(path / "result.json" if path.is_dir() else path))
-    return Motion(np.array(result.times), np.array(result.commanded))
+    # grippers that pick the ply up have come to it before, and a motion begins with its first step
+    times = np.array(result.times)
+    return Motion(times - times[0], np.array(result.commanded))
 
 
 def _probe(study: Study) -> None:

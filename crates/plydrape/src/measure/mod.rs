@@ -54,7 +54,7 @@ mod preset;
 mod record;
 mod sag_ratio;
 #[cfg(test)]
-mod sample;
+pub(crate) mod sample;
 mod sensitivity;
 #[cfg(feature = "serde")]
 mod serial;
@@ -70,7 +70,7 @@ mod steps;
 mod strain;
 mod table_gap;
 mod tilt;
-mod tilt_rate;
+pub(crate) mod tilt_rate;
 mod tool_residual;
 mod tool_turn_acceleration;
 mod tool_turn_rate;

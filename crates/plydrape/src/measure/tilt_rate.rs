@@ -45,16 +45,18 @@ impl Measure for TiltRate {
             return None;
         }
         let earlier = seen.past.into_iter().flat_map(|past| past.turned());
-        fastest(&seen.state.grippers, seen.state.time, earlier, seen.duration())
+        let orientation = |turned: &&[[f64; 4]], n: usize| turned[n];
+        fastest(&seen.state.grippers, seen.state.time, earlier, orientation, seen.duration())
     }
 }
 
 /// The gripper whose ply turns fastest (°/s) at a time (s), of those that hold it. `earlier` are the times (s) of the steps before, the last
-/// one at the end, with the orientations in them; `duration` (s) is that of the whole motion.
-pub(crate) fn fastest<'a>(
+/// one at the end, with what has the `orientation` of each gripper in them; `duration` (s) is that of the whole motion.
+pub(crate) fn fastest<T>(
     grippers: &[GripperState],
     time: f64,
-    earlier: impl DoubleEndedIterator<Item = (f64, &'a [[f64; 4]])> + Clone,
+    earlier: impl DoubleEndedIterator<Item = (f64, T)> + Clone,
+    orientation: impl Fn(&T, usize) -> [f64; 4],
     duration: f64,
 ) -> Option<Found> {
     // the last step that is a window before this one, else the first
@@ -66,14 +68,19 @@ pub(crate) fn fastest<'a>(
 
     let mut most = Most::default();
     for (n, gripper) in grippers.iter().enumerate().filter(|(_, gripper)| gripper.holds) {
-        let rate = since.map_or(0.0, |(ago, before)| {
-            let [a, b] = [before[n], gripper.quaternion].map(normal);
-            // exact for small angles, where the cosine alone is not
-            norm(cross(a, b)).atan2(dot(a, b)) / ago.max(window)
+        let rate = since.as_ref().map_or(0.0, |(ago, before)| {
+            turn(orientation(before, n), gripper.quaternion) / ago.max(window)
         });
         most.meet(rate.to_degrees(), Site::Gripper(n), gripper.position);
     }
     most.found()
+}
+
+/// The angle (rad) by which the normal turns from one orientation to another.
+pub(crate) fn turn(from: [f64; 4], to: [f64; 4]) -> f64 {
+    let [a, b] = [from, to].map(normal);
+    // exact for small angles, where the cosine alone is not
+    norm(cross(a, b)).atan2(dot(a, b))
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use crate::layup::{Layup, Model};
 use crate::measure::{Judge, Limits, Scope, Verdict};
 use crate::scene::Scene;
 use crate::sheet::{self, HandOver};
+use crate::state::PlyState;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -190,9 +191,11 @@ fn drape_sheet(
     let tuning = sheet::SheetTuning::default();
     let drape = sheet::drape(layup, tuning, *stop, |sheet, state, last| {
         ended = last;
-        recorder.add(&hand_over.state(layup, sheet, state, last), None, last);
+        let ply = &hand_over.state(layup, sheet, state, last);
+        recorder.add(ply, None, last);
         if let Some(lookout) = &mut lookout {
-            lookout.see(&Seen { sheet, state, judge: recorder.judge(), hand_over: &hand_over });
+            let judge = recorder.judge();
+            lookout.see(&Seen { sheet, state, ply, judge, hand_over: &hand_over });
         }
         see(state.step, Some(state))
     })?;
@@ -214,19 +217,23 @@ pub fn judge(
     most_equilibria: usize,
     stop: &dyn Fn() -> bool,
 ) -> Result<Judged, Error> {
-    judge_seen(layup, limits, most_equilibria, None, stop).map(|(judged, _)| judged)
+    judge_seen(layup, limits, most_equilibria, None, stop, &mut |_| ()).map(|(judged, _)| judged)
 }
 
-/// As [`judge`], from a flight of the sheet on if there is one, with the sheet as it ended if that draped.
+/// As [`judge`], from a flight of the sheet on if there is one, with the sheet as it ended if that draped; `see` is shown the ply of each step.
 pub(super) fn judge_seen(
     layup: &Layup,
     limits: &Limits,
     most_equilibria: usize,
     flight: Option<&Flight>,
     stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&PlyState),
 ) -> Result<(Judged, Option<sheet::SheetDrape>), Error> {
     if layup.settings.model == Model::Sheet {
-        let go_on = &mut |_: Seen| ControlFlow::Continue(());
+        let go_on = &mut |seen: Seen| {
+            see(seen.ply);
+            ControlFlow::Continue(())
+        };
         let (judged, drape) = judge_sheet(layup, limits, flight, stop, go_on)?;
         return Ok((judged, Some(drape)));
     }
@@ -240,6 +247,7 @@ pub(super) fn judge_seen(
     let follow = Follow { most_equilibria, full: false };
     let followed = draping::follow(layup, follow, |state, _, last| {
         judge.see(state, last);
+        see(state);
         stopped = stop();
         if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
@@ -260,6 +268,8 @@ pub(super) struct Seen<'a> {
     pub sheet: &'a sheet::Sheet,
     /// The ply in the step.
     pub state: &'a sheet::ClothState,
+    /// The same as measures see it.
+    pub ply: &'a PlyState,
     /// The judge that has seen it.
     pub judge: &'a Judge<'a>,
     /// What has handed it over.
@@ -291,8 +301,9 @@ pub(super) fn judge_sheet(
     let mut ended = false;
     let drape = sheet::drape_from(carried, tuning, beginning, stop, |sheet, state, last| {
         ended = last;
-        judge.see(&hand_over.state(carried, sheet, state, last), last);
-        see(Seen { sheet, state, judge: &judge, hand_over: &hand_over })
+        let ply = &hand_over.state(carried, sheet, state, last);
+        judge.see(ply, last);
+        see(Seen { sheet, state, ply, judge: &judge, hand_over: &hand_over })
     })?;
     if drape.status == sheet::Status::NotInTheAir {
         return judge_sheet(layup, limits, None, stop, see);

@@ -88,7 +88,7 @@ impl Flight {
         limits: &Limits,
         stop: &dyn Fn() -> bool,
     ) -> Result<Judged, Error> {
-        judge_seen(cell, limits, usize::MAX, flight, stop).map(|(judged, _)| judged)
+        judge_seen(cell, limits, usize::MAX, flight, stop, &mut |_| ()).map(|(judged, _)| judged)
     }
 
     /// The judge of a cell that goes on from here, and what hands over its ply.
@@ -105,7 +105,7 @@ impl<'a> Lookout<'a> {
 
     /// Looks at a step.
     pub fn see(&mut self, seen: &Seen) {
-        let Seen { sheet, state, judge, hand_over } = *seen;
+        let Seen { sheet, state, judge, hand_over, .. } = *seen;
         let margin = CLEAR * sheet::pitch(&self.layup.ply);
         self.is_over |= !state.heights.iter().all(|height| *height > margin);
         // errors have come up wholly, and the table is left, where a lift is over; the first step saves nothing

@@ -34,6 +34,7 @@ mod summary_tests;
 mod tolerance;
 #[cfg(test)]
 mod tolerance_tests;
+mod turning;
 
 pub(crate) use check::check_catenaries;
 pub use check::check_model;
@@ -43,6 +44,7 @@ pub use flight::Flight;
 pub use forecast::{Effort, Forecast, Pace};
 pub use rate_tolerance::RateTolerance;
 pub use robustness::Robustness;
+pub(crate) use sample::Timeless;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Watch};
 pub use sensitivity::minute_changes;
 pub use step::{Gripper, Step, attitudes};
@@ -50,6 +52,7 @@ pub use step::{Gripper, Step, attitudes};
 pub use summary::Unjudged;
 pub use summary::{CatenaryReport, Status, Summary};
 pub use tolerance::Tolerance;
+pub(crate) use turning::Turns;
 
 use crate::Error;
 use crate::layup::Model;

@@ -4,12 +4,13 @@
 //! The drape itself has been judged before. A sample that keeps too few of its cells refuses it; what it tolerates is said
 //! for information. Both are drapes along the motion that was draped, by the model that decides.
 
+use super::sample::Timeless;
 use super::{Effort, Forecast, RateTolerance, Status, Summary, Tolerance, Watch};
 use crate::errors::Errors;
 use crate::layup::Stepping;
 use crate::measure::{Scope, Verdict};
 use crate::motion::Motion;
-use crate::scene::{Scene, World};
+use crate::scene::Scene;
 
 /// With which errors a finished drape is judged.
 #[derive(Debug, Clone)]
@@ -60,12 +61,12 @@ impl Robustness {
         let Some(errors) = self.sample.as_ref().filter(|_| summary.sample.is_none()) else {
             return true;
         };
-        summary.sample = errors.judge(&self.scene, watch);
-        match summary.sample {
-            Some(_) => summary.world = World::Errors,
-            None => summary.status = Status::Interrupted,
-        }
-        summary.sample.is_some()
+        summary.judge_sample(errors.judge(&self.scene, watch))
+    }
+
+    /// The sample of a motion that may take another time; `None` if it was stopped, and of a scene without errors.
+    pub(crate) fn timeless(&self, watch: &Watch) -> Option<Timeless> {
+        self.sample.as_ref()?.judge_timeless(&self.scene, watch)
     }
 
     /// Finds what the motion tolerates: nothing if it is not accepted without errors; and how fast a ply with resin may be draped along it.

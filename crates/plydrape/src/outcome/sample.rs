@@ -3,11 +3,13 @@
 use super::Judged;
 use super::drape::judge_seen;
 use super::flight::Flight;
+use super::turning::{Turning, Turns};
 use crate::errors::{Draw, Errors};
-use crate::measure::Verdict;
+use crate::layup::Layup;
+use crate::measure::{Limits, Verdict};
 use crate::ply::Neighbors;
 use crate::scene::Scene;
-use crate::state::Site;
+use crate::state::{PlyState, Site};
 use rayon::prelude::*;
 use statrs::distribution::{Binomial, DiscreteCDF};
 use std::collections::BTreeMap;
@@ -91,9 +93,21 @@ struct Row {
     waiting: BTreeMap<usize, CellDrape>,
 }
 
+/// A sample of cells that are not judged by their tilt rates, because their motion may take another time.
+#[derive(Debug)]
+pub(crate) struct Timeless {
+    verdict: SampleVerdict,
+    /// The cells of the verdict.
+    drapes: Vec<CellDrape>,
+}
+
 /// One drape of a sample.
+#[derive(Debug)]
 pub(super) struct CellDrape {
+    /// Its limits, but that of the tilt rate if it is not judged by that.
     pub judged: Judged,
+    /// How its grippers turn.
+    turning: Turning,
     /// Height of each node at the end (m); beyond the boundary of the mold 0. Empty of catenaries.
     heights: Vec<f64>,
     places: Vec<[f64; 2]>,
@@ -132,11 +146,27 @@ impl Errors {
         Binomial::new(chance, cells as u64).map_or(0.0, |law| law.sf(count as u64))
     }
 
-    /// The verdict over the sample of a scene along its motion; `None` if it was stopped.
+    /// The verdict over the sample of a scene along its motion, in its time; `None` if it was stopped.
     ///
     /// Cells are begun in their order, one a core, and none any more once those before it decide.
     #[must_use]
     pub fn judge(&self, scene: &Scene, watch: &Watch) -> Option<SampleVerdict> {
+        let in_time = |drape: &mut CellDrape| drape.judge_turning(&scene.layup, &scene.limits);
+        self.judge_cells(scene, watch, in_time).map(|sample| sample.verdict)
+    }
+
+    /// As [`Errors::judge`], without the tilt rate.
+    pub(super) fn judge_timeless(&self, scene: &Scene, watch: &Watch) -> Option<Timeless> {
+        self.judge_cells(scene, watch, |_| ())
+    }
+
+    /// As [`Errors::judge`]; `also` judges each drape further.
+    fn judge_cells(
+        &self,
+        scene: &Scene,
+        watch: &Watch,
+        also: impl Fn(&mut CellDrape) + Sync,
+    ) -> Option<Timeless> {
         let (row, verdict) = (Mutex::new(Row::default()), OnceLock::new());
         let done = AtomicUsize::new(0);
         let open = || verdict.get().is_none();
@@ -144,9 +174,9 @@ impl Errors {
         // cells end in any order, but count in theirs, so that the verdict does not depend on the number of threads
         let drape = |sample: usize| {
             let stop = || !open() || (watch.stop)();
-            let Some(drape) = draped(&self.cell(scene, sample, 1.0), flight.as_ref(), &stop) else {
-                return;
-            };
+            let cell = self.cell(scene, sample, 1.0);
+            let Some(mut drape) = draped(&cell, flight.as_ref(), &stop) else { return };
+            also(&mut drape);
             (watch.done)(done.fetch_add(1, Ordering::Relaxed) + 1, self.samples);
             let row = &mut *row.lock().unwrap_or_else(PoisonError::into_inner);
             row.waiting.insert(sample, drape);
@@ -168,7 +198,7 @@ impl Errors {
         let Row { drapes, kept, .. } = row.into_inner().unwrap_or_else(PoisonError::into_inner);
         let rank = self.needed(drapes.len());
         let spread = spread(&drapes, rank);
-        Some(SampleVerdict {
+        let verdict = SampleVerdict {
             errors: *self,
             needed: self.needed(self.samples),
             ok,
@@ -177,7 +207,8 @@ impl Errors {
             cells: drapes.iter().map(cell_verdict).collect(),
             highest: highest(scene, &drapes[0].places, &spread),
             spread_mm: spread.iter().map(|height| in_digits(height * 1e3)).collect(),
-        })
+        };
+        Some(Timeless { verdict, drapes })
     }
 
     /// The scene of a cell with all errors larger by a factor.
@@ -204,6 +235,54 @@ impl SampleVerdict {
     }
 }
 
+impl Timeless {
+    /// The verdict without the tilt rate.
+    pub fn verdict(self) -> SampleVerdict {
+        self.verdict
+    }
+
+    /// Whether the share of the cells keeps all other limits.
+    pub fn ok(&self) -> bool {
+        self.verdict.ok
+    }
+
+    /// The cells that keep all other limits.
+    fn accepted(&self) -> impl Iterator<Item = &CellDrape> {
+        self.drapes.iter().filter(|drape| drape.judged.accepted())
+    }
+
+    /// How far their grippers turn from step to step.
+    pub fn turns(&self) -> Turns {
+        Turns::most(self.accepted().map(|drape| &drape.turning))
+    }
+
+    /// The largest tilt rate of those cells as a share of its limit, along the motion of a layup in its time; at most 1 if all keep it.
+    pub fn fastest(&self, layup: &Layup, limits: &Limits) -> f64 {
+        let rates = self.accepted().filter_map(|drape| drape.turning.judge(layup, limits));
+        rates
+            .map(|rate| if rate.ok { rate.ratio().min(1.0) } else { rate.ratio() })
+            .fold(0.0, f64::max)
+    }
+
+    /// The verdict with the tilt rate along the motion of a layup, in a time in which those cells keep that limit.
+    pub fn in_time(self, layup: &Layup, limits_of: &Limits) -> SampleVerdict {
+        let Timeless { verdict, mut drapes } = self;
+        drapes.iter_mut().for_each(|drape| drape.judge_turning(layup, limits_of));
+        SampleVerdict {
+            limits: limits(&drapes, verdict.errors.needed(drapes.len())),
+            cells: drapes.iter().map(cell_verdict).collect(),
+            ..verdict
+        }
+    }
+}
+
+impl CellDrape {
+    /// Judges it by its tilt rate too, along the motion of a layup in its time.
+    fn judge_turning(&mut self, layup: &Layup, limits: &Limits) {
+        self.judged.limits.extend(self.turning.judge(layup, limits));
+    }
+}
+
 /// A drape by the model that decides, from a flight on if there is one; `None` if it was stopped.
 pub(super) fn draped(
     scene: &Scene,
@@ -214,10 +293,13 @@ pub(super) fn draped(
         return None;
     }
     let Scene { layup, limits, .. } = scene;
-    let Ok(found) = judge_seen(layup, limits, usize::MAX, flight, &|| stop()) else {
+    let mut turning = Turning::default();
+    let see = &mut |ply: &PlyState| turning.see(ply);
+    let Ok(found) = judge_seen(layup, limits, usize::MAX, flight, &|| stop(), see) else {
         // the errors have left no sheet that could be draped
         return Some(CellDrape {
             judged: Judged::nothing(),
+            turning,
             heights: Vec::new(),
             places: Vec::new(),
         });
@@ -227,7 +309,7 @@ pub(super) fn draped(
         return None;
     }
     let Some(drape) = sheet else {
-        return Some(CellDrape { judged, heights: Vec::new(), places: Vec::new() });
+        return Some(CellDrape { judged, turning, heights: Vec::new(), places: Vec::new() });
     };
     let lies_on = |node: usize| {
         let mold = drape.sheet.mold.as_ref();
@@ -237,6 +319,7 @@ pub(super) fn draped(
     let heights = heights.map(|(n, height)| if lies_on(n) { height.max(0.0) } else { 0.0 });
     Some(CellDrape {
         judged,
+        turning,
         heights: heights.collect(),
         places: drape.sheet.fabric.places.clone(),
     })

@@ -3,9 +3,11 @@
 use super::*;
 use crate::errors::tests::layup;
 use crate::errors::{Draw, Errors, Term};
+use crate::geometry::rotation::oriented;
 use crate::layup::{Layup, Target};
 use crate::measure::{Limits, Name, Verdict};
 use crate::mold::{Mold, Plane};
+use crate::outcome::turning::{Turning, Turns};
 use crate::scene::Scene;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -224,11 +226,66 @@ fn without_errors_every_cell_is_the_plain_drape() {
         assert_eq!(judged.accepted(), accepted == 3, "{:?}", judged.limits);
         assert_eq!((sample.accepted(), sample.ok), (accepted, accepted == 3));
         assert_eq!(sample.cells.len(), accepted.max(1));
-        assert_eq!(sample.limits, judged.limits);
+        let timeless = sample.limits.iter().filter(|limit| limit.name != Name::TiltRate);
+        assert!(timeless.eq(&judged.limits), "{:?}", sample.limits);
         let ratio = judged.limits.iter().map(Verdict::ratio).fold(0.0, f64::max);
         assert!(sample.cells.iter().all(|cell| cell.ratio == ratio && cell.height_mm.is_none()));
         assert!(sample.highest.is_none() && sample.spread_mm.is_empty());
     }
+}
+
+/// The limit of the tilt rate leaves a motion nothing without errors, so cells with errors refuse it in its time. A sample without that limit
+/// says how much slower it must be: then no cell refuses it, with the verdict that is given, and a motion that is hardly quicker is refused.
+#[test]
+fn a_motion_is_as_slow_as_the_cell_that_turns_fastest_asks() {
+    let errors = of_grippers(8, 1e-3);
+    let mut scene = lines();
+    let turning = |sample: &SampleVerdict| {
+        let found = sample.limits.iter().find(|limit| limit.name == Name::TiltRate);
+        found.expect("grippers tilt").value
+    };
+    let plain = Errors { samples: 8, ..Errors::default() }.judge(&scene, &NEVER).unwrap();
+    scene.limits.set(Name::TiltRate, Some(turning(&plain).to_radians()));
+    assert!(!errors.judge(&scene, &NEVER).unwrap().ok);
+
+    let timeless = errors.judge_timeless(&scene, &NEVER).unwrap();
+    let slower = timeless.fastest(&scene.layup, &scene.limits);
+    assert!(timeless.ok() && slower > 1.01, "{slower}");
+    let slowed = |slower: f64| {
+        let mut scene = scene.clone();
+        scene.layup.motion.times.iter_mut().for_each(|time| *time *= slower);
+        scene
+    };
+    let in_time = slowed(slower);
+    assert_eq!(timeless.fastest(&in_time.layup, &in_time.limits), 1.0);
+    let again = errors.judge(&in_time, &NEVER).unwrap();
+    assert_eq!(again.accepted(), 8);
+    assert_eq!(timeless.in_time(&in_time.layup, &in_time.limits), again);
+    assert!(errors.judge(&slowed(0.998 * slower), &NEVER).unwrap().accepted() < 8);
+}
+
+/// Of two drapes that turn in different steps, the most of both is known; a step that one of them has not seen counts by the other.
+#[test]
+fn the_most_of_some_drapes_is_the_most_of_each_step() {
+    let scene = lines();
+    let state = |step: usize, tilt: f64| {
+        let mut state = crate::measure::sample::state(&scene.layup);
+        let (s, c) = tilt.sin_cos();
+        state.step = step;
+        state.grippers[1].quaternion = oriented([s, 0.0, c], [c, 0.0, -s]);
+        state
+    };
+    let drape = |tilts: &[(usize, f64)]| {
+        let mut turning = Turning::default();
+        tilts.iter().for_each(|(step, tilt)| turning.see(&state(*step, *tilt)));
+        turning
+    };
+    let drapes = [drape(&[(1, 0.0), (2, 0.1), (3, 0.12)]), drape(&[(2, 0.0), (3, 0.3), (4, 0.2)])];
+    let turns = Turns::most(&drapes);
+    for (step, turn) in [(1, 0.1), (2, 0.3), (3, 0.1), (4, 0.0)] {
+        assert!((turns.of(step, 1) - turn).abs() < 1e-12, "{step}: {turns:?}");
+    }
+    assert!((1..4).all(|step| turns.of(step, 0).abs() < 1e-12 && turns.of(step, 99) == 0.0));
 }
 
 /// The value of a limit is kept by the share of the cells that were draped, here seven, and no better one is.
@@ -239,8 +296,9 @@ fn the_value_of_a_limit_is_kept_by_the_share() {
     let (grippers, rank) = (scene.layup.ply.grippers(), errors.needed(sample.cells.len()));
     let cells: Vec<Judged> =
         (0..sample.cells.len()).map(|n| plain(&cell(&scene, errors.draw(n, grippers)))).collect();
-    assert!(!sample.limits.is_empty());
-    for limit in &sample.limits {
+    let timeless = sample.limits.iter().filter(|limit| limit.name != Name::TiltRate);
+    assert!(timeless.clone().count() > 0);
+    for limit in timeless {
         let ratio = |cell: &Judged| {
             let verdict = cell.limits.iter().find(|verdict| verdict.name == limit.name);
             verdict.map_or(f64::INFINITY, Verdict::ratio)

@@ -187,6 +187,16 @@ impl Summary {
         }
     }
 
+    /// Judges the drape by a sample of cells too; without one it was broken off, and is not accepted. Returns whether there is one.
+    pub(crate) fn judge_sample(&mut self, sample: Option<SampleVerdict>) -> bool {
+        match sample {
+            Some(_) => self.world = World::Errors,
+            None => self.status = Status::Interrupted,
+        }
+        self.sample = sample;
+        self.sample.is_some()
+    }
+
     /// Judges the motion of a layup in time by its steps, as it was given.
     pub fn judge_motion(&mut self, layup: &Layup, limits: &Limits) {
         let last_free = self.last_free(layup.motion.times.len());

@@ -94,6 +94,14 @@ impl Cycle {
         drape.retime(&layup, &scene.limits, |_, time| begins + time, event);
     }
 
+    /// Takes a drape from there back into the time of the motion of the drape alone.
+    pub(super) fn undelay(&self, scene: &Scene, drape: &mut Drape, motion: &TimedMotion) {
+        let layup = super::evaluation::along_motion(&scene.layup, motion.steps());
+        let begins = self.begins();
+        let event = |time: f64| (time - begins).max(0.0);
+        drape.retime(&layup, &scene.limits, |_, time| time - begins, event);
+    }
+
     /// The time of an event of the cycle in the motion of the drape alone (s).
     pub(super) fn before_delay(&self, event: &Event) -> f64 {
         match event.kind {

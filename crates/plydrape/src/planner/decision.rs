@@ -9,15 +9,17 @@ use super::path::Strategy;
 use super::quickest::quickest;
 use super::record::LimitedBy;
 use super::search_state::{Proof, SearchState};
+use super::tuning::TUNING;
 use crate::Error;
 use crate::errors::Errors;
 use crate::geometry::Point;
 use crate::layup::{Layup, Model, Release, SheetTime};
-use crate::measure::{Course, MotionPeaks, Name, Verdict, WholeMotion};
+use crate::measure::{Course, MotionPeaks, Name, Scope, Verdict, WholeMotion};
 use crate::motion::{Attitudes, Motion, TimedMotion};
 use crate::outcome::forecast::{self, CONSTANTS};
 use crate::outcome::{
-    self, Drape, Effort, Flight, Forecast, Judged, RateTolerance, Robustness, SampleVerdict, Watch,
+    self, Drape, Effort, Flight, Forecast, Judged, RateTolerance, Robustness, SampleVerdict,
+    Timeless, Watch,
 };
 use crate::scene::Scene;
 use crate::sheet;
@@ -141,13 +143,20 @@ impl Decision {
         }
         // half a drape has no least time, and who broke it off waits; a motion that resin slows is as quick as it may be
         if !self.decided.drape.summary.interrupted() && self.slowed == 1.0 {
-            let found = quickest(scene, &self.motion, &self.decided.drape);
+            let found = quickest(scene, &self.motion, &self.decided.drape, None);
             if found.motion != self.motion {
                 self.retime(scene, found.motion, state, counted)?;
                 self.slow_down(scene, state, counted)?;
             }
             limited_by = found.limited_by;
         }
+        self.judge_whole(scene, own_limits)?;
+        self.limited_by = Some(limited_by);
+        Ok(())
+    }
+
+    /// Judges the motion as a whole, with all that grippers do before it and after it, and with limits of its planner.
+    fn judge_whole(&mut self, scene: &Scene, own_limits: Vec<Verdict>) -> Result<(), Error> {
         self.cycle = Cycle::around(scene, &self.motion)?;
         let whole = self.whole_motion()?;
         if let Some(cycle) = &self.cycle {
@@ -175,6 +184,8 @@ impl Decision {
         if let Some(tool) = &mut summary.tool {
             tool.arm = peaks.and_then(|peaks| peaks.arm_record);
         }
+        // those of a motion in another time do not count
+        summary.limits.retain(|verdict| verdict.name.measure().scope() != Scope::Motion);
         summary.judge_also(infeasible_limits(scene));
         summary.judge_also(own_limits);
         summary.judge_also(whole.verdicts());
@@ -187,22 +198,21 @@ impl Decision {
             decided.judged.limits.extend(broken);
             decided.score = evaluation::score(&decided.judged);
         }
-        self.limited_by = Some(limited_by);
         Ok(())
     }
 
     /// Judges a finished plan by the sample of its scene, unless that was done; `None` if somebody ended that, and of a scene without
-    /// errors.
+    /// errors. The motion takes more time where grippers turn too fast in cells that keep all other limits.
     ///
     /// # Errors
-    /// As [`Decision::whole_motion`].
+    /// As [`Decision::on`].
     pub fn sample(
         &mut self,
         scene: &Scene,
         state: &SearchState,
     ) -> Result<Option<&SampleVerdict>, Error> {
         let robustness = Robustness::of_planned(scene, self.whole_motion()?.steps());
-        let Drape { summary, sheet, .. } = &mut self.decided.drape;
+        let Drape { summary, sheet, .. } = &self.decided.drape;
         if let (None, false, Some(errors)) =
             (&summary.sample, summary.interrupted(), robustness.sampled())
         {
@@ -212,13 +222,76 @@ impl Decision {
             state.set_sample(effort.map(|effort| robustness.forecast(effort)), samples);
             let stop = || state.report().is_break();
             let done = |done: usize, of: usize| state.set_step(done, of);
-            state.while_finishing(|| {
-                robustness.judge_sample(summary, &Watch { stop: &stop, done: &done })
-            });
+            let watch = Watch { stop: &stop, done: &done };
+            match state.while_finishing(|| robustness.timeless(&watch)) {
+                Some(sample) => self.judge_in_time(scene, sample, state, &watch)?,
+                None => {
+                    self.decided.drape.summary.judge_sample(None);
+                }
+            }
             state.set_forecast(None);
             state.begin(before);
         }
-        Ok(summary.sample.as_ref())
+        Ok(self.decided.drape.summary.sample.as_ref())
+    }
+
+    /// Judges a finished plan by a sample without the tilt rates of its cells, in a time in which those that keep all other limits keep that one
+    /// too.
+    fn judge_in_time(
+        &mut self,
+        scene: &Scene,
+        sample: Timeless,
+        state: &SearchState,
+        watch: &Watch,
+    ) -> Result<(), Error> {
+        if !sample.ok() {
+            self.decided.drape.summary.judge_sample(Some(sample.verdict()));
+            return Ok(());
+        }
+        let in_its_time = |decision: &Self| -> Result<Layup, Error> {
+            Ok(evaluation::along_motion(&scene.layup, decision.whole_motion()?.steps()))
+        };
+        let mut fastest = sample.fastest(&in_its_time(self)?, &scene.limits);
+        // the least time in which no step is too short; a rate over more than a step, or between samples, may still ask for a little more
+        let mut turns = Some(sample.turns());
+        while fastest > 1.0 && fastest.is_finite() {
+            if let Some(cycle) = self.cycle.take() {
+                cycle.undelay(scene, &mut self.decided.drape, &self.motion);
+            }
+            let slower = TUNING.sampled_margin * fastest;
+            let motion = match turns.take() {
+                Some(turns) if self.slowed == 1.0 => {
+                    let cells = Some((&turns, slower));
+                    let found = quickest(scene, &self.motion, &self.decided.drape, cells);
+                    self.limited_by = Some(found.limited_by);
+                    found.motion
+                }
+                _ => self.motion.slowed(slower),
+            };
+            self.retime(scene, motion, state, true)?;
+            self.judge_whole(scene, Vec::new())?;
+            fastest = sample.fastest(&in_its_time(self)?, &scene.limits);
+        }
+        let layup = in_its_time(self)?;
+        let summary = &mut self.decided.drape.summary;
+        if summary.interrupted() {
+            return Ok(());
+        }
+        if Self::depends_on_time(scene) && turns.is_none() {
+            // the ply was draped anew, and so are its cells
+            summary.judge_rest(&scene.layup, &scene.limits);
+            let along = Robustness::of_planned(scene, layup.motion);
+            state.while_finishing(|| along.judge_sample(summary, watch));
+        } else {
+            summary.judge_sample(Some(sample.in_time(&layup, &scene.limits)));
+        }
+        Ok(())
+    }
+
+    /// Whether the shapes of the ply depend on the time of the motion.
+    fn depends_on_time(scene: &Scene) -> bool {
+        let dwells = scene.layup.release.as_ref().is_some_and(Release::dwells_on_the_way);
+        scene.layup.settings.sheet.time == SheetTime::Real || dwells
     }
 
     /// The motion with all that grippers do before it and after it.
@@ -284,8 +357,7 @@ impl Decision {
         counted: bool,
     ) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.motion, motion);
-        let dwells = scene.layup.release.as_ref().is_some_and(Release::dwells_on_the_way);
-        if scene.layup.settings.sheet.time == SheetTime::Real || dwells {
+        if Self::depends_on_time(scene) {
             // strategies that are compared decide at once: one forecast would not be that of all
             if state.is_finishing() {
                 let before = self.decided.drape.sheet.as_ref();

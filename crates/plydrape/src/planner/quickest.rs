@@ -2,11 +2,11 @@
 
 use super::record::LimitedBy;
 use super::tuning::TUNING;
-use crate::geometry::rotation::normal;
-use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::geometry::vector::sub;
 use crate::measure::Name;
+use crate::measure::tilt_rate::turn;
 use crate::motion::{Limiting, Moving, Quickening, TimedMotion};
-use crate::outcome::{Drape, Step};
+use crate::outcome::{Drape, Step, Turns};
 use crate::scene::Scene;
 use crate::tool::Tool;
 
@@ -25,13 +25,20 @@ struct Limited {
     gripper: Option<usize>,
 }
 
-/// The quickest motion along the path of a motion, with the drape along that.
-pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Quickest {
+/// The quickest motion along the path of a motion, with the drape along that. `cells` are how far grippers turn in cells with errors, and how many
+/// times slower the motion must be for these as a whole.
+pub(super) fn quickest(
+    scene: &Scene,
+    motion: &TimedMotion,
+    drape: &Drape,
+    cells: Option<(&Turns, f64)>,
+) -> Quickest {
     // first so slow as a whole that all limits are kept
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
     let turned = TUNING.sampled_margin * fastest / scene.limits.most(Name::TiltRate).to_degrees();
     let carried = tool_stretch(scene, motion);
-    let slowed = turned.max(carried).max(1.0);
+    let (turns, in_cells) = cells.unzip();
+    let slowed = turned.max(carried).max(in_cells.unwrap_or(1.0)).max(1.0);
     let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
     let Some(mut course) = Quickening::new(&motion) else {
         return Quickest { motion, limited_by: Vec::new() };
@@ -48,7 +55,7 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
         let names = [Name::Speed, Name::Acceleration, Name::Jerk];
         limited.push(Limited { moving, names, gripper: Some(gripper) });
     }
-    limited.extend(tilting(scene, &course, &drape.steps, slowed));
+    limited.extend(tilting(scene, &course, &drape.steps, turns, slowed));
     if let Some(tool) = &scene.layup.tool {
         limited.extend(carrying(tool, &motion, &course));
     }
@@ -73,21 +80,29 @@ pub(super) fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
     })
 }
 
-/// How far the normal of a gripper turns from one step to the next (rad).
-fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
-    let [a, b] = [from, to].map(|step| normal(step.grippers[gripper].quaternion));
-    norm(cross(a, b)).atan2(dot(a, b))
+/// How far the normal of a gripper turns from one step to the next (rad), in the drape or in cells with errors.
+fn turn_of([from, to]: [&Step; 2], gripper: usize, cells: Option<&Turns>) -> f64 {
+    let [a, b] = [from, to].map(|step| step.grippers[gripper].quaternion);
+    turn(a, b).max(cells.map_or(0.0, |turns| turns.of(from.step, gripper)))
 }
 
-/// The tilts of the grippers, which turn evenly from step to step of a motion that is this much slower than these steps say.
-fn tilting(scene: &Scene, course: &Quickening, steps: &[Step], slowed: f64) -> Vec<Limited> {
+/// The tilts of the grippers, which turn evenly from step to step of a motion that is this much slower than these steps say, and as fast as the
+/// fastest of some cells with errors.
+fn tilting(
+    scene: &Scene,
+    course: &Quickening,
+    steps: &[Step],
+    cells: Option<&Turns>,
+    slowed: f64,
+) -> Vec<Limited> {
     let bound = scene.limits.most(Name::TiltRate) / TUNING.sampled_margin;
     let tilts_of = |gripper: usize| {
         let rates = course.times().iter().map(|t| {
             let after = steps.partition_point(|step| step.time * slowed <= *t);
             let pair = after.checked_sub(1).and_then(|before| steps.get(before..=after));
             let rate = pair.map_or(0.0, |pair| {
-                turn(&pair[0], &pair[1], gripper) / (slowed * (pair[1].time - pair[0].time))
+                let turn = turn_of([&pair[0], &pair[1]], gripper, cells);
+                turn / (slowed * (pair[1].time - pair[0].time))
             });
             [[rate, 0.0, 0.0], [0.0; 3], [0.0; 3]]
         });
