@@ -268,7 +268,7 @@ pub(super) struct Seen<'a> {
     pub sheet: &'a sheet::Sheet,
     /// The ply in the step.
     pub state: &'a sheet::ClothState,
-    /// The same as measures see it.
+    /// That ply as measures see it.
     pub ply: &'a PlyState,
     /// The judge that has seen it.
     pub judge: &'a Judge<'a>,
