@@ -32,6 +32,7 @@ mod programs;
 mod reach;
 mod release;
 mod results;
+mod sampled;
 mod scaled;
 mod scenes;
 mod sheet_examples;
