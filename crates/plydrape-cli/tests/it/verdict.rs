@@ -114,16 +114,18 @@ fn the_other_model_changes_neither_verdict_nor_exit_code() {
     assert!(!home.path().join("none").exists());
 }
 
-/// The dome, simulated and planned: at most forty lines of a hundred letters, with room for the one that says which errors a plan tolerates, and
-/// no limit that fails where the verdict accepts. All the rest is there on request.
+/// The dome, simulated in a usual cell and planned in an ideal one: at most forty lines of a hundred letters, and no limit that fails where
+/// the verdict accepts. All the rest is there on request.
 #[test]
 fn the_dome_fits_a_screen() {
     let home = tempfile::tempdir().unwrap();
-    let dome = example("04_dome");
-    for (what, flags, accepted) in
-        [("simulate", &[][..], false), ("plan", &["--without-errors"], true)]
-    {
-        let output = run(what, &dome, &home.path().join(what), flags);
+    let [usual, ideal] = ["04_dome", "ideal_dome"].map(example);
+    for (what, scene, flags, title) in [
+        ("simulate", &usual, &[][..], "Dome: 4 × 4 grippers, "),
+        ("plan", &ideal, &["--without-errors"], "Dome in an ideal cell: 4 × 4 grippers, "),
+    ] {
+        let accepted = what == "plan";
+        let output = run(what, scene, &home.path().join(what), flags);
         let shown = text(&output.stdout);
         assert_eq!(said(&shown), (accepted, "sheet"), "{shown}");
         assert_eq!(shown.contains("FAIL"), !accepted, "{shown}");
@@ -132,9 +134,9 @@ fn the_dome_fits_a_screen() {
         let widest = shown.lines().filter(|line| !line.starts_with("wrote "));
         assert!(widest.map(|line| line.chars().count()).max() <= Some(100), "{shown}");
         assert!(!shown.contains('\x1b'), "colors without a terminal: {shown}");
-        assert!(shown.starts_with("Dome: 4 × 4 grippers, "), "{shown}");
+        assert!(shown.starts_with(title), "{shown}");
     }
-    let output = run("simulate", &dome, &home.path().join("all"), &["--verbose"]);
+    let output = run("simulate", &ideal, &home.path().join("all"), &["--verbose"]);
     let shown = text(&output.stdout);
     assert!(shown.lines().count() > 60 && said(&shown) == (false, "sheet"), "{shown}");
     for step in 1..=30 {

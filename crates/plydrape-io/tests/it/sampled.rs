@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 const DOME: &str = "[cell]\npreset = \"usual\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"prepreg_warm\"\n\
     [mold]\nkind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"-0.8 m\"]\n\
     [grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"60 mm\"\norigin = \"centered\"\n[target]\nseed = \"middle\"\n\
-    [limits]\ntilt_rate = \"30 deg/s\"\n";
+    [limits]\ntilt_rate = \"30 deg/s\"\n[errors]\nsamples = 20\n";
 
 /// The same, picked up from a table beside it.
 fn beside() -> String {
