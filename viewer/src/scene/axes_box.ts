@@ -109,6 +109,12 @@ export class AxesBox {
         const [x, y] = eye.project(point.setComponent(axis, value));
         const reach = away + Math.abs(out[0]) * 0.5 * widthOf(text) + Math.abs(out[1]) * 7;
         const label = { text, x: x + reach * out[0], y: y + reach * out[1], name };
+        // Left of the numbers there may be no room for the name of z: then it stands above them.
+        const half = 0.5 * widthOf(text);
+        if (name && axis === 2 && label.x < half) {
+          const [left, top] = eye.project(point.setComponent(axis, this.high[axis]));
+          [label.x, label.y] = [Math.max(left, half), top - 20];
+        }
         if (!labels.some((other) => overlap(label, other))) labels.push(label);
       };
       const beyond = 16 + Math.abs(out[0]) * widest + Math.abs(out[1]) * 12;

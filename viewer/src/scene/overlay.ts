@@ -42,8 +42,6 @@ const NARROW = 560;
 const SHEET = 512;
 /** Half the height of a line of text with its halo (CSS pixels). */
 const TALL = 11;
-/** A label at the edge of the picture is moved in by this much at most (CSS pixels). */
-const CUT = 24;
 /** Radius of a ring with its line (CSS pixels). */
 const RING = 16;
 
@@ -249,8 +247,8 @@ export class Overlay {
     const half = this.widthOf(text, font) / 2 + 4;
     const inside = Math.min(Math.max(x, half), width - half);
     return {
-      // Moved in if it is cut off by a little; one that is far outside stays there.
-      at: [Math.abs(inside - x) < CUT ? inside : x, y],
+      // Moved in if a part of it is cut off; one that is outside stays there.
+      at: [Math.abs(inside - x) < 2 * half ? inside : x, y],
       box: { left: -Math.ceil(half), top: -TALL, width: 2 * Math.ceil(half), height: 2 * TALL },
       look: `${font} ${text}`,
       paint: (pen) => {
