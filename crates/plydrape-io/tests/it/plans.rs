@@ -253,9 +253,9 @@ fn the_flat_mold_is_draped_from_two_heights() {
 #[test]
 #[ignore = "long; the shallow mold and the saddle stand for others; scripts/soak runs it"]
 fn a_dome_and_one_of_a_tenth_are_draped() {
-    let example = Example::new("04_dome");
-    example_is_draped(&example, POSITION[0]);
-    let small = scaled(&example.scene(), 0.1);
+    example_is_draped(&Example::new("04_dome"), POSITION[0]);
+    // lips of cups keep their size
+    let small = scaled(&Example::new("ideal_dome").scene(), 0.1);
     is_draped(&small, 0.1, None, POSITION[0], "the dome of a tenth");
 }
 
@@ -434,7 +434,9 @@ fn a_search_ranks_a_ply_that_no_coarse_sheet_holds() {
 #[test]
 #[ignore = "long; two plans stand for it; scripts/soak runs it"]
 fn no_accepted_plan_depends_on_its_numerics() {
-    for name in ["04_dome", "05_cylinder", "06_saddle", "08_stl_mold"] {
+    // 2026-12-01: both domes fail. Of example 04 0.30 mm are left, with steps half-way 0.35; of the ideal dome 0.30, with a tenth of the
+    // tolerances 0.18
+    for name in ["05_cylinder", "06_saddle", "08_stl_mold", "04_dome", "ideal_dome"] {
         check_numerics(name);
     }
 }
